@@ -20,6 +20,7 @@ NAMES = (
     "firmware",
     "start",
     "paths",
+    "runs",
 )
 
 

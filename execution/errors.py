@@ -87,13 +87,6 @@ class TooManyWaiting(ExecutionError):
     status = 429
 
 
-class StepConflict(ExecutionError):
-    """Somebody else has advanced the same row; nothing was written, the step is done anew."""
-
-    code = "step_conflict"
-    status = 409
-
-
 class NoWay(ExecutionError):
     """No robot can drive there."""
 

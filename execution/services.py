@@ -6,6 +6,14 @@ from execution.commands.claim import OutgoingCommand, claim_commands, mark_comma
 from execution.commands.invocations import action_to_json, find_action, invoke_action
 from execution.commands.manual_calls import call_method, cancel_call, expire_calls, get_call
 from execution.commands.outbox import record_ack, resend_commands
+from execution.engine.dead_letters import (
+    DeadLetterView,
+    drop_dead_letter,
+    list_dead_letters,
+    retry_dead_letter,
+    site_of_dead_letter,
+)
+from execution.engine.drive import leave
 from execution.errors import (
     AlreadyAnswered,
     AnswerNotFitting,
@@ -55,6 +63,7 @@ __all__ = [
     "BadArguments",
     "BadTerms",
     "CallView",
+    "DeadLetterView",
     "ExecutionError",
     "NotFound",
     "NotPossibleNow",
@@ -80,6 +89,7 @@ __all__ = [
     "change_map",
     "claim_commands",
     "disarm_program",
+    "drop_dead_letter",
     "expire_calls",
     "find_action",
     "get_call",
@@ -87,7 +97,9 @@ __all__ = [
     "get_run",
     "invoke_action",
     "is_stopped",
+    "leave",
     "list_armed",
+    "list_dead_letters",
     "list_events",
     "list_questions",
     "list_runs",
@@ -100,7 +112,9 @@ __all__ = [
     "resend_commands",
     "reset_stop",
     "resume_run",
+    "retry_dead_letter",
     "run_ticker",
+    "site_of_dead_letter",
     "site_of_question",
     "site_of_run",
     "start_armed",

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import dataclass
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from functools import reduce
 from typing import Any
 from uuid import UUID
 
-import psycopg
 from django.db import connection
 
+from execution import database
+from execution.database import preparing_cursor
 from execution.models import Command
 from execution.traffic.messages import CONTROLS
 from registry import services as registry
@@ -126,8 +126,8 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
     `WINDOW` older is open: asked again, the device might have forgotten it.
     Taking is one statement; before it stand two short questions, and none where nothing is due.
     """
-    now = datetime.now(UTC)
-    with _preparing_cursor() as cursor:
+    now = database.now()
+    with preparing_cursor() as cursor:
         cursor.execute(_DUE, [connection.ops.adapt_datetimefield_value(now)])
         due = [device for (device,) in cursor.fetchall()]
         facts = registry.list_delivery_facts(devices=due) if due else {}
@@ -139,19 +139,6 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
         cursor.execute(_CLAIMS[connection.vendor], _parameters(now, limit) | told)
         rows = cursor.fetchall()
     return tuple(_outgoing(facts.get(row[3]), *row[2:]) for row in sorted(rows, key=lambda row: row[:2]))
-
-
-@contextmanager
-def _preparing_cursor() -> Iterator[Any]:
-    """Give a cursor for which PostgreSQL plans a statement once; planning takes longer than claiming."""
-    if connection.vendor != "postgresql":
-        with connection.cursor() as cursor:
-            yield cursor
-        return
-    connection.ensure_connection()
-    connection.connection.prepare_threshold = 0
-    with connection.wrap_database_errors, psycopg.Cursor(connection.connection) as prepared:
-        yield prepared
 
 
 def _parameters(now: datetime, limit: int) -> dict[str, Any]:
@@ -179,7 +166,7 @@ def _outgoing(
 def mark_commands_sent(*, ids: Iterable[str]) -> None:
     """Say that these commands have gone out."""
     keys = [UUID(key).hex if connection.vendor == "sqlite" else UUID(key) for key in ids]
-    sent_at = connection.ops.adapt_datetimefield_value(datetime.now(UTC))
+    sent_at = connection.ops.adapt_datetimefield_value(database.now())
     if not keys:  # PostgreSQL knows no empty list
         return
     with connection.cursor() as cursor:

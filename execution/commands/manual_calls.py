@@ -7,16 +7,17 @@ site's stop holds it, and it has a time limit.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from typing import Any
 from uuid import UUID, uuid4
 
 from django.db import transaction
 from django.db.models import F
 
-from execution import mailbox
+from execution import database, mailbox
 from execution.errors import BadArguments, NotFound, NotPossibleNow
 from execution.floor.stops import is_stopped
+from execution.lease import fence_of
 from execution.models import Command, FloorState, Run
 from execution.traffic import floor
 from execution.traffic.messages import CONTROLS, CallCancelled, CallSent
@@ -119,8 +120,9 @@ def _open_commands(site: int, device_id: str) -> Any:
 
 
 def _write(row: FloorState, device_id: str, method: str, arguments: Mapping[str, Any], by: str) -> Command:
-    now = datetime.now(UTC)
-    FloorState.objects.filter(pk=row.pk).update(commands=F("commands") + 1)
+    now = database.now()
+    # By the epoch the owner sees that the device is taken now: what it has decided meanwhile is decided anew.
+    FloorState.objects.filter(pk=row.pk).update(commands=F("commands") + 1, epoch=F("epoch") + 1)
     return Command.objects.create(
         id=uuid4(),
         site_id=row.site_id,
@@ -129,7 +131,7 @@ def _write(row: FloorState, device_id: str, method: str, arguments: Mapping[str,
         method=method,
         arguments=dict(arguments),
         by=by[:120],
-        fence=row.epoch,
+        fence=fence_of(row.site_id),
         ttl_s=EXPIRY_S,
         send_after=now,
         created_at=now,

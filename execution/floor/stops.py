@@ -46,7 +46,7 @@ def press_stop(*, site: str, by: str) -> StopView:
             _disarm_all(site)
             reason = f"{by} stopped all devices of the site"
             for run in Run.objects.filter(site__slug=site, status__in=Run.OPEN).values_list("id", flat=True):
-                mailbox.post_to_run(run, [(f"stop:{run}:{uuid4()}", PauseAsked(reason))])
+                mailbox.post_to_run(site, run, [(f"stop:{run}:{uuid4()}", PauseAsked(reason))])
             mailbox.post_to_floor(site, [(f"stop:{uuid4()}", StopPressed())])
     return StopView(site, row.active, row.by, row.at)
 

@@ -193,7 +193,7 @@ class Ingester:
         """Wake what depends on poses, presence or readings; what comes too soon after that is seen by the next."""
         if now - self._woken_at.get(site, -CHANGES_EVERY_S) >= CHANGES_EVERY_S:
             self._woken_at[site] = now
-            mailbox.hint_watching(site)
+            mailbox.say_changed(site)
 
 
 def _asked_at(entry: Entry) -> str:

@@ -15,7 +15,7 @@ from django.db import transaction
 
 from execution import mailbox
 from execution.errors import NotFound
-from execution.floor.advance import place_facts
+from execution.floor.layouts import place_facts
 from execution.models import Rehearsal
 from execution.rehearsals.child_process import scene_to_json
 from execution.runs.programs import Prepared

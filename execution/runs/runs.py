@@ -38,7 +38,7 @@ def start_run(*, prepared: Prepared, by: str, entry: int = 0, terms: Terms = USU
 
 def _announce(prepared: Prepared, row: Run) -> RunView:
     view = view_run(row)
-    mailbox.hint(mailbox.run_target(row.id))
+    mailbox.hint(prepared.site)
     transaction.on_commit(lambda: registry.publish(prepared.site, {"type": "run", "run": run_to_json(view)}))
     return view
 
@@ -102,7 +102,7 @@ def cancel_run(*, run_id: UUID | str, by: str) -> RunView:
 
 def _order(row: Run, order: ToRun) -> RunView:
     with transaction.atomic():
-        mailbox.post_to_run(row.id, [(f"order:{row.id}:{uuid4()}", order)])
+        mailbox.post_to_run(row.site.slug, row.id, [(f"order:{row.id}:{uuid4()}", order)])
     return view_run(row)
 
 

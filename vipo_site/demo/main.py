@@ -166,6 +166,7 @@ def prepare_database() -> None:
 
 def start_worker() -> Part:
     """Run Celery's worker in a thread; its messages stay in this process."""
+    from execution.services import leave
     from vipo_site.celery import app
 
     worker: Any = app.WorkController(
@@ -175,6 +176,7 @@ def start_worker() -> Part:
     thread.start()
 
     def stop() -> None:
+        leave()
         worker.stop()
         thread.join(4)
 
