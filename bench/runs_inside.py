@@ -19,7 +19,7 @@ from django.conf import settings  # noqa: E402
 from django.db import connection  # noqa: E402
 
 from bench.figures import figure, share  # noqa: E402
-from bench.flow import cpu_seconds  # noqa: E402
+from bench.flow import TICKS_PER_S, cpu_seconds  # noqa: E402
 from bench.hall import SITE, fill_hall  # noqa: E402
 from editor.language import plan_to_json  # noqa: E402
 from editor.language.expressions.nodes import Constant, PlaceRef  # noqa: E402
@@ -95,16 +95,23 @@ def start(machine: str, steps: int) -> str:
 
 
 def cpu(pids: Mapping[str, int]) -> dict[str, float]:
-    """Return the processor time of each process, with that of its children."""
+    """Return the processor time of each process; PostgreSQL's with that of its children, also of those that ended."""
     found = {name: cpu_seconds(pid) for name, pid in pids.items()}
+    found["postgres"] = sum(cpu_seconds(pid) + _ended(pid) for pid in _tree(pids["postgres"]))
     for status in Path("/proc").glob("[0-9]*/stat"):
         try:
             parent = int(status.read_text().rsplit(")", 1)[1].split()[1])
-            if parent in _tree(pids["postgres"]):
+            if parent in _tree(pids["postgres"]) and int(status.parent.name) not in _tree(pids["postgres"]):
                 found["postgres"] += cpu_seconds(int(status.parent.name))
         except (OSError, IndexError):
             continue
     return found
+
+
+def _ended(pid: int) -> float:
+    """Return the processor time of a process's children that have ended."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[13]) + int(fields[14])) / TICKS_PER_S
 
 
 def _tree(root: int) -> set[int]:
@@ -150,7 +157,7 @@ def measure(pids: Mapping[str, int]) -> Iterator[dict[str, object]]:
     yield figure("one run", ONE_RUN_STEPS / found["took"], "steps/s", commits_a_step=round(found["commits"], 2))
     devices.forget()
     runs = [start(machine, MANY_STEPS) for machine in machines()[:MANY_RUNS]]
-    found = watch(devices, pids, runs, MANY_RUNS * MANY_STEPS - 0)
+    found = watch(devices, pids, runs, MANY_RUNS * MANY_STEPS)
     for name, part in (("p50", 0.5), ("p99", 0.99)):
         yield figure(f"100 runs, done to next command, {name}", share(found["delays"], part), "ms", **found["cost"])
     steps_s = MANY_RUNS * MANY_STEPS / found["took"]

@@ -10,10 +10,10 @@ from datetime import UTC, datetime, timedelta
 from typing import Any
 
 import psycopg
-from django.db import connection
+from django.db import DatabaseError, InterfaceError, connection
 
 KEPT_S = 5.0
-"""So long a process counts on from what the database's clock said; a process's own clock is never asked."""
+"""So long a process counts on from what the database's clock said, by a clock that nobody sets."""
 
 
 class _Heard:
@@ -28,23 +28,32 @@ class _Heard:
             self._said = (said, time.monotonic())
         return said
 
-    def count_on(self) -> datetime | None:
+    def count_on(self, limit_s: float = float("inf")) -> datetime | None:
         with self._lock:
             said = self._said
         if said is None:
             return None
         since = time.monotonic() - said[1]
-        return None if since >= KEPT_S else said[0] + timedelta(seconds=since)
+        return None if since >= limit_s else said[0] + timedelta(seconds=since)
 
 
 _heard = _Heard()
 
 
 def now() -> datetime:
-    """Return the time by the database's clock; SQLite has that of its machine, which is this one."""
+    """Return the time by the database's clock; SQLite has that of its machine, which is this one.
+
+    While the database is away it is counted on from what it said last.
+    """
     if connection.vendor != "postgresql":
         return datetime.now(UTC)
-    return _heard.count_on() or _heard.note(_ask())
+    said = _heard.count_on(KEPT_S)
+    if said is None:
+        try:
+            said = _heard.note(_ask())
+        except (DatabaseError, InterfaceError):
+            said = _heard.count_on() or datetime.now(UTC)
+    return said
 
 
 def _ask() -> datetime:

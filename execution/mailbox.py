@@ -91,7 +91,20 @@ def hint_left(before: datetime) -> None:
     """Wake the owners of sites where something has waited since before then: a hint was lost, or a worker has died."""
     left = InboxEvent.objects.filter(taken_at=None, created_at__lt=before)
     for site in left.values_list("site", flat=True).distinct():
-        hint_now(site)
+        if site:
+            hint_now(site)
+        else:
+            _find_sites()
+
+
+def _find_sites() -> None:
+    """Say whose the messages are that a process of the version before has posted since the update."""
+    unowned = InboxEvent.objects.filter(taken_at=None, site="")
+    for target in unowned.values_list("target", flat=True).distinct():
+        kind, _, name = target.partition(":")
+        found = Run.objects.filter(id=name).values_list("site__slug", flat=True).first() if kind == "run" else name
+        mine = unowned.filter(target=target)
+        mine.update(site=found) if found else mine.update(taken_at=database.now())
 
 
 def hint_watching() -> None:

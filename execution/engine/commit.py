@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from datetime import datetime, timedelta
 from typing import Any
+from uuid import UUID
 
 from django.conf import settings
 from django.db import transaction
@@ -15,6 +16,7 @@ from execution import database, mailbox
 from execution.engine import lease as leases
 from execution.engine.inbox import mark_taken
 from execution.engine.lease import Lease
+from execution.engine.rows import insert_all, update_all
 from execution.engine.turn import ByHand, Turn
 from execution.floor.fold import FloorWork
 from execution.floor_protocol import to_json
@@ -36,6 +38,13 @@ UPDATE execution_floorstate
 SET state = %(state)s, active = %(active)s, epoch = epoch + 1, commands = commands + %(more)s
 WHERE id = %(id)s AND epoch = %(epoch)s RETURNING commands
 """
+
+
+WRITTEN = (
+    "status", "reason", "watches", "late", "notices", "steps", "roles", "next_seq", "inputs_kept", "started_at",
+    "ended_at",
+)  # fmt: skip
+"""What a turn may change of a run's row beside its state."""
 
 
 class Outdated(Exception):
@@ -85,7 +94,7 @@ def _write_floor(turn: Turn, lease: Lease) -> None:
         found = cursor.fetchone()
     if found is None:
         raise Outdated("Somebody else has changed the floor.")
-    Command.objects.bulk_create(_command_rows(turn, work, lease, found[0] - len(work.commands)))
+    insert_all(Command, _command_rows(turn, work, lease, found[0] - len(work.commands)))
     given_up = set(turn.site.floor.state.sent if turn.site.floor else ()) - set(work.state.sent) - work.answered
     if given_up:
         still_open = Command.objects.filter(id__in=given_up, status__in=Command.OPEN)
@@ -102,13 +111,13 @@ def _as_raised(door: m.DoorStuck, now: datetime) -> registry.Raised:
 def _command_rows(turn: Turn, work: FloorWork, lease: Lease, position: int) -> list[Command]:
     return [
         Command(
-            id=command.id,
+            id=UUID(command.id),
             site_id=lease.site,
             position=position + number,
             device=command.device,
             method=command.method,
             arguments=dict(command.arguments),
-            run=command.run or None,
+            run=UUID(command.run) if command.run else None,
             step=command.step,
             piece=command.piece,
             fence=lease.epoch,
@@ -125,21 +134,21 @@ def _changed(turn: Turn) -> list[RunWork]:
 
 def _write_runs(turn: Turn) -> None:
     changed = _changed(turn)
-    for work in changed:
-        _write_run(work)
+    _write_states(changed)
     for hand in turn.by_hand.values():
         Run.objects.filter(id=hand.row.id).update(
             status=hand.row.status, reason=hand.row.reason, ended_at=hand.row.ended_at, next_seq=hand.row.next_seq,
             watches=hand.row.watches,
         )  # fmt: skip
     written: list[RunWork | ByHand] = [*changed, *turn.by_hand.values()]
-    RunEvent.objects.bulk_create(line for work in written for line in work.lines)
-    RunInput.objects.bulk_create(
-        RunInput(run=work.row, seq=work.row.inputs_kept + 1, at=turn.now, taken=work.inputs)
+    insert_all(RunEvent, (line for work in written for line in work.lines))
+    inputs = (
+        RunInput(run_id=work.row.id, seq=work.row.inputs_kept, at=turn.now, taken=work.inputs)
         for work in changed
         if work.inputs
     )
-    Timer.objects.bulk_create(_timers(changed, turn.now), ignore_conflicts=True)
+    insert_all(RunInput, inputs)
+    insert_all(Timer, _timers(changed, turn.now))
     for work in changed:
         if work.dropped_timers:
             Timer.objects.filter(run=work.row, timer__in=work.dropped_timers).delete()
@@ -147,32 +156,26 @@ def _write_runs(turn: Turn) -> None:
             _ask(work.row, action, turn.now)
 
 
-def _write_run(work: RunWork) -> None:
-    row = work.row
-    changes: dict[str, Any] = {"state": machine.to_json(work.state)} if work.state is not None else {}
-    written = Run.objects.filter(id=row.id, epoch=row.epoch).update(
-        **changes,
-        status=row.status,
-        reason=row.reason[:500],
-        epoch=row.epoch + 1,
-        watches=row.watches,
-        late=row.late,
-        notices=row.notices,
-        steps=row.steps,
-        roles=row.roles,
-        next_seq=row.next_seq,
-        inputs_kept=row.inputs_kept + bool(work.inputs),
-        started_at=row.started_at,
-        ended_at=row.ended_at,
-    )
-    if not written:
-        raise Outdated(f"Somebody else has changed run {row.number}.")
+def _write_states(changed: Sequence[RunWork]) -> None:
+    """Write the rows of runs; the state of one that has not begun stays nothing."""
+    for work in changed:
+        work.row.reason = work.row.reason[:500]
+        work.row.inputs_kept += bool(work.inputs)
+        if work.state is not None:
+            work.row.state = machine.to_json(work.state)
+    begun = [(work.row, work.row.epoch) for work in changed if work.state is not None]
+    others = [(work.row, work.row.epoch) for work in changed if work.state is None]
+    is_written = update_all(Run, ("state", *WRITTEN), begun) and update_all(Run, WRITTEN, others)
+    for row, _ in begun:
+        row.__dict__.pop("state", None)
+    if not is_written:
+        raise Outdated("Somebody else has changed a run.")
 
 
 def _timers(changed: Iterable[RunWork], now: datetime) -> Iterator[Timer]:
     for work in changed:
         for timer, seconds in work.timers.items():
-            yield Timer(run=work.row, timer=timer, due_at=now + timedelta(seconds=seconds / settings.VIPO_SPEED))
+            yield Timer(run_id=work.row.id, timer=timer, due_at=now + timedelta(seconds=seconds / settings.VIPO_SPEED))
 
 
 def _ask(run: Run, action: r.AskPeople | r.CancelQuestion, now: datetime) -> None:
@@ -235,7 +238,6 @@ def _remember(turn: Turn, *, is_beat: bool) -> None:
     for key, work in turn.runs.items():
         if work.is_changed:
             work.row.epoch += 1
-            work.row.inputs_kept += bool(work.inputs)
         if work.is_open:
             site.runs[key] = work.settled()
         else:

@@ -178,6 +178,9 @@ def _turn(slug: str, lease: Lease, *, look: bool) -> bool:
     memory = _memory(slug, lease)
     memory.wakes_at = None if memory.wakes_at and memory.wakes_at <= time.monotonic() else memory.wakes_at
     news = read_news(lease.site, slug, memory.last_number, memory.most_at_once)
+    if news.floor_epoch != memory.floor_row.epoch:
+        _forget(slug)
+        memory = _memory(slug, lease)
     memory.add_started(news.runs)
     turn = Turn(memory, news, look=look)
     try:

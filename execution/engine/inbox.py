@@ -17,7 +17,8 @@ from execution import database
 
 MOST_AT_ONCE = 500
 _READ = """
-SELECT -1 AS id, '' AS target, CAST(NULL AS <json>) AS payload, <now> AS at
+SELECT -1 AS id, (SELECT CAST(epoch AS text) FROM execution_floorstate WHERE site_id = %(site)s) AS target,
+    CAST(NULL AS <json>) AS payload, <now> AS at
 UNION ALL SELECT 0, CAST(number AS text) || ':' || CAST(id AS text), CAST(NULL AS <json>), created_at FROM execution_run
 WHERE site_id = %(site)s AND number > %(number)s
 UNION ALL SELECT * FROM (
@@ -51,9 +52,13 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class News:
-    """What is new at a site: runs by id with their numbers, and `rows` in the order in which they were posted."""
+    """What is new at a site: runs by id with their numbers, and `rows` in the order in which they were posted.
+
+    `floor_epoch` tells whether anybody else has changed the floor; None: there is none yet.
+    """
 
     now: datetime
+    floor_epoch: int | None = None
     runs: Mapping[UUID, int] = field(default_factory=dict)
     rows: Sequence[Row] = field(default=())
 
@@ -63,11 +68,11 @@ def read_news(site: int, slug: str, last_number: int, limit: int = MOST_AT_ONCE)
     told = {"site": site, "slug": slug, "number": last_number, "limit": limit}
     with database.preparing_cursor() as cursor:
         cursor.execute(_READS[connection.vendor], told)
-        (_, _, _, now), *others = cursor.fetchall()
+        (_, epoch, _, now), *others = cursor.fetchall()
     started = [target.partition(":") for number, target, _, _ in others if number == 0]
     runs = {UUID(run): int(number) for number, _, run in started}
     rows = [Row(number, target, _value(said), _time(at)) for number, target, said, at in others if number > 0]
-    return News(_time(now), runs, rows)
+    return News(_time(now), None if epoch is None else int(epoch), runs, rows)
 
 
 def mark_taken(ids: Sequence[int], now: datetime) -> None:

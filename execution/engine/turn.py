@@ -76,7 +76,7 @@ class Turn:
         self.kept: list[tuple[str, ToFloor | ToRun]] = []
         self.dead: list[SetAside] = []
         self.floor_inputs: list[dict[str, Any]] = []
-        self._look = look
+        self._look, self._floor_was_told = look, False
         self._for_runs: dict[str, list[Mail]] = {}
         self._for_floor: list[ToFloor] = []
         self._facts_read: set[str] = set()
@@ -110,7 +110,7 @@ class Turn:
         before, after = self.site.floor, self.floor
         if after is None or before is after:
             return False
-        if before is None or after.commands or after.stuck:
+        if before is None or after.commands or after.stuck or self._floor_was_told:
             return True
         return _timeless(before) != _timeless(after)
 
@@ -269,6 +269,7 @@ class Turn:
         return news_of(self.floor.state, self._devices) if self.floor else []
 
     def _take_step(self, work: FloorWork, news: Sequence[m.Event], told: Sequence[ToFloor]) -> None:
+        self._floor_was_told |= bool(told)  # then it is written, so that nobody else has changed it meanwhile
         self.floor, said = step_floor(work, self.site.layout, news, told, self.now.timestamp())
         for run, message in said:
             self._post(run, Mail(message, self.now))

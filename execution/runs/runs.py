@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Any
 from uuid import UUID, uuid4
 
 from django.db import IntegrityError, transaction
 from django.db.models import Max
 
-from execution import mailbox
+from execution import database, mailbox
 from execution.errors import NotFound, NotPossibleNow
 from execution.floor.stops import is_stopped
 from execution.floor_protocol import ResumeAsked, ToRun
@@ -33,7 +33,7 @@ def start_run(*, prepared: Prepared, by: str, entry: int = 0, terms: Terms = USU
     """
     if is_stopped(site=prepared.site):
         raise NotPossibleNow("The site is stopped. Reset the stop before you start a run.", {"why": "stopped"})
-    return _announce(prepared, _create_numbered(prepared, by, entry, fit_terms(terms, datetime.now(UTC))))
+    return _announce(prepared, _create_numbered(prepared, by, entry, fit_terms(terms, database.now())))
 
 
 def _announce(prepared: Prepared, row: Run) -> RunView:
@@ -72,7 +72,7 @@ def _create(prepared: Prepared, by: str, entry: int, terms: Terms) -> Run:
         priority=PRIORITIES[terms.priority],
         not_before=terms.not_before,
         deadline=terms.deadline,
-        created_at=datetime.now(UTC),
+        created_at=database.now(),
     )
 
 

@@ -63,6 +63,8 @@ def test_a_run_goes_from_answer_to_next_command_in_one_turn_and_to_its_end():
 
 
 def test_a_turn_asks_the_database_for_little_and_one_that_changes_nothing_writes_nothing():
+    if connection.vendor != "sqlite":
+        pytest.skip("Django does not hear of statements that PostgreSQL keeps prepared; they are the same ones.")
     run = start(heating(4))
     drive.advance_site(SITE)
     held = lease.take(site_id())
@@ -71,7 +73,7 @@ def test_a_turn_asks_the_database_for_little_and_one_that_changes_nothing_writes
         with CaptureQueriesContext(connection) as asked:
             drive._turn(SITE, held, look=False)
     statements = [each["sql"] for each in asked.captured_queries if not re.match("BEGIN|COMMIT", each["sql"])]
-    assert len(statements) <= 9, statements
+    assert len(statements) == 8, statements
     with CaptureQueriesContext(connection) as asked:
         assert drive._turn(SITE, held, look=False) is False
     assert len(asked.captured_queries) == 1
