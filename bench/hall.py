@@ -17,9 +17,8 @@ from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant, Operation, PlaceRef, Reading
 from editor.language.plan.instructions import Call, End, Instruction, Plan, WaitUntil
 from execution import services
-from execution.floor.advance import advance_site
+from execution.engine.drive import advance_site
 from execution.models import Command
-from execution.runs.advance import advance_run
 from registry import services as registry
 from registry.floorplan.plan import Grid
 from registry.models import Device, Site
@@ -97,14 +96,12 @@ def carry_out_run(*, counting: bool = True) -> Mapping[str, Count]:
     _say(20)
     prepared = services.Prepared(uuid4(), SITE, "Heating", 1, {}, {}, plan_to_json(PLAN), {})
     run = services.start_run(prepared=prepared, by="Ada").id
-    found = {"a run begins": _measure(counting, lambda: advance_run(run))}
-    found["the floor takes its task"] = _measure(counting, lambda: advance_site(SITE))
+    found = {"a run begins and its command goes out": _measure(counting, lambda: advance_site(SITE))}
     _answer(run)
-    found["the floor hears the answer"] = _measure(counting, lambda: advance_site(SITE))
-    found["the run hears the answer"] = _measure(counting, lambda: advance_run(run))
-    found["the floor has nothing to do"] = _measure(counting, lambda: advance_site(SITE))
+    found["floor and run hear the answer"] = _measure(counting, lambda: advance_site(SITE, look=False))
+    found["there is nothing to do"] = _measure(counting, lambda: advance_site(SITE))
     _say(90)
-    found["a reading ends the run"] = _measure(counting, lambda: advance_run(run))
+    found["a reading ends the run"] = _measure(counting, lambda: advance_site(SITE))
     if services.get_run(run_id=run).run.status != "finished":
         raise RuntimeError("The run did not end.")
     advance_site(SITE)

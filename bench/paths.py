@@ -157,24 +157,21 @@ def _command(path: str) -> dict[str, object]:
     from editor.language.expressions.nodes import Constant, PlaceRef
     from editor.language.plan.instructions import Call, End, Instruction, Plan
     from execution import services
-    from execution.floor.advance import advance_site
+    from execution.engine.drive import advance_site
     from execution.gateway.ingest import Ingester
     from execution.gateway.queue import Entry
-    from execution.runs.advance import advance_run
 
     heat = Call(PlaceRef(device=OVEN), "heat", {"value": Constant(1)})
     plan = Plan((*(Instruction(heat, step) for step in ("one", "two", "three")), Instruction(End())))
     fill_hall(3)
     prepared = services.Prepared(uuid4(), SITE, "Heating", 1, {}, {}, plan_to_json(plan), {})
-    run = services.start_run(prepared=prepared, by="Ada").id
+    services.start_run(prepared=prepared, by="Ada")
     ingester = Ingester(Mock(), Counter())
 
     def go_on(last: tuple[services.OutgoingCommand, ...]) -> tuple[services.OutgoingCommand, ...]:
         for command in last:
             ack = json.dumps({"id": command.id, "st": "DONE"}).encode()
             ingester.ingest_all([Entry(Mock(payload=ack, retained=False), OVEN, "ack")], Event())
-            advance_site(SITE)
-        advance_run(run)
         advance_site(SITE)
         return services.claim_commands(limit=10)
 

@@ -96,13 +96,6 @@ class TooManyRehearsals(ExecutionError):
     retry_after_s = 30
 
 
-class StepConflict(ExecutionError):
-    """Somebody else has advanced the same row; nothing was written, the step is done anew."""
-
-    code = "step_conflict"
-    status = 409
-
-
 class NoWay(ExecutionError):
     """No robot can drive there."""
 

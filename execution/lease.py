@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datetime import datetime, timedelta
 
-from execution.models import Lease
+from execution.models import Lease, SiteLease
 
 LEASE_S = 5.0
 
@@ -26,3 +26,8 @@ class HeldLease:
         free = mine or Lease.objects.filter(name=self._job, until__lt=now).update(holder=self._holder, until=until)
         self._until = until if free else None
         return bool(free)
+
+
+def fence_of(site: int) -> int:
+    """Return the epoch under which a site is carried out now, which its commands carry as their fence; 0 for none."""
+    return SiteLease.objects.filter(site_id=site).values_list("epoch", flat=True).first() or 0

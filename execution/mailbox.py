@@ -1,43 +1,36 @@
 """The inbox between runs and floors: messages with an identity, taken in exactly once, and hints that there are some.
 
-A hint is a Celery message. Twice is harmless, lost is found by the ticker's sweep.
+A hint wakes the site's owner, and now and then asks the workers for one by a Celery message. Twice is harmless, a lost
+one is found by the ticker's sweep.
 """
 
 from __future__ import annotations
 
 import logging
 import os
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
-from datetime import UTC, datetime
-from typing import Any, Generic, TypeVar
+import time
+from collections.abc import Iterable, Sequence
+from datetime import datetime
 from uuid import UUID
 
 from celery import current_app
 from django.db import transaction
 from kombu.exceptions import OperationalError
 
-from execution.floor_protocol import ToFloor, ToRun, floor_message_from_json, run_message_from_json, to_json
+from execution import database
+from execution.floor_protocol import ToFloor, ToRun, floor_message_from_json, to_json
 from execution.models import FloorState, InboxEvent, Run
+from registry import services as registry
 from vipo_device.kit.log_ids import bound_ids
 
 log = logging.getLogger(__name__)
-ADVANCE_RUN = "execution.tasks.advance_run"
-ADVANCE_SITE = "execution.tasks.advance_site"
+DRIVE_SITE = "execution.tasks.drive_site"
 REHEARSE = "execution.tasks.rehearse"
 REQUEST_HEADER = "vipo_request"
 """Where a task's message carries the id of the HTTP request that it comes from, for the log."""
-MOST_AT_ONCE = 500
-Message = TypeVar("Message", ToFloor, ToRun)
-
-
-@dataclass(frozen=True, slots=True)
-class Delivery(Generic[Message]):
-    """A message that waits in an inbox: the number of its row, and since when it waits."""
-
-    row: int
-    posted_at: datetime
-    message: Message
+ASK_AGAIN_S = 0.5
+"""An owner stays for two seconds after its last work: whoever is asked for within half a second is still there."""
+_asked_at: dict[str, float] = {}
 
 
 def run_target(run: UUID | str) -> str:
@@ -50,37 +43,26 @@ def site_target(slug: str) -> str:
     return f"site:{slug}"
 
 
-def post_to_run(run: UUID | str, messages: Iterable[tuple[str, ToRun]]) -> None:
-    """Put messages, each with its key, into a run's inbox, and hint; one that is known already changes nothing."""
-    _post(run_target(run), [(key, to_json(message)) for key, message in messages])
+def post_to_run(site: str, run: UUID | str, messages: Iterable[tuple[str, ToRun]]) -> None:
+    """Put messages, each with its key, into the inbox of a site's run, and hint; a known one changes nothing."""
+    post(site, [(run_target(run), key, message) for key, message in messages])
 
 
 def post_to_floor(site: str, messages: Iterable[tuple[str, ToFloor]]) -> None:
     """Put messages, each with its key, into the inbox of a site's floor, as `post_to_run` does."""
-    _post(site_target(site), [(key, to_json(message)) for key, message in messages])
+    post(site, [(site_target(site), key, message) for key, message in messages])
 
 
-def _post(target: str, payloads: Iterable[tuple[str, dict[str, Any]]]) -> None:
-    now = datetime.now(UTC)
-    rows = [InboxEvent(target=target, key=key, payload=payload, created_at=now) for key, payload in payloads]
-    if rows:
+def post(site: str, messages: Sequence[tuple[str, str, ToFloor | ToRun]]) -> None:
+    """Put messages, each with its inbox and its key, into the inboxes of a site, and hint."""
+    if messages:
+        now = database.now()
+        rows = [
+            InboxEvent(site=site, target=target, key=key, payload=to_json(message), created_at=now)
+            for target, key, message in messages
+        ]
         InboxEvent.objects.bulk_create(rows, ignore_conflicts=True)
-        hint(target)
-
-
-def waiting_for_run(run: UUID | str) -> list[Delivery[ToRun]]:
-    """Return what waits for a run, oldest first; raises UnreadableMessage."""
-    return _waiting(run_target(run), run_message_from_json)
-
-
-def waiting_for_floor(site: str) -> list[Delivery[ToFloor]]:
-    """Return what waits for the floor of a site, oldest first; raises UnreadableMessage."""
-    return _waiting(site_target(site), floor_message_from_json)
-
-
-def _waiting(target: str, read: Callable[[Mapping[str, Any]], Message]) -> list[Delivery[Message]]:
-    rows = InboxEvent.objects.filter(target=target, taken_at=None).order_by("id")[:MOST_AT_ONCE]
-    return [Delivery(row.id, row.created_at, read(row.payload)) for row in rows]
+        hint(site)
 
 
 def find_told(key: str) -> ToFloor | None:
@@ -89,42 +71,62 @@ def find_told(key: str) -> ToFloor | None:
     return None if row is None else floor_message_from_json(row.payload)
 
 
-def mark_taken(deliveries: Iterable[Delivery[Message]]) -> None:
-    """Say that these messages are taken in; they are kept a while, so that a repetition is known as one."""
-    rows = [delivery.row for delivery in deliveries]
-    InboxEvent.objects.filter(id__in=rows).update(taken_at=datetime.now(UTC))
-
-
 def forget_taken(before: datetime) -> None:
     """Delete what was taken in before then; a repetition of it would not be known any more."""
     InboxEvent.objects.filter(taken_at__lt=before).delete()
 
 
-def hint(target: str) -> None:
-    """Wake a worker for a run or a floor once the transaction is through."""
-    transaction.on_commit(lambda: _hint_now(target))
+def hint(site: str) -> None:
+    """Wake whoever carries out the runs of a site, or a worker that will, once the transaction is through."""
+    transaction.on_commit(lambda: hint_now(site))
 
 
-def _hint_now(target: str) -> None:
-    kind, _, name = target.partition(":")
-    send_hint(ADVANCE_RUN if kind == "run" else ADVANCE_SITE, name)
+def hint_now(site: str) -> None:
+    """Wake the owner of a site at once; a worker is asked for one only so often, since an owner stays a while."""
+    registry.wake(site_target(site))
+    now = time.monotonic()
+    if now - _asked_at.get(site, -ASK_AGAIN_S) >= ASK_AGAIN_S:
+        _asked_at[site] = now
+        send_hint(DRIVE_SITE, site)
 
 
 def hint_left(before: datetime) -> None:
-    """Wake those whose messages wait since before then: a hint was lost, or a worker has died."""
+    """Wake the owners of sites where something has waited since before then: a hint was lost, or a worker has died."""
     left = InboxEvent.objects.filter(taken_at=None, created_at__lt=before)
-    for target in left.values_list("target", flat=True).distinct():
-        _hint_now(target)
+    for site in left.values_list("site", flat=True).distinct():
+        if site:
+            hint_now(site)
+        else:
+            _find_sites()
 
 
-def hint_watching(site: str = "") -> None:
-    """Let floors look that have something under way, and runs that wait for a reading: of one site, or everywhere."""
-    there = {"site__slug": site} if site else {}
-    for slug in FloorState.objects.filter(active=True, **there).values_list("site__slug", flat=True):
-        send_hint(ADVANCE_SITE, slug)
-    watching = Run.objects.filter(watches=True, status=Run.Status.RUNNING, **there)
-    for run in watching.values_list("id", flat=True):
-        send_hint(ADVANCE_RUN, str(run))
+def _find_sites() -> None:
+    """Say whose the messages are that a process of the version before has posted since the update."""
+    unowned = InboxEvent.objects.filter(taken_at=None, site="")
+    for target in unowned.values_list("target", flat=True).distinct():
+        kind, _, name = target.partition(":")
+        found = Run.objects.filter(id=name).values_list("site__slug", flat=True).first() if kind == "run" else name
+        mine = unowned.filter(target=target)
+        mine.update(site=found) if found else mine.update(taken_at=database.now())
+
+
+def hint_watching() -> None:
+    """Let those sites be looked at that have something under way, or runs that wait for a reading."""
+    floors = FloorState.objects.filter(active=True).values_list("site__slug", flat=True)
+    runs = Run.objects.filter(watches=True, status=Run.Status.RUNNING).values_list("site__slug", flat=True)
+    for slug in {*floors, *runs.distinct()}:
+        hint_now(slug)
+
+
+def say_changed(site: str) -> None:
+    """Tell the owner of a site, if it has one, that its devices say something new of themselves."""
+    registry.wake(look_channel(site))
+    registry.wake(site_target(site))
+
+
+def look_channel(site: str) -> str:
+    """Return where an owner hears that there is something to look at."""
+    return f"look:{site}"
 
 
 def send_hint(task: str, name: str) -> None:

@@ -1,4 +1,4 @@
-"""What execution keeps: runs, their events and timers, commands, floors, the inbox between them, rehearsals, stops."""
+"""What execution keeps: runs, their events, timers and inputs, commands, floors, inboxes, leases, rehearsals, stops."""
 
 from __future__ import annotations
 
@@ -51,6 +51,7 @@ class Run(models.Model):
     steps = models.JSONField(default=dict)
     roles = models.JSONField(default=dict)
     next_seq = models.PositiveIntegerField(default=1)
+    inputs_kept = models.PositiveIntegerField(default=0, db_default=0)
     entry = models.PositiveIntegerField(default=0)
     notices = models.JSONField(default=dict)
     started_by = models.CharField(max_length=120, blank=True)
@@ -189,8 +190,12 @@ class FloorState(models.Model):
 
 
 class InboxEvent(models.Model):
-    """Something that a run or a floor is to take in. `key` is its identity: the same event is never taken in twice."""
+    """Something that a run or a floor is to take in. `key` is its identity: the same event is never taken in twice.
 
+    `site` is the site's slug, by whose owner it is read.
+    """
+
+    site = models.CharField(max_length=64, default="", db_default="")
     target = models.CharField(max_length=80)
     key = models.CharField(max_length=160, unique=True)
     payload = models.JSONField()
@@ -198,9 +203,12 @@ class InboxEvent(models.Model):
     taken_at = models.DateTimeField(null=True)
 
     class Meta:
-        """Read by target, in order, what is not taken in."""
+        """Read by site, in order, what is not taken in; a target's own are looked for by what waits."""
 
-        indexes = [models.Index(fields=["target", "taken_at", "id"]), models.Index(fields=["taken_at", "created_at"])]
+        indexes = [
+            models.Index(fields=["site", "id"], condition=models.Q(taken_at=None), name="inbox_that_waits"),
+            models.Index(fields=["taken_at", "created_at"]),
+        ]
 
     def __str__(self) -> str:
         return self.key
@@ -346,3 +354,64 @@ class Lease(models.Model):
 
     def __str__(self) -> str:
         return f"{self.name}: {self.holder}"
+
+
+class SiteLease(models.Model):
+    """Which process carries the runs of a site out, and until when by the database's clock.
+
+    `epoch` grows with each owner that is another than the one before; nothing is written for a site under an older one.
+    """
+
+    site = models.OneToOneField("registry.Site", on_delete=models.CASCADE, related_name="run_lease")
+    owner = models.CharField(max_length=120, blank=True)
+    epoch = models.PositiveIntegerField(default=1)
+    expires_at = models.DateTimeField()
+
+    def __str__(self) -> str:
+        return f"site {self.site_id}: {self.owner}"
+
+
+class RunInput(models.Model):
+    """What one turn gave a run to take in, as `execution.engine.history` reads it; `seq` counts a run's from 1."""
+
+    run = models.ForeignKey(Run, on_delete=models.CASCADE, related_name="inputs")
+    seq = models.PositiveIntegerField()
+    at = models.DateTimeField()
+    taken = models.JSONField()
+
+    class Meta:
+        """In the order in which they were taken in."""
+
+        constraints = [models.UniqueConstraint(fields=["run", "seq"], name="one_run_input_per_seq")]
+
+    def __str__(self) -> str:
+        return f"{self.run_id} input {self.seq}"
+
+
+class DeadLetter(models.Model):
+    """Something that raised when it was taken in; `run` is None where it concerned the floor alone."""
+
+    class State(models.TextChoices):
+        """What became of it."""
+
+        OPEN = "open"
+        RETRIED = "retried"
+        DROPPED = "dropped"
+
+    site = models.ForeignKey("registry.Site", on_delete=models.CASCADE, related_name="dead_letters")
+    run = models.ForeignKey(Run, null=True, on_delete=models.CASCADE, related_name="dead_letters")
+    target = models.CharField(max_length=80)
+    event = models.JSONField()
+    error = models.CharField(max_length=1000)
+    at = models.DateTimeField()
+    state = models.CharField(max_length=10, choices=State.choices, default=State.OPEN)
+    settled_by = models.CharField(max_length=120, blank=True)
+    settled_at = models.DateTimeField(null=True)
+
+    class Meta:
+        """Listed by site."""
+
+        indexes = [models.Index(fields=["site", "state"])]
+
+    def __str__(self) -> str:
+        return self.error

@@ -16,6 +16,7 @@ SENTENCES: Mapping[str, str] = {
     "paused_by": "{by} paused it",
     "cancelled_by": "{by} cancelled it",
     "stopped_by": "{by} stopped all devices of the site",
+    "set_aside": "Something could not be taken in and was set aside for an admin: {error}",
     "branch_failed": "Another branch failed.",
     "enough_ended": "Enough other branches have ended.",
     "program_over": "The program was over.",

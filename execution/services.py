@@ -6,6 +6,14 @@ from execution.commands.claim import OutgoingCommand, claim_commands, mark_comma
 from execution.commands.invocations import action_to_json, find_action, invoke_action
 from execution.commands.manual_calls import call_method, cancel_call, expire_calls, get_call
 from execution.commands.outbox import record_ack, resend_commands
+from execution.engine.dead_letters import (
+    DeadLetterView,
+    drop_dead_letter,
+    list_dead_letters,
+    retry_dead_letter,
+    site_of_dead_letter,
+)
+from execution.engine.drive import leave
 from execution.errors import (
     AlreadyAnswered,
     AnswerNotFitting,
@@ -62,6 +70,7 @@ __all__ = [
     "BadArguments",
     "BadTerms",
     "CallView",
+    "DeadLetterView",
     "ExecutionError",
     "NotFound",
     "NotPossibleNow",
@@ -91,6 +100,7 @@ __all__ = [
     "claim_commands",
     "close_publisher",
     "disarm_program",
+    "drop_dead_letter",
     "expire_calls",
     "find_action",
     "follow_stops",
@@ -100,7 +110,9 @@ __all__ = [
     "get_stop",
     "invoke_action",
     "is_stopped",
+    "leave",
     "list_armed",
+    "list_dead_letters",
     "list_events",
     "list_leases",
     "list_open_rehearsals",
@@ -119,7 +131,9 @@ __all__ = [
     "resend_commands",
     "reset_stop",
     "resume_run",
+    "retry_dead_letter",
     "run_ticker",
+    "site_of_dead_letter",
     "site_of_question",
     "site_of_run",
     "start_armed",

@@ -1,48 +1,55 @@
-"""Celery tasks: harmless when they run twice, never waiting for a robot, and short, save rehearsals."""
+"""Celery tasks: harmless when they run twice, and lost without harm."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 from celery import current_task, shared_task
 from celery.signals import worker_shutting_down
 
-from execution.errors import StepConflict
-from execution.floor.advance import advance_site as step_site
-from execution.mailbox import REQUEST_HEADER
+from execution import mailbox
+from execution.engine.drive import drive_site as drive
+from execution.engine.drive import leave
+from execution.errors import NotFound
 from execution.rehearsals import worker
-from execution.runs.advance import advance_run as step_run
+from execution.runs.runs import site_of_run
 from vipo_device.kit.log_ids import LogId, bind_ids
 
 
 @contextmanager
 def _at(name: LogId, value: str) -> Iterator[None]:
     """Let what is logged meanwhile say what it belongs to."""
-    request = (current_task.request.get("headers") or {}).get(REQUEST_HEADER, "") if current_task else ""
+    request = (current_task.request.get("headers") or {}).get(mailbox.REQUEST_HEADER, "") if current_task else ""
     with bind_ids({name: value, "request": request}):
         yield
 
 
-@shared_task(name="execution.tasks.advance_run", ignore_result=True)  # type: ignore[untyped-decorator]
-def advance_run(run_id: str) -> bool:
-    """Bring a run up to date."""
-    with _at("run", run_id):
-        try:
-            return step_run(run_id)
-        except StepConflict:
-            return False
+@shared_task(name=mailbox.DRIVE_SITE, ignore_result=True)  # type: ignore[untyped-decorator]
+def drive_site(slug: str) -> bool:
+    """Carry out a site's runs while there is work; done by one process at a time."""
+    with _at("site", slug):
+        return drive(slug)
 
 
 @shared_task(name="execution.tasks.advance_site", ignore_result=True)  # type: ignore[untyped-decorator]
-def advance_site(slug: str) -> bool:
-    """Bring a site's floor up to date."""
-    with _at("site", slug):
-        try:
-            return step_site(slug)
-        except StepConflict:
-            return False
+def advance_site(slug: str) -> None:
+    """Wake a site's owner: the version before sent this, and it may still stand in the queue."""
+    mailbox.hint_now(slug)
+
+
+@shared_task(name="execution.tasks.advance_run", ignore_result=True)  # type: ignore[untyped-decorator]
+def advance_run(run_id: str) -> None:
+    """Wake the owner of a run's site, as `advance_site` does."""
+    with suppress(NotFound):
+        mailbox.hint_now(site_of_run(run_id=run_id))
+
+
+@worker_shutting_down.connect  # type: ignore[untyped-decorator]
+def hand_over(**_more: Any) -> None:
+    """Hand every site over before the worker waits for its tasks to end."""
+    leave()
 
 
 @shared_task(name="execution.tasks.rehearse", ignore_result=True)  # type: ignore[untyped-decorator]

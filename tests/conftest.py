@@ -5,6 +5,7 @@ too, looks for new ones, a third as many.
 """
 
 import os
+import sys
 
 import pytest
 from hypothesis import settings
@@ -15,3 +16,11 @@ settings.load_profile("steady" if os.environ.get("VIPO_STEADY") == "1" else "sea
 
 pytest.register_assert_rewrite("tests.kit")
 pytest_plugins = ["tests.kit.scheduling", "tests.kit.databases"]
+
+
+@pytest.fixture(autouse=True)
+def _nothing_remembered():
+    """Let no test carry on with a site that an owner remembers from another test's database."""
+    yield
+    if drive := sys.modules.get("execution.engine.drive"):
+        drive.forget_all()

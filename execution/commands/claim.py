@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import dataclass
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from functools import reduce
 from typing import Any, NamedTuple
 from uuid import UUID
 
-import psycopg
 from django.db import connection
 
+from execution import database
 from execution.clock import steady_s
+from execution.database import preparing_cursor
 from execution.models import Command, Run
 from execution.traffic.messages import CONTROLS
 from registry import services as registry
@@ -144,9 +144,9 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
     have forgotten it.
     Taking is one statement; before it stand two short questions, and none where nothing is due.
     """
-    now = datetime.now(UTC)
+    now = database.now()
     late_at_s = steady_s() + CLAIM_HOLDS_S
-    with _preparing_cursor() as cursor:
+    with preparing_cursor() as cursor:
         cursor.execute(_DUE, [connection.ops.adapt_datetimefield_value(now)])
         due = [device for (device,) in cursor.fetchall()]
         facts = registry.list_delivery_facts(devices=due) if due else {}
@@ -159,19 +159,6 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
         rows = cursor.fetchall()
     ordered = sorted(rows, key=lambda row: row[:2])
     return tuple(_outgoing(facts.get(row[3]), late_at_s, _Claimed(*row[2:])) for row in ordered)
-
-
-@contextmanager
-def _preparing_cursor() -> Iterator[Any]:
-    """Give a cursor for which PostgreSQL plans a statement once; planning takes longer than claiming."""
-    if connection.vendor != "postgresql":
-        with connection.cursor() as cursor:
-            yield cursor
-        return
-    connection.ensure_connection()
-    connection.connection.prepare_threshold = 0
-    with connection.wrap_database_errors, psycopg.Cursor(connection.connection) as prepared:
-        yield prepared
 
 
 def _parameters(now: datetime, limit: int) -> dict[str, Any]:
@@ -208,7 +195,7 @@ def _outgoing(facts: registry.DeliveryFacts | None, late_at_s: float, row: _Clai
 
 def release_commands(*, commands: Iterable[OutgoingCommand]) -> int:
     """Give back claims that came to nothing, to be made again at once; return how many nobody else has by now."""
-    now, count = datetime.now(UTC), 0
+    now, count = database.now(), 0
     for command in commands:
         mine = Command.objects.filter(id=command.id, tries=command.tries, status__in=UNANSWERED)
         count += mine.update(send_after=now, tries=command.tries - 1)
@@ -218,7 +205,7 @@ def release_commands(*, commands: Iterable[OutgoingCommand]) -> int:
 def mark_commands_sent(*, ids: Iterable[str]) -> None:
     """Say that these commands have gone out."""
     keys = [UUID(key).hex if connection.vendor == "sqlite" else UUID(key) for key in ids]
-    sent_at = connection.ops.adapt_datetimefield_value(datetime.now(UTC))
+    sent_at = connection.ops.adapt_datetimefield_value(database.now())
     if not keys:  # PostgreSQL knows no empty list
         return
     with connection.cursor() as cursor:

@@ -8,16 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from typing import Any
 from uuid import UUID, uuid4
 
 from django.db import transaction
 from django.db.models import F
 
-from execution import mailbox
+from execution import database, mailbox
 from execution.errors import BadArguments, NotFound, NotPossibleNow
 from execution.floor.stops import cancel_calls, get_stop, is_stopped
+from execution.lease import fence_of
 from execution.models import Command, FloorState, Run
 from execution.traffic import floor
 from execution.traffic.messages import CONTROLS, CallCancelled, CallSent
@@ -133,8 +134,9 @@ class _Order:
 
 
 def _write(row: FloorState, order: _Order) -> Command:
-    now = datetime.now(UTC)
-    FloorState.objects.filter(pk=row.pk).update(commands=F("commands") + 1)
+    now = database.now()
+    # By the epoch the owner sees that the device is taken now: what it has decided meanwhile is decided anew.
+    FloorState.objects.filter(pk=row.pk).update(commands=F("commands") + 1, epoch=F("epoch") + 1)
     return Command.objects.create(
         id=uuid4(),
         site_id=row.site_id,
@@ -143,7 +145,7 @@ def _write(row: FloorState, order: _Order) -> Command:
         method=order.method,
         arguments=dict(order.arguments),
         by=order.by[:120],
-        fence=row.epoch,
+        fence=fence_of(row.site_id),
         site_fence=order.fence,
         ttl_s=EXPIRY_S,
         send_after=now,

@@ -6,15 +6,15 @@ A device that answers as docs/protocol.md says is judged by its answers alone, o
 from __future__ import annotations
 
 from collections.abc import Mapping
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from uuid import UUID
 
 from django.db import transaction
 from django.db.models import Q
 
-from execution import mailbox
+from execution import database, mailbox
 from execution.commands.claim import LAST_RETRY_S, NEVER_AGAIN_S, UNANSWERED
-from execution.floor_protocol import CommandEnded
+from execution.floor_protocol import CommandEnded, ToFloor, ToRun
 from execution.models import Command
 from execution.reasons import SENTENCES
 from execution.traffic.messages import CONTROLS, CommandAnswered
@@ -41,7 +41,7 @@ def resend_commands(*, device: str) -> int:
     It may have been started anew and know none of them; one that it knows it only answers again.
     """
     open_rows = Command.objects.filter(device=device, status__in=Command.OPEN)
-    return open_rows.update(send_after=datetime.now(UTC))
+    return open_rows.update(send_after=database.now())
 
 
 def record_ack(
@@ -107,11 +107,12 @@ def _close_pieces_before(row: Command, at: datetime) -> None:
 
 def _pass_on(row: Command, status: str, why: str, result: Mapping[str, Scalar]) -> None:
     """Tell the floor, and the run for its journal."""
+    answer = CommandAnswered(str(row.id), status, why, result)
+    told: list[tuple[str, str, ToFloor | ToRun]] = [(mailbox.site_target(row.site.slug), f"answer:{row.id}", answer)]
     if row.run is not None and not row.piece:
         ended = CommandEnded(row.device, row.method, row.step, status, why)
-        mailbox.post_to_run(row.run, [(f"note:{row.id}", ended)])
-    answer = CommandAnswered(str(row.id), status, why, result)
-    mailbox.post_to_floor(row.site.slug, [(f"answer:{row.id}", answer)])
+        told.insert(0, (mailbox.run_target(row.run), f"note:{row.id}", ended))
+    mailbox.post(row.site.slug, told)
 
 
 def end_commands_of_those_out(now: datetime) -> None:

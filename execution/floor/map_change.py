@@ -49,7 +49,8 @@ def _require_rest(site: str) -> None:
 def _begin_anew(floor: FloorState, site: str) -> None:
     """Forget the old map's cells; commands get ids of a new namespace, and a stop goes on."""
     floor.state, floor.namespace = None, uuid4()
-    floor.save(update_fields=["state", "namespace"])
+    floor.epoch += 1  # the owner that knows the old floor writes nothing any more
+    floor.save(update_fields=["state", "namespace", "epoch"])
     if is_stopped(site=site):
         mailbox.post_to_floor(site, [(f"stop:{uuid4()}", StopPressed())])
-    mailbox.hint(mailbox.site_target(site))
+    mailbox.hint(site)

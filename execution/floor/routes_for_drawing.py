@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from execution.floor.advance import get_layout
+from execution.floor.layouts import get_layout
 from execution.machine.floor_task import Target
 from execution.traffic.layout import Layout, NoSuchSpot
 from execution.traffic.routes import drawn, length_m, plan_path

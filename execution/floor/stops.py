@@ -177,11 +177,11 @@ def _open_held(site: str = "") -> QuerySet[Run]:
 
 def pause_held(runs: QuerySet[Run], again: str = "") -> None:
     """Ask runs to pause that stand still under an old fence, once at each of their steps, or once more."""
-    facts = ("id", "epoch", "site__stop_latch__pressed", "site__stop_latch__by")
-    for run, epoch, pressed, by in list(runs.values_list(*facts)):
+    facts = ("id", "site__slug", "epoch", "site__stop_latch__pressed", "site__stop_latch__by")
+    for run, site, epoch, pressed, by in list(runs.values_list(*facts)):
         who = by or "Somebody"
         asked = PauseAsked(f"{who} stopped all devices of the site")
-        mailbox.post_to_run(run, [(f"stop:{run}:{pressed}:{epoch}{again}", asked)])
+        mailbox.post_to_run(site, run, [(f"stop:{run}:{pressed}:{epoch}{again}", asked)])
 
 
 def hold_if_stopped(run: Run) -> bool:

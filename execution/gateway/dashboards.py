@@ -13,11 +13,12 @@ import threading
 import time
 from collections import defaultdict
 from collections.abc import Mapping
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Any
 
 from django.db import DatabaseError, InterfaceError, connection
 
+from execution import database
 from execution.lease import HeldLease
 from registry import services as registry
 from vipo_device.protocol.errors import VipoError
@@ -67,7 +68,7 @@ class Dashboards:
         try:
             while not stopping.wait(EVERY_S):
                 try:
-                    self._turn(datetime.now(UTC))
+                    self._turn(database.now())
                 except (DatabaseError, InterfaceError) as error:
                     log.warning("What dashboards hear waits for the database: %s", error)
                     self._forget()

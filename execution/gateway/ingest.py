@@ -6,13 +6,13 @@ import logging
 import threading
 from collections import Counter, defaultdict, deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from datetime import UTC, datetime
+from datetime import datetime
 from time import monotonic
 from typing import Any
 
 from django.db import DatabaseError, InterfaceError, OperationalError, connection
 
-from execution import mailbox
+from execution import database, mailbox
 from execution.commands import outbox
 from execution.gateway.queue import Entry
 from registry import services as registry
@@ -76,7 +76,7 @@ class Ingester:
             return []
         said = {entry.device: entry.message.payload for entry in entries}
         try:
-            same = registry.find_unchanged(descriptions=said, at=datetime.now(UTC))
+            same = registry.find_unchanged(descriptions=said, at=database.now())
         except (DatabaseError, InterfaceError):
             return []
         registry.note_mended(devices=same, code="description_refused")
@@ -87,13 +87,13 @@ class Ingester:
 
     def _take_states(self, entries: list[Entry]) -> bool:
         """Take in states of different devices with one question and one write; False when that did not work."""
-        at = datetime.now(UTC)
+        at = database.now()
         said = [registry.StateMessage(e.device, e.message.payload, at, e.message.retained) for e in entries]
         return self._take_together(entries, "state", lambda: registry.ingest_states(states=said), at)
 
     def _take_descriptions(self, entries: list[Entry]) -> bool:
         """Take in descriptions of different devices with few statements; False when that did not work."""
-        at = datetime.now(UTC)
+        at = database.now()
         said = [registry.DescriptionMessage(e.device, e.message.payload, at) for e in entries]
         return self._take_together(entries, "desc", lambda: registry.ingest_descriptions(descriptions=said), at)
 
@@ -157,7 +157,7 @@ class Ingester:
         entry.message.acknowledge()
 
     def _ingest_one(self, device: str, kind: str, message: Message) -> None:
-        at = datetime.now(UTC)
+        at = database.now()
         if kind == ENROLMENT:
             site, _ = messages.read_join_topic(message.topic) or ("", "")
             registry.enrol_device(site=site, device_id=device, payload=message.payload, at=at)
@@ -198,7 +198,7 @@ class Ingester:
         """Wake what depends on poses, presence or readings; what comes too soon after that is seen by the next."""
         if now - self._woken_at.get(site, -CHANGES_EVERY_S) >= CHANGES_EVERY_S:
             self._woken_at[site] = now
-            mailbox.hint_watching(site)
+            mailbox.say_changed(site)
 
 
 def _asked_at(entry: Entry) -> str:

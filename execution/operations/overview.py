@@ -10,17 +10,19 @@ from typing import Any
 
 from celery import current_app
 from django.db.models import Count, Min, Q
+from django.db.models.functions import Now
 from django.db.models.query import QuerySet
 from kombu.exceptions import ChannelError, OperationalError
 
-from execution import mailbox
-from execution.models import Command, InboxEvent, Lease, Rehearsal, Run
+from execution.models import Command, InboxEvent, Lease, Rehearsal, Run, SiteLease
 
 log = logging.getLogger(__name__)
 OVERDUE_AFTER = timedelta(seconds=10)
 """A device answers at once, if only that it has begun; one that has not by then is away or does not understand."""
 MOST_OVERDUE = 20
-TASK_QUEUES = ("celery",)
+MOST_OWNERS = 200
+OF_SITE = "site:"
+TASK_QUEUES = ("runs", "rehearsals", "upkeep")
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,9 +102,7 @@ def _waiting_in_inboxes(site: str) -> tuple[int, datetime | None]:
     """Return how many events no run and no floor has taken in yet, and since when the first waits."""
     waiting = InboxEvent.objects.filter(taken_at=None)
     if site:
-        open_runs = Run.objects.filter(site__slug=site, status__in=Run.OPEN).values_list("id", flat=True)
-        targets = [mailbox.site_target(site), *map(mailbox.run_target, open_runs)]
-        waiting = waiting.filter(target__in=targets)
+        waiting = waiting.filter(site=site)
     found = waiting.aggregate(count=Count("id"), oldest=Min("created_at"))
     return found["count"], found["oldest"]
 
@@ -122,8 +122,11 @@ def list_overdue(*, site: str, now: datetime) -> tuple[int, tuple[OverdueView, .
 
 
 def list_leases() -> tuple[LeaseView, ...]:
-    """Return who does the jobs of which there is one each."""
-    return tuple(LeaseView(row.name, row.holder, row.until) for row in Lease.objects.order_by("name"))
+    """Return who does the jobs of which there is one each, and who carries out the runs of sites (`site:SLUG`)."""
+    jobs = tuple(LeaseView(row.name, row.holder, row.until) for row in Lease.objects.order_by("name"))
+    owned = SiteLease.objects.exclude(owner="").filter(expires_at__gte=Now()).order_by("site__slug")
+    owners = owned.values_list("site__slug", "owner", "expires_at")[:MOST_OWNERS]
+    return jobs + tuple(LeaseView(f"{OF_SITE}{site}", owner, until) for site, owner, until in owners)
 
 
 def read_task_queues() -> dict[str, int]:

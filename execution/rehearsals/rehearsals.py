@@ -17,7 +17,7 @@ from django.db.models.functions import Now
 
 from execution import mailbox
 from execution.errors import NotFound, NotPossibleNow, TooManyRehearsals
-from execution.floor.advance import place_facts
+from execution.floor.layouts import place_facts
 from execution.models import Lease, Rehearsal
 from execution.rehearsals.child_process import scene_to_json
 from execution.rehearsals.queue_order import Entry, order_fairly

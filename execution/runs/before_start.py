@@ -1,4 +1,4 @@
-"""A run that waits for its time: it can be paused, resumed and cancelled, and nothing of it has begun."""
+"""A run of which nothing has begun, since it waits for its time or was set aside: it is paused, resumed, cancelled."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from execution.runs.journal import Journal, describe
 
 
 def is_before_start(run: Run) -> bool:
-    """Tell whether a run was planned for later and has not begun."""
-    return run.state is None and run.not_before is not None
+    """Tell whether a run was planned for later and has not begun, or could not begin when it should."""
+    return run.started_at is None and (run.not_before is not None or run.status == Run.Status.PAUSED)
 
 
 def may_begin(run: Run, now: datetime) -> bool:
     """Tell whether a run that is open goes on, or begins, now; one that is paused before its start does not."""
     if not is_before_start(run):
         return True
-    return run.status == Run.Status.PENDING and run.not_before is not None and run.not_before <= now
+    return run.status == Run.Status.PENDING and (run.not_before is None or run.not_before <= now)
 
 
 def take_in(run: Run, journal: Journal, messages: list[ToRun]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import OrderedDict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from datetime import datetime
 from uuid import UUID
 
@@ -22,7 +22,7 @@ _posed_at: OrderedDict[UUID, float] = OrderedDict()
 
 def facts_of(needs: Needs, run: Run, messages: Iterable[ToRun], now: datetime) -> Facts:
     """Return what a run wants to know; robots' positions at most once a second."""
-    robots = run.state is None or _is_time_for_poses(run.id)
+    robots = run.started_at is None or _is_time_for_poses(run.id)
     taken = {message.robot for message in messages if isinstance(message, RoleFilled)}
     of_roles = frozenset(taken.union(run.roles.values()))
     return site_facts(needs, run.site.slug, now, robots=robots, of_roles=of_roles) | role_facts(needs, run.roles)
@@ -47,10 +47,9 @@ def site_facts(
     return facts
 
 
-def names_of(run: Run, messages: Iterable[ToRun]) -> Mapping[str, str]:
-    """Return what the devices are called that the lines about these messages may name, by id."""
-    ids = {str(name) for message in messages for name in _named(message) if name}
-    return registry.get_device_names(site=run.site.slug, ids=ids) if ids else {}
+def things_named(messages: Iterable[ToRun]) -> frozenset[str]:
+    """Return what may be ids of devices that the lines about these messages name."""
+    return frozenset(str(name) for message in messages for name in _named(message) if name)
 
 
 def _named(message: ToRun) -> Iterable[object]:

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import datetime
 from typing import Any, assert_never
-
-from django.db import transaction
 
 from execution.floor_protocol import (
     CommandEnded,
@@ -55,6 +53,7 @@ class Journal:
         self.steps: dict[str, dict[str, Any]] = {key: dict(value) for key, value in run.steps.items()}
         self.roles: dict[str, str] = dict(run.roles)
         self._names = names
+        self.live: list[Mapping[str, Any]] = []
         self._rows: list[RunEvent] = []
 
     def say(self, kind: str, text: str, *, step: str = "", code: str = "", **more: Any) -> None:
@@ -171,13 +170,17 @@ class Journal:
     def _name(self, device: str) -> str:
         return self._names.get(device, device)
 
-    def write(self) -> None:
-        """Store the new lines, and show them to whoever watches once the transaction is through."""
-        RunEvent.objects.bulk_create(self._rows)
-        run, rows = self.run, self._rows
-        run.steps, run.roles, run.next_seq = self.steps, self.roles, self.seq
-        slug = run.site.slug
-        messages = [{"type": "run_event", "run": str(run.id), "event": event_to_json(view_event(row))} for row in rows]
-        messages.append({"type": "run", "run": run_to_json(view_run(run))})
+    def show(self, message: Mapping[str, Any]) -> None:
+        """Let people who watch the site see a message once the step is kept."""
+        self.live.append(message)
 
-        transaction.on_commit(lambda: registry.publish_all([(slug, message) for message in messages]))
+    def close(self) -> list[RunEvent]:
+        """Bring the run's row up to date and return the new lines, which are still to be kept."""
+        self.run.steps, self.run.roles, self.run.next_seq = self.steps, self.roles, self.seq
+        return self._rows
+
+
+def shown(run: Run, lines: Sequence[RunEvent]) -> list[dict[str, Any]]:
+    """Return what is shown of a run's new lines, and of the run as it is after them."""
+    messages = [{"type": "run_event", "run": str(run.id), "event": event_to_json(view_event(row))} for row in lines]
+    return [*messages, {"type": "run", "run": run_to_json(view_run(run))}]

@@ -5,12 +5,9 @@ from __future__ import annotations
 from datetime import datetime, timedelta
 from typing import Any
 
-from django.db import transaction
-
 from execution.machine import messages as r
 from execution.models import Run
 from execution.runs.journal import Journal
-from registry import services as registry
 
 SHOWN_PER_MINUTE = 20
 WINDOW = timedelta(minutes=1)
@@ -25,8 +22,7 @@ def tell(run: Run, journal: Journal, action: r.Tell) -> None:
     count["shown"] += 1
     journal.say("notice", action.text, step=action.step, code="told", level=action.level)
     message = {"type": "notice", "run": str(run.id), "text": action.text, "level": action.level}
-    slug = run.site.slug
-    transaction.on_commit(lambda: registry.publish(slug, message))
+    journal.show(message)
 
 
 def tell_late(run: Run, journal: Journal) -> None:
@@ -38,8 +34,7 @@ def tell_late(run: Run, journal: Journal) -> None:
     more: dict[str, Any] = {"number": run.number, "program": run.program_name}
     journal.say("notice", text, code="deadline_passed", level="warning", **more)
     message = {"type": "notice", "run": str(run.id), "text": text, "level": "warning", "code": "deadline_passed"}
-    slug = run.site.slug
-    transaction.on_commit(lambda: registry.publish(slug, {**message, "args": more}))
+    journal.show({**message, "args": more})
 
 
 def _count(run: Run, journal: Journal) -> dict[str, int]:

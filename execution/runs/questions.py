@@ -58,7 +58,8 @@ def answer_question(*, question_id: UUID | str, value: Any, by: str) -> Question
             row.refresh_from_db()
             _refuse(row)
         row.refresh_from_db()
-        mailbox.post_to_run(row.run_id, [(f"reply:{row.id}", QuestionAnswered(row.number, fitting, by, row.step))])
+        answered = QuestionAnswered(row.number, fitting, by, row.step)
+        mailbox.post_to_run(row.run.site.slug, row.run_id, [(f"reply:{row.id}", answered)])
         publish(row)
     return view_question(row)
 

@@ -3,48 +3,36 @@
 from __future__ import annotations
 
 from datetime import datetime, timedelta
+from uuid import UUID
 
 from execution import mailbox
 from execution.floor_protocol import TaskEnded, ToRun
 from execution.machine.floor_task import TaskOrder
 from execution.machine.needs import Needs
-from execution.mailbox import Delivery
-from execution.models import Command, Run, Timer
+from execution.models import Command, Run
 from execution.traffic.messages import TaskAsked
 from registry import services as registry
 
 AT_MOST = timedelta(milliseconds=300)
-WAKE_NUMBERS_FROM = 1_000_000_000
-"""Timers that only wake a run have numbers that no run gives to its own."""
 
 
-def asking_key(task: int) -> str:
-    """Return under which key, behind its own id, a run asks for a task of the floor."""
-    return f"ask:{task}"
+def asking_key(run: UUID | str, task: int) -> str:
+    """Return under which key runs of the version before have asked for a task of the floor."""
+    return f"{run}:ask:{task}"
 
 
-def split_early(
-    run: Run, needs: Needs, deliveries: list[Delivery[ToRun]], now: datetime
-) -> tuple[list[Delivery[ToRun]], list[Delivery[ToRun]]]:
-    """Return what to take in now, and the ends of tasks whose device has not spoken since."""
-    early = [delivery for delivery in deliveries if _is_early(run, needs, delivery, now)]
-    return [delivery for delivery in deliveries if delivery not in early], early
-
-
-def wake_later(run: Run, now: datetime) -> None:
-    """See to it that a run looks again when it has waited long enough."""
-    number = WAKE_NUMBERS_FROM + run.epoch
-    Timer.objects.get_or_create(run=run, timer=number, defaults={"due_at": now + AT_MOST})
-
-
-def _is_early(run: Run, needs: Needs, delivery: Delivery[ToRun], now: datetime) -> bool:
-    message = delivery.message
-    if not needs.properties or now - delivery.posted_at >= AT_MOST:
+def is_early(
+    run: Run, needs: Needs, message: ToRun, order: TaskOrder | None, waits_since: datetime, now: datetime
+) -> bool:
+    """Tell whether a message is the end of a task whose device has not spoken since; `order` None: not known."""
+    if not needs.properties or now - waits_since >= AT_MOST:
         return False
     if not isinstance(message, TaskEnded) or message.kind:
         return False
-    asked = mailbox.find_told(f"{run.id}:{asking_key(message.task)}")
-    return isinstance(asked, TaskAsked) and _has_not_spoken(run, needs, asked.order)
+    if order is None:
+        asked = mailbox.find_told(asking_key(run.id, message.task))
+        order = asked.order if isinstance(asked, TaskAsked) else None
+    return order is None or _has_not_spoken(run, needs, order)
 
 
 def _has_not_spoken(run: Run, needs: Needs, order: TaskOrder) -> bool:

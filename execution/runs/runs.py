@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Any
 from uuid import UUID, uuid4
 
 from django.db import IntegrityError, transaction
 from django.db.models import Max
 
-from execution import mailbox
+from execution import database, mailbox
 from execution.errors import NotFound, NotPossibleNow
 from execution.floor.stops import get_stop, hold_if_stopped
 from execution.floor_protocol import ResumeAsked, ToRun
@@ -40,7 +40,7 @@ def start_run(
     stop = get_stop(site=prepared.site)
     if stop.active:
         raise NotPossibleNow("The site is stopped. Reset the stop before you start a run.", {"why": "stopped"})
-    begin = _Beginning(by, entry, fit_terms(terms, datetime.now(UTC)), stop.fence if fence is None else fence)
+    begin = _Beginning(by, entry, fit_terms(terms, database.now()), stop.fence if fence is None else fence)
     row = _create_numbered(prepared, begin)
     transaction.on_commit(lambda: hold_if_stopped(row))
     return _announce(prepared, row)
@@ -58,7 +58,7 @@ class _Beginning:
 
 def _announce(prepared: Prepared, row: Run) -> RunView:
     view = view_run(row)
-    mailbox.hint(mailbox.run_target(row.id))
+    mailbox.hint(prepared.site)
     transaction.on_commit(lambda: registry.publish(prepared.site, {"type": "run", "run": run_to_json(view)}))
     return view
 
@@ -93,7 +93,7 @@ def _create(prepared: Prepared, begin: _Beginning) -> Run:
         not_before=begin.terms.not_before,
         deadline=begin.terms.deadline,
         fence=begin.fence,
-        created_at=datetime.now(UTC),
+        created_at=database.now(),
     )
 
 
@@ -129,7 +129,7 @@ def cancel_run(*, run_id: UUID | str, by: str) -> RunView:
 
 def _order(row: Run, order: ToRun) -> RunView:
     with transaction.atomic():
-        mailbox.post_to_run(row.id, [(f"order:{row.id}:{uuid4()}", order)])
+        mailbox.post_to_run(row.site.slug, row.id, [(f"order:{row.id}:{uuid4()}", order)])
     return view_run(row)
 
 

@@ -48,5 +48,5 @@ def fit_terms(terms: Terms, now: datetime) -> Terms:
 def call_late(now: datetime) -> None:
     """Tell runs whose deadline has passed; each of them takes it in once."""
     late = Run.objects.filter(status__in=Run.OPEN, late=False, deadline__lte=now)
-    for run in late.values_list("id", flat=True):
-        mailbox.post_to_run(run, [(f"deadline:{run}", DeadlinePassed())])
+    for run, site in late.values_list("id", "site__slug"):
+        mailbox.post_to_run(site, run, [(f"deadline:{run}", DeadlinePassed())])

@@ -6,15 +6,17 @@ import logging
 import os
 import socket
 import threading
-from datetime import UTC, datetime, timedelta
+from collections import defaultdict
+from datetime import datetime, timedelta
 
 from django.db import DatabaseError, connection, transaction
 from django.db.models import Q
 
-from execution import mailbox
+from execution import database, mailbox
 from execution.commands.manual_calls import expire_calls
 from execution.commands.outbox import drop_stale_controls, end_commands_of_those_out
 from execution.floor.stops import follow_stops
+from execution.floor_protocol import ToFloor, ToRun
 from execution.lease import HeldLease
 from execution.machine.messages import TimerFired
 from execution.models import Run, Timer
@@ -54,7 +56,7 @@ class Ticker:
             sweep(now)
             for view in registry.mark_stale(now=now):
                 registry.note_samples(view=view, at=now)
-                mailbox.send_hint(mailbox.ADVANCE_SITE, view.site)
+                mailbox.hint_now(view.site)
             registry.flush_samples()
             watch_alerts(now=now, since=self._leads_since)
         if self._is_due("prune", PRUNE_S, now):
@@ -79,10 +81,15 @@ class Ticker:
 def fire_timers(now: datetime) -> int:
     """Turn due timers into events, the earliest first; returns how many."""
     with transaction.atomic():
-        rows = Timer.objects.select_for_update(skip_locked=True).filter(due_at__lte=now)
+        rows = Timer.objects.select_for_update(skip_locked=True, of=("self",)).filter(due_at__lte=now)
+        rows = rows.select_related("run__site").only("timer", "due_at", "run__site__slug")
         due = list(rows.order_by("due_at", "timer")[:500])
+        fired: defaultdict[str, list[tuple[str, str, ToFloor | ToRun]]] = defaultdict(list)
         for row in due:
-            mailbox.post_to_run(row.run_id, [(f"timer:{row.run_id}:{row.timer}", TimerFired(row.timer))])
+            message = (mailbox.run_target(row.run_id), f"timer:{row.run_id}:{row.timer}", TimerFired(row.timer))
+            fired[row.run.site.slug].append(message)
+        for site, messages in fired.items():
+            mailbox.post(site, messages)
         Timer.objects.filter(id__in=[row.id for row in due]).delete()
     return len(due)
 
@@ -92,8 +99,8 @@ def sweep(now: datetime) -> None:
     mailbox.hint_left(now - LOST_AFTER)
     pending = Run.objects.filter(status=Run.Status.PENDING, created_at__lt=now - LOST_AFTER)
     pending = pending.filter(Q(not_before=None) | Q(not_before__lte=now))
-    for run in pending.values_list("id", flat=True):
-        mailbox.send_hint(mailbox.ADVANCE_RUN, str(run))
+    for site in pending.values_list("site__slug", flat=True).distinct():
+        mailbox.hint_now(site)
     call_late(now)
     follow_stops()
     drop_stale_controls(now)
@@ -122,7 +129,7 @@ def run_ticker(*, stopping: threading.Event, heart: registry.Heart | None = None
         if heart is not None:
             heart.beat("leads" if leads else "stands_by")
         try:
-            leads = tick(datetime.now(UTC))
+            leads = tick(database.now())
         except DatabaseError as error:
             log.warning("The ticker's database does not answer: %s", error)
             connection.close()

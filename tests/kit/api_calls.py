@@ -16,7 +16,7 @@ from django.db import transaction
 from django.test import Client
 
 from editor import services as editor
-from execution.models import Command, Question, Rehearsal, Run
+from execution.models import Command, DeadLetter, Question, Rehearsal, Run
 from registry import services
 from registry.models import Device, DeviceAlert, Site
 from tests.kit.api_rights import OPERATIONS
@@ -72,6 +72,9 @@ def make_one_of_each(slug: str) -> dict[str, str]:
         "run": run.pk,
         "question": Question.objects.create(run=run, number=1, text="Go?", answer=ANSWER, asked_at=NOW).pk,
         "rehearsal": Rehearsal.objects.create(site=site, program=program, created_at=NOW, **content).pk,
+        "letter": DeadLetter.objects.create(
+            site=site, run=run, target=f"run:{run.pk}", event={"type": "resume", "by": ""}, error="Broken.", at=NOW
+        ).pk,
         "function": function,
         "call": call.pk,
         "alert_id": DeviceAlert.objects.create(device_id=device, code="offline", first_at=NOW, last_at=NOW).pk,

@@ -183,6 +183,7 @@ def start_workers() -> list[Part]:
 
 def _start_worker(name: str, app: Any, queues: str, threads: int) -> Part:
     """Run one worker with so many threads."""
+    from execution.services import leave
     from vipo_site.celery import begin_to_beat, say_goodbye
 
     worker: Any = app.WorkController(
@@ -200,6 +201,7 @@ def _start_worker(name: str, app: Any, queues: str, threads: int) -> Part:
 
     def stop() -> None:
         worker_shutting_down.send(sender=name)
+        leave()
         worker.stop()
         thread.join(4)
         say_goodbye()

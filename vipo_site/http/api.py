@@ -12,6 +12,7 @@ from ninja.types import DictStrAny
 
 from editor.api import router as editor_router
 from execution.api import router as execution_router
+from execution.dead_letters_api import router as dead_letters_router
 from registry.api.alerts import router as alerts_router
 from registry.api.authentication import token_or_session
 from registry.api.devices import router as devices_router
@@ -121,3 +122,4 @@ api.add_router("", things_router)
 api.add_router("", mtconnect_router)
 api.add_router("", editor_router)
 api.add_router("", execution_router)
+api.add_router("", dead_letters_router)

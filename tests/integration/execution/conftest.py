@@ -8,10 +8,9 @@ from uuid import uuid4
 import pytest
 
 from editor.language import plan_to_json
-from execution import mailbox, services
-from execution.floor.advance import advance_site
+from execution import services
+from execution.engine.drive import advance_site
 from execution.models import Command, FloorState, InboxEvent, Run, Timer
-from execution.runs.advance import advance_run
 from execution.ticker.ticker import fire_timers
 from registry import services as registry
 from registry.demo.factory import make_grid, read_plan
@@ -54,26 +53,18 @@ class Shop:
         return str(services.start_run(prepared=prepared, by="Ada").id)
 
     def work(self):
-        """What workers do with hints: everything that waits is taken in."""
+        """What a worker does with hints: everything that waits is taken in."""
         for _ in range(100):
-            targets = set(InboxEvent.objects.filter(taken_at=None).values_list("target", flat=True))
-            pending = Run.objects.filter(status="pending").exclude(not_before__gt=datetime.now(UTC))
-            pending = pending.values_list("id", flat=True)
-            targets |= {mailbox.run_target(run) for run in pending}
-            if not targets:
+            waits = InboxEvent.objects.filter(taken_at=None).exists()
+            pending = Run.objects.filter(status="pending").exclude(not_before__gt=datetime.now(UTC)).exists()
+            if not waits and not pending:
                 return
-            for target in sorted(targets):
-                kind, _, name = target.partition(":")
-                if not (advance_run(name) if kind == "run" else advance_site(name)):
-                    InboxEvent.objects.filter(target=target, taken_at=None).update(taken_at=datetime.now(UTC))
+            assert advance_site(SITE)
         raise AssertionError("the inboxes never run empty")
 
-    def work_once(self, rounds=4):
-        """What workers do in a moment: what is held back for a device's next word stays."""
-        for _ in range(rounds):
-            for target in sorted(set(InboxEvent.objects.filter(taken_at=None).values_list("target", flat=True))):
-                kind, _, name = target.partition(":")
-                advance_run(name) if kind == "run" else advance_site(name)
+    def work_once(self):
+        """What a worker does in a moment: what is held back for a device's next word stays."""
+        assert advance_site(SITE)
 
     def send(self):
         """What the gateway does: commands to devices, each as often as `deliveries` says."""

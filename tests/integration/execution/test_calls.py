@@ -15,7 +15,7 @@ from editor.language.plan.instructions import Call, End, Instruction, Move, Plan
 from execution import services
 from execution.commands.manual_calls import NO_ANSWER, expire_calls
 from execution.commands.outbox import end_commands_of_those_out
-from execution.floor.advance import advance_site
+from execution.engine.drive import advance_site
 from execution.models import Command, InboxEvent
 from registry import services as registry
 from registry.demo.devices import DEVICES

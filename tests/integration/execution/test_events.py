@@ -5,9 +5,9 @@ import pytest
 from editor.language.expressions.nodes import Constant, Operation, PlaceRef, Reading
 from editor.language.plan.instructions import Call, End, EventEnd, EventEntry, Instruction, Notify, Plan, Wait
 from execution import services
+from execution.engine.drive import advance_site
 from execution.models import Run, RunEvent
-from execution.runs.advance import advance_run
-from tests.kit.programs import heat_oven
+from tests.kit.programs import SITE, heat_oven
 
 pytestmark = pytest.mark.django_db(transaction=True)
 OVEN = "curingOven01"
@@ -38,7 +38,7 @@ def test_a_reading_that_crosses_its_limit_starts_the_body_each_time(factory):
     assert Run.objects.get(id=run).watches is True
     for value in (90, 95, 30, 85):
         heat_oven(value)
-        advance_run(run)
+        advance_site(SITE)
     assert told(run) == ["It is hot", "It is hot"]
     steps = Run.objects.get(id=run).steps
     assert (steps["e"]["count"], steps["e"]["status"], steps["w"]["status"]) == (2, "done", "running")
@@ -58,7 +58,7 @@ def test_what_fails_in_an_events_body_fails_the_run(factory):
     run = factory.start(program(HOT, Instruction(call, "b")))
     factory.work()
     heat_oven(90)
-    advance_run(run)
+    advance_site(SITE)
     factory.work()
     row = Run.objects.get(id=run)
     assert row.status == "failed"
@@ -73,7 +73,7 @@ def test_a_paused_run_looks_at_its_events_when_it_goes_on(factory):
     services.pause_run(run_id=run, by="Ada")
     factory.work()
     heat_oven(90)
-    advance_run(run)
+    advance_site(SITE)
     assert told(run) == []
     services.resume_run(run_id=run, by="Ada")
     factory.work()

@@ -18,8 +18,8 @@ from editor.language.plan.instructions import (
     Wait,
 )
 from execution import services
+from execution.engine.drive import advance_site
 from execution.models import Command, InboxEvent, Question, Run, RunEvent, Timer
-from execution.runs.advance import advance_run
 from tests.kit.programs import CARRY, OVEN, SITE, run_status
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -163,7 +163,9 @@ def test_a_run_that_is_over_is_not_advanced(factory):
     run = factory.start(Plan((Instruction(End()),)))
     factory.work()
     assert run_status(run) == "finished"
-    assert advance_run(run) is False
+    before = whole_history(run)
+    assert advance_site(SITE)
+    assert whole_history(run) == before
 
 
 # time limits: commands are called off, the run goes on after a restart, timers do not stay behind

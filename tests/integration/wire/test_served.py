@@ -37,7 +37,7 @@ again = {"kind": "wait", "place": ["repeat", "body", "V"], "pos": [1, -1], "para
 document = {**document, "steps": {"repeat": repeat, "again": again}}
 services.create_program(site="painting-factory", name="Endless", document=document)
 """
-WAIT_S = 6
+WAIT_S = 10
 OVER = {"finished", "failed", "cancelled"}
 
 
@@ -125,7 +125,7 @@ def test_a_pick_and_drop_runs_to_its_end_with_two_workers(served: Served) -> Non
         after = devices(second)
         assert stock(after, "itemInventory01") < stock(before, "itemInventory01")
     logs = [served.log(f"worker-{n}").read_text() for n in (1, 2)]
-    assert all("advance_site" in log or "advance_run" in log for log in logs), "one worker had nothing to do"
+    assert any("drive_site" in log for log in logs), "no worker has carried the site out"
 
 
 def rehearse_endlessly(clients: list[httpx.Client], times: int) -> list[str]:
@@ -229,7 +229,7 @@ def test_one_web_process_tells_of_all_and_of_a_gateway_that_freezes_and_comes_ba
         return sorted({line.split('"')[1] for line in lines})
 
     served.wait("every kind", lambda: beating() == ["gateway", "ticker", "twin", "web", "worker"], 60)
-    served.wait("its work", lambda: any("advance_run" in line and "SUCCESS" in line for line in of("vipo_tasks_total")))
+    served.wait("its work", lambda: any("drive_site" in line and "SUCCESS" in line for line in of("vipo_tasks_total")))
     served.wait("its answers", lambda: any('status="done"' in line for line in of("vipo_command_answers_total")))
     assert of("vipo_findings{") == set()
     frozen = next(process for name, process in served.processes.items() if name.startswith("gateway"))

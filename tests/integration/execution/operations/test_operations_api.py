@@ -148,12 +148,12 @@ def test_a_hundred_sites_and_a_thousand_commands_cost_no_question_more(hall: str
 
 
 def test_tasks_that_wait_are_counted_in_the_tasks_own_broker(hall: str) -> None:
-    before = services.read_task_queues()["celery"]
+    before = services.read_task_queues()["runs"]
     current_app.send_task("execution.tasks.advance_site", args=["nowhere"])
-    assert services.read_task_queues()["celery"] == before + 1
+    assert services.read_task_queues()["runs"] == before + 1
     with current_app.connection_for_write() as link:
-        link.default_channel.queue_purge("celery")
-    assert services.read_task_queues() == {"celery": 0}
+        link.default_channel.queue_purge("runs")
+    assert services.read_task_queues() == {"runs": 0, "rehearsals": 0, "upkeep": 0}
 
 
 def test_every_answer_has_the_id_of_its_request_and_no_other_text(hall: str) -> None:

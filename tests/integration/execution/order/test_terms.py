@@ -10,8 +10,9 @@ from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant
 from editor.language.plan.instructions import End, Instruction, Plan, Wait
 from execution import mailbox, services
+from execution.engine import drive
+from execution.engine.drive import advance_site
 from execution.models import Run, RunEvent, Timer
-from execution.runs.advance import advance_run
 from execution.runs.terms import CLOCKS_APART, FARTHEST, Terms, fit_terms
 from execution.services import BadTerms
 from execution.ticker import ticker
@@ -35,6 +36,7 @@ def start(**terms):
 def bring(run, **columns):
     """Let time pass for a run: its times come nearer."""
     Run.objects.filter(id=run).update(**columns)
+    drive.forget_all()
 
 
 def codes(run):
@@ -45,26 +47,26 @@ def codes(run):
 def said(monkeypatch):
     """What browsers are told, as it goes to the sockets."""
     told = []
-    monkeypatch.setattr(registry, "publish", lambda site, message: told.append(message))
+    monkeypatch.setattr(registry, "publish_all", lambda messages: told.extend(message for _, message in messages))
     return told
 
 
 def test_a_run_for_later_waits_and_begins_when_the_ticker_sees_that_it_is_due(factory, monkeypatch):
     hints = []
-    monkeypatch.setattr(mailbox, "send_hint", lambda task, name: hints.append(name))
+    monkeypatch.setattr(mailbox, "hint_now", hints.append)
     at = now() + HOUR
     run = start(not_before=at)
     for _ in range(2):
-        assert advance_run(run)
+        assert advance_site(SITE)
     row = Run.objects.get(id=run)
     assert (row.status, row.state, row.started_at, row.epoch, codes(run)) == ("pending", None, None, 0, [])
     hints.clear()
     ticker.sweep(now() + timedelta(minutes=59))
     assert hints == []
     ticker.sweep(at + timedelta(seconds=2))
-    assert hints == [str(run)]
+    assert hints == [SITE]
     bring(run, not_before=now())
-    assert advance_run(run)
+    assert advance_site(SITE)
     assert Run.objects.get(id=run).status == "running"
     event = RunEvent.objects.filter(run=run).first()
     assert (event.code, event.text) == ("started_planned", "Run 1 began at its time; Ada has planned it.")
@@ -75,7 +77,7 @@ def test_it_begins_once_though_many_hints_come(factory):
     run = start(not_before=now() + HOUR)
     bring(run, not_before=now())
     for _ in range(3):
-        advance_run(run)
+        advance_site(SITE)
     assert (codes(run).count("started_planned"), Timer.objects.filter(run=run).count()) == (1, 1)
 
 
@@ -85,7 +87,7 @@ def test_a_waiting_run_is_cancelled_and_never_begins(factory):
     factory.work()
     bring(run, not_before=now())
     ticker.sweep(now() + HOUR)
-    assert not advance_run(run)
+    advance_site(SITE)
     row = Run.objects.get(id=run)
     assert (row.status, row.reason, row.state) == ("cancelled", "Otto cancelled it", None)
     assert (row.ended_at is not None, codes(run)) == (True, ["cancelled"])
@@ -98,7 +100,7 @@ def test_a_cancel_that_arrives_with_the_start_comes_before_it(factory):
     bring(run, not_before=now())
     services.cancel_run(run_id=run, by="Otto")
     services.cancel_run(run_id=run, by="Ada")
-    advance_run(run)
+    advance_site(SITE)
     row = Run.objects.get(id=run)
     assert (row.status, row.reason, row.started_at, codes(run)) == (
         "cancelled",
@@ -111,9 +113,9 @@ def test_a_cancel_that_arrives_with_the_start_comes_before_it(factory):
 def test_a_cancel_behind_the_start_ends_a_run_as_ever(factory):
     run = start(not_before=now() + HOUR)
     bring(run, not_before=now())
-    advance_run(run)
+    advance_site(SITE)
     services.cancel_run(run_id=run, by="Otto")
-    advance_run(run)
+    advance_site(SITE)
     assert (Run.objects.get(id=run).status, codes(run)[0], codes(run)[-1]) == (
         "cancelled",
         "started_planned",
@@ -130,7 +132,7 @@ def test_stop_all_holds_a_waiting_run_until_somebody_resumes_it(factory):
     bring(run, not_before=now())
     services.reset_stop(site=SITE, by="Otto")
     factory.work()
-    advance_run(run)
+    advance_site(SITE)
     assert Run.objects.get(id=run).state is None
     services.resume_run(run_id=run, by="Ada")
     factory.work()

@@ -7,7 +7,7 @@ from django.test.utils import CaptureQueriesContext
 from editor.language.expressions.nodes import Constant, Located, Operation, PlaceRef, Reading
 from editor.language.plan.instructions import End, Instruction, Move, Plan, RoleBinding
 from execution import services
-from execution.floor.advance import advance_site
+from execution.engine.drive import advance_site
 from registry.models import Device
 from simulation.services import make_world
 from simulation.world import Scene

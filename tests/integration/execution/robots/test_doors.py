@@ -1,5 +1,6 @@
 """Doors that robots pass, in runs: as the database keeps them, beside people and alerts."""
 
+from collections import OrderedDict
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
@@ -8,8 +9,9 @@ import pytest
 from editor.language.expressions.nodes import PlaceRef, Zone
 from editor.language.plan.instructions import Call, End, Instruction, Move, Plan, RoleBinding
 from execution import services
+from execution.engine import drive
 from execution.errors import NotPossibleNow
-from execution.floor import advance
+from execution.floor import layouts
 from execution.models import Command, FloorState
 from execution.ticker.alerts import watch_alerts
 from execution.traffic import doors
@@ -87,7 +89,8 @@ def test_a_run_passes_a_door_that_opens_for_it_and_closes_behind_it(hall):
 def test_a_floor_that_another_process_goes_on_with_holds_the_door(hall, monkeypatch):
     run = hall.start(going(EAST, WEST))
     hall.go(is_in_the_gate, dt_s=0.2)
-    monkeypatch.setattr(advance, "_layouts", {})
+    monkeypatch.setattr(layouts, "_layouts", {})
+    monkeypatch.setattr(drive, "_memories", OrderedDict())
     assert floor_now().doors["door02"].robots == ("robot01",)
     hall.go(lambda: run_status(run) == "finished")
     assert ("open", "done") in told()
@@ -122,7 +125,7 @@ def test_stop_all_holds_the_door_and_the_run_goes_on_after(hall):
         hall.work()
         hall.send()
         hall.pass_time(1.0)
-        advance.advance_site(SITE)
+        drive.advance_site(SITE)
     assert [method for method, _ in told() if method != "pause"] == ["open"]
     services.reset_stop(site=SITE, by="Ada")
     services.resume_run(run_id=run, by="Ada")

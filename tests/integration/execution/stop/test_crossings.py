@@ -17,9 +17,8 @@ from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant, Operation, Reading
 from editor.language.plan.instructions import EventEntry
 from execution import services
-from execution.floor.advance import advance_site
+from execution.engine.drive import advance_site
 from execution.models import ArmedProgram, Command, InboxEvent, Run, SiteStop
-from execution.runs.advance import advance_run
 from tests.kit.programs import CARRY, SITE, heat_oven
 from tests.kit.waiting import wait_for
 
@@ -121,7 +120,7 @@ def test_a_run_that_is_cancelled_while_the_stop_is_pressed_ends(factory, db):
 
 def test_a_run_whose_step_is_under_way_while_the_stop_is_pressed_and_reset_stands_still(factory, db):
     run = begin().id
-    with held(db, JOURNAL, lambda: advance_run(run)):
+    with held(db, JOURNAL, lambda: advance_site(SITE)):
         stop_and_reset()
     advance_site(SITE)  # what the step asked for is decided before the run has heard of the stop
     assert [c.method for c in Command.objects.all() if c.run == run] != []
@@ -134,7 +133,7 @@ def test_a_planned_start_that_is_due_while_the_stop_is_pressed_and_reset_stands_
     soon = services.Terms(not_before=datetime.now(UTC) + timedelta(minutes=1))
     run = services.start_run(prepared=prepared, by="Ada", terms=soon).id
     Run.objects.update(not_before=datetime.now(UTC) - timedelta(seconds=1))
-    with held(db, JOURNAL, lambda: advance_run(run)):
+    with held(db, JOURNAL, lambda: advance_site(SITE)):
         stop_and_reset()
     stands_still_until_resumed(factory, run)
 

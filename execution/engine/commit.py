@@ -1,0 +1,247 @@
+"""What a turn has come to, in one transaction under the lease; afterwards people and the gateway hear of it."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from datetime import datetime, timedelta
+from typing import Any
+from uuid import UUID
+
+from django.conf import settings
+from django.db import transaction
+
+from execution import database, mailbox
+from execution.engine import lease as leases
+from execution.engine.inbox import mark_taken
+from execution.engine.lease import Lease
+from execution.engine.rows import insert_all, update_all
+from execution.engine.turn import ByHand, Turn
+from execution.floor.fold import FloorWork
+from execution.floor_protocol import to_json
+from execution.machine import machine
+from execution.machine import messages as r
+from execution.models import Command, DeadLetter, InboxEvent, Run, RunEvent, RunInput, Timer
+from execution.runs import questions
+from execution.runs.fold import RunWork
+from execution.runs.journal import shown
+from execution.traffic import floor
+from execution.traffic import messages as m
+from registry import services as registry
+
+MOST_CHARACTERS = 300
+FLOOR_BEAT_S = 2.0
+"""The time of a floor at work is written at least so often: the next owner finds no gap where there was none."""
+_FLOOR = """
+UPDATE execution_floorstate
+SET state = %(state)s, active = %(active)s, epoch = epoch + 1, commands = commands + %(more)s
+WHERE id = %(id)s AND epoch = %(epoch)s RETURNING commands
+"""
+
+
+WRITTEN = (
+    "status", "reason", "watches", "late", "notices", "steps", "roles", "next_seq", "inputs_kept", "started_at",
+    "ended_at",
+)  # fmt: skip
+"""What a turn may change of a run's row beside its state."""
+
+
+class Outdated(Exception):
+    """Somebody else has changed a run or the floor: what was decided about it is decided anew."""
+
+
+def commit(turn: Turn, lease: Lease) -> bool:
+    """Write what has changed and bring the memory up to date; False when nothing was worth writing.
+
+    Raises LeaseLost or Outdated, and nothing is written.
+    """
+    is_beat = _is_beat_due(turn)
+    if not turn.is_change and not is_beat:
+        _remember(turn, is_beat=False)
+        return False
+    is_floor = turn.has_new_floor or is_beat
+    with transaction.atomic():
+        leases.hold(lease)
+        if is_floor:
+            _write_floor(turn, lease)
+        _write_runs(turn)
+        _write_rest(turn)
+        mailbox.crash_point("turn_before_commit")
+    mailbox.crash_point("turn_after_commit")
+    _tell(turn)
+    _remember(turn, is_beat=is_floor)
+    return turn.is_change
+
+
+def _is_beat_due(turn: Turn) -> bool:
+    is_late = time.monotonic() - turn.site.floor_written_at >= FLOOR_BEAT_S
+    return is_late and turn.floor is not None and turn.floor is not turn.site.floor and turn.floor.is_active
+
+
+def _write_floor(turn: Turn, lease: Lease) -> None:
+    work, row = turn.floor, turn.site.floor_row
+    assert work is not None
+    told = {
+        "state": json.dumps(floor.to_json(work.state)),
+        "active": work.is_active,
+        "more": len(work.commands),
+        "id": row.pk,
+        "epoch": row.epoch,
+    }
+    with database.preparing_cursor() as cursor:
+        cursor.execute(_FLOOR, told)
+        found = cursor.fetchone()
+    if found is None:
+        raise Outdated("Somebody else has changed the floor.")
+    insert_all(Command, _command_rows(turn, work, lease, found[0] - len(work.commands)))
+    given_up = set(turn.site.floor.state.sent if turn.site.floor else ()) - set(work.state.sent) - work.answered
+    if given_up:
+        still_open = Command.objects.filter(id__in=given_up, status__in=Command.OPEN)
+        still_open.update(status=Command.Status.TIMED_OUT, ended_at=turn.now)
+    registry.raise_alerts(raised=[_as_raised(door, turn.now) for door in work.stuck])
+
+
+def _as_raised(door: m.DoorStuck, now: datetime) -> registry.Raised:
+    """Return the alert about a door that has kept robots waiting; it is over once the door has done what it is told."""
+    why = {"why": door.why[:MOST_CHARACTERS]} if door.why else {}
+    return registry.Raised(door.device, "command_failed", now, {"method": door.method, **why})
+
+
+def _command_rows(turn: Turn, work: FloorWork, lease: Lease, position: int) -> list[Command]:
+    return [
+        Command(
+            id=UUID(command.id),
+            site_id=lease.site,
+            position=position + number,
+            device=command.device,
+            method=command.method,
+            arguments=dict(command.arguments),
+            run=UUID(command.run) if command.run else None,
+            step=command.step,
+            piece=command.piece,
+            fence=lease.epoch,
+            send_after=turn.now,
+            created_at=turn.now,
+        )
+        for number, command in enumerate(work.commands)
+    ]
+
+
+def _changed(turn: Turn) -> list[RunWork]:
+    return [work for work in turn.runs.values() if work.is_changed]
+
+
+def _write_runs(turn: Turn) -> None:
+    changed = _changed(turn)
+    _write_states(changed)
+    for hand in turn.by_hand.values():
+        Run.objects.filter(id=hand.row.id).update(
+            status=hand.row.status, reason=hand.row.reason, ended_at=hand.row.ended_at, next_seq=hand.row.next_seq,
+            watches=hand.row.watches,
+        )  # fmt: skip
+    written: list[RunWork | ByHand] = [*changed, *turn.by_hand.values()]
+    insert_all(RunEvent, (line for work in written for line in work.lines))
+    inputs = (
+        RunInput(run_id=work.row.id, seq=work.row.inputs_kept, at=turn.now, taken=work.inputs)
+        for work in changed
+        if work.inputs
+    )
+    insert_all(RunInput, inputs)
+    insert_all(Timer, _timers(changed, turn.now))
+    for work in changed:
+        if work.dropped_timers:
+            Timer.objects.filter(run=work.row, timer__in=work.dropped_timers).delete()
+        for action in work.asked:
+            _ask(work.row, action, turn.now)
+
+
+def _write_states(changed: Sequence[RunWork]) -> None:
+    """Write the rows of runs; the state of one that has not begun stays nothing."""
+    for work in changed:
+        work.row.reason = work.row.reason[:500]
+        work.row.inputs_kept += bool(work.inputs)
+        if work.state is not None:
+            work.row.state = machine.to_json(work.state)
+    begun = [(work.row, work.row.epoch) for work in changed if work.state is not None]
+    others = [(work.row, work.row.epoch) for work in changed if work.state is None]
+    is_written = update_all(Run, ("state", *WRITTEN), begun) and update_all(Run, WRITTEN, others)
+    for row, _ in begun:
+        row.__dict__.pop("state", None)
+    if not is_written:
+        raise Outdated("Somebody else has changed a run.")
+
+
+def _timers(changed: Iterable[RunWork], now: datetime) -> Iterator[Timer]:
+    for work in changed:
+        for timer, seconds in work.timers.items():
+            yield Timer(run_id=work.row.id, timer=timer, due_at=now + timedelta(seconds=seconds / settings.VIPO_SPEED))
+
+
+def _ask(run: Run, action: r.AskPeople | r.CancelQuestion, now: datetime) -> None:
+    if isinstance(action, r.AskPeople):
+        questions.ask(run, action, now)
+    else:
+        questions.withdraw(run, action.question)
+
+
+def _write_rest(turn: Turn) -> None:
+    epoch, slug = turn.site.floor_row.epoch, turn.site.slug
+    InboxEvent.objects.bulk_create(
+        (
+            InboxEvent(
+                site=slug, target=target, created_at=turn.now, payload=to_json(message),
+                key=f"turn:{turn.site.site.pk}:{turn.site.epoch}:{epoch}:{turn.now.timestamp():.6f}:{number}",
+            )
+            for number, (target, message) in enumerate(turn.kept)
+        )
+    )  # fmt: skip
+    DeadLetter.objects.bulk_create(
+        DeadLetter(
+            site=turn.site.site, run_id=each.run or None, target=each.target, event=each.event, error=each.error,
+            at=turn.now,
+        )
+        for each in turn.dead
+    )  # fmt: skip
+    mark_taken(turn.taken, turn.now)
+
+
+def _tell(turn: Turn) -> None:
+    """Let people see what is new, and wake the gateway."""
+    slug = turn.site.slug
+    messages: list[Any] = [message for work in _changed(turn) for message in work.live]
+    written: list[RunWork | ByHand] = [*_changed(turn), *turn.by_hand.values()]
+    for work in written:
+        messages += shown(work.row, work.lines)
+    messages += [_dead_notice(each.run, each.error) for each in turn.dead]
+    if turn.floor is not None and turn.floor.commands:
+        registry.wake("gateway")
+    registry.publish_all([(slug, message) for message in messages])
+
+
+def _dead_notice(run: str, error: str) -> dict[str, Any]:
+    text = f"Something could not be taken in and was set aside for an admin: {error}"
+    return {
+        "type": "notice", "run": run or None, "text": text, "level": "warning", "code": "set_aside",
+        "args": {"error": error},
+    }  # fmt: skip
+
+
+def _remember(turn: Turn, *, is_beat: bool) -> None:
+    """Bring the memory of the site to what was written."""
+    site = turn.site
+    if turn.floor is not None:
+        site.floor = turn.floor.settled()
+    if is_beat:
+        site.floor_row.epoch += 1
+        site.floor_written_at = time.monotonic()
+    for key, work in turn.runs.items():
+        if work.is_changed:
+            work.row.epoch += 1
+        if work.is_open:
+            site.runs[key] = work.settled()
+        else:
+            site.forget_run(key)
+    for key, hand in turn.by_hand.items():
+        if hand.row.status not in Run.OPEN:
+            site.forget_run(key)

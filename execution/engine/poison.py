@@ -1,0 +1,29 @@
+"""A message that the database does not take what comes of: set aside by itself, past runs and floor."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+from django.db import transaction
+
+from execution.engine import lease as leases
+from execution.engine.aside import pause_by_hand, words_of
+from execution.engine.inbox import Row, mark_taken
+from execution.engine.lease import Lease
+from execution.models import DeadLetter, Run, RunEvent
+
+
+def set_row_aside(row: Row, lease: Lease, now: datetime, error: Exception) -> None:
+    """Set one message aside and pause its run, in a transaction of its own; raises LeaseLost."""
+    kind, _, name = row.target.partition(":")
+    words = words_of(error).replace("\x00", "")
+    event = row.payload if isinstance(row.payload, dict) else {"type": "unreadable"}
+    with transaction.atomic():
+        leases.hold(lease)
+        run = Run.objects.select_related("site").filter(id=name).first() if kind == "run" else None
+        DeadLetter.objects.create(site_id=lease.site, run=run, target=row.target, event=event, error=words, at=now)
+        journal = pause_by_hand(run, words, now) if run is not None and run.status in Run.OPEN else None
+        if run is not None and journal is not None:
+            RunEvent.objects.bulk_create(journal.close())
+            run.save(update_fields=["status", "reason", "next_seq", "steps", "roles"])
+        mark_taken([row.id], now)

@@ -1,0 +1,62 @@
+"""Rows written with statements that are planned once: what an owner writes with every turn costs no query's making."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import cache
+from typing import Any
+
+from django.db import connection, models
+
+from execution import database
+
+Fields = tuple["models.Field[Any, Any]", ...]
+
+
+def insert_all(model: type[models.Model], rows: Iterable[models.Model]) -> None:
+    """Insert new rows; those that have no key of their own are given one by the database and do not learn it."""
+    fields, statement = _insert(model)
+    values = [[_stored(field, row) for field in fields] for row in rows]
+    if values:
+        with database.preparing_cursor() as cursor:
+            cursor.executemany(statement, values)
+
+
+def update_all(model: type[models.Model], names: Sequence[str], rows: Iterable[tuple[models.Model, int]]) -> bool:
+    """Write these columns of rows and count their `epoch` up, each from the epoch that it is said to have.
+
+    False when one of them has another epoch; what was written then is to be rolled back.
+    """
+    fields, statement = _update(model, tuple(names))
+    values = [[*(_stored(field, row) for field in fields), _stored(_key(model), row), epoch] for row, epoch in rows]
+    if not values:
+        return True
+    with database.preparing_cursor() as cursor:
+        cursor.executemany(statement, values)
+        return bool(cursor.rowcount == len(values))
+
+
+def _stored(field: models.Field[Any, Any], row: models.Model) -> Any:
+    return field.get_db_prep_save(getattr(row, field.attname), connection)
+
+
+def _key(model: type[models.Model]) -> models.Field[Any, Any]:
+    key = model._meta.pk
+    assert key is not None
+    return key
+
+
+@cache
+def _insert(model: type[models.Model]) -> tuple[Fields, str]:
+    fields = tuple(field for field in model._meta.concrete_fields if not isinstance(field, models.AutoField))
+    columns, marks = ", ".join(f'"{field.column}"' for field in fields), ", ".join(["%s"] * len(fields))
+    return fields, f'INSERT INTO "{model._meta.db_table}" ({columns}) VALUES ({marks})'  # noqa: S608 - our own names
+
+
+@cache
+def _update(model: type[models.Model], names: tuple[str, ...]) -> tuple[Fields, str]:
+    by_name = {field.name: field for field in model._meta.concrete_fields}
+    fields = tuple(by_name[name] for name in names)
+    sets = ", ".join(f'"{field.column}" = %s' for field in fields)
+    where = f'"{_key(model).column}" = %s AND epoch = %s'
+    return fields, f'UPDATE "{model._meta.db_table}" SET {sets}, epoch = epoch + 1 WHERE {where}'  # noqa: S608 - as above

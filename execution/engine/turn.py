@@ -1,0 +1,346 @@
+"""One turn of a site: what is new goes through its runs and its floor in memory until nothing moves."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from execution.engine.aside import (
+    SetAside,
+    cancel_by_hand,
+    pause_by_hand,
+    pause_for,
+    run_of,
+    several,
+    without_tasks_of_one,
+    words_of,
+)
+from execution.engine.inbox import News, Row
+from execution.engine.memory import SiteMemory
+from execution.floor.fold import FloorWork, news_of, step_floor
+from execution.floor_protocol import (
+    RoleFilled,
+    TaskEnded,
+    ToFloor,
+    ToRun,
+    floor_message_from_json,
+    run_message_from_json,
+    to_json,
+)
+from execution.machine.messages import CancelAsked
+from execution.mailbox import run_target, site_target
+from execution.models import Run, RunEvent
+from execution.runs.before_start import may_begin
+from execution.runs.facts import facts_of, things_named
+from execution.runs.fold import CannotTakeIn, Facts, RunWork, fold
+from execution.runs.journal import Journal
+from execution.runs.reading_grace import AT_MOST, is_early
+from execution.traffic import messages as m
+from execution.traffic.floor_state import FloorState
+from registry import services as registry
+
+log = logging.getLogger(__name__)
+MOST_ROUNDS = 20
+"""So often run and floor hear each other within a turn; who has more to say says it in the next, behind all others."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mail:
+    """A message that is on its way within a turn; `row` is where it was kept, 0 where it never was."""
+
+    message: Any
+    since: Any
+    row: int = 0
+
+
+@dataclass
+class ByHand:
+    """A run whose machine cannot be asked, and what was written into its row past it."""
+
+    row: Run
+    lines: list[RunEvent] = field(default_factory=list)
+
+
+class Turn:
+    """What one turn makes of a site; nothing is written, and the memory of the site stays as it was."""
+
+    def __init__(self, site: SiteMemory, news: News, *, look: bool) -> None:
+        self.site, self.now, self.rows = site, news.now, news.rows
+        self.runs: dict[str, RunWork] = {}
+        self.by_hand: dict[str, ByHand] = {}
+        self.floor = site.floor
+        self.taken: list[int] = []
+        self.kept: list[tuple[str, ToFloor | ToRun]] = []
+        self.dead: list[SetAside] = []
+        self.floor_inputs: list[dict[str, Any]] = []
+        self._look, self._floor_was_told = look, False
+        self._for_runs: dict[str, list[Mail]] = {}
+        self._for_floor: list[ToFloor] = []
+        self._facts_read: set[str] = set()
+        self._devices: tuple[registry.PositionView, ...] | None = None
+        self._started = [str(run) for run in news.runs]
+        for row in news.rows:
+            self._sort_in(row)
+
+    def work_out(self) -> None:
+        """Let everything take in what it is told, until nothing moves or everybody has had a fair share."""
+        self._wake_runs()
+        self._step_runs()
+        self._step_floor()
+        for _ in range(MOST_ROUNDS):
+            if not self._for_runs and not self._for_floor:
+                return
+            self._step_runs()
+            if self._for_floor:
+                self._step_floor()
+        self._keep_rest()
+
+    @property
+    def is_change(self) -> bool:
+        """Tell whether there is anything to write."""
+        runs = any(run.is_changed for run in self.runs.values()) or bool(self.by_hand)
+        return bool(runs or self.taken or self.kept or self.dead or self.has_new_floor)
+
+    @property
+    def has_new_floor(self) -> bool:
+        """Tell whether the floor is another than before, but for the time."""
+        before, after = self.site.floor, self.floor
+        if after is None or before is after:
+            return False
+        if before is None or after.commands or after.stuck or self._floor_was_told:
+            return True
+        return _timeless(before) != _timeless(after)
+
+    # What is to be done
+
+    def _sort_in(self, row: Row) -> None:
+        """Read what was kept; what cannot be read is set aside."""
+        kind, _, name = row.target.partition(":")
+        self.taken.append(row.id)
+        try:
+            if kind == "run":
+                self._post(name, Mail(run_message_from_json(row.payload), row.at, row.id))
+            else:
+                self._for_floor.append(floor_message_from_json(row.payload))
+        except Exception as error:  # noqa: BLE001 - it is one message, and others wait behind it
+            event = row.payload if isinstance(row.payload, dict) else {"type": "unreadable", "said": row.payload}
+            self._set_aside(row.target, event, words_of(error), name if kind == "run" else "")
+
+    def _post(self, run: str, mail: Mail) -> None:
+        self._for_runs.setdefault(run, []).append(mail)
+
+    def _wake_runs(self) -> None:
+        """See to it that runs which may begin do, and that those which wait for readings look."""
+        for key, work in self.site.runs.items():
+            begins = work.state is None and work.row.status == Run.Status.PENDING and may_begin(work.row, self.now)
+            watches = self._look and work.row.watches and work.row.status == Run.Status.RUNNING
+            if begins or watches:
+                self._for_runs.setdefault(key, [])
+        for key, (row, error) in self.site.broken.items():
+            if row.status != Run.Status.PAUSED:
+                self._set_aside(run_target(key), {"type": "plan"}, error, key)
+
+    def _keep_rest(self) -> None:
+        """Keep what nobody has taken in yet for the next turn."""
+        for run, mails in self._for_runs.items():
+            self.kept += [(run_target(run), mail.message) for mail in mails]
+        self.kept += [(site_target(self.site.slug), message) for message in self._for_floor]
+        self._for_runs, self._for_floor = {}, []
+
+    # Runs
+
+    def _step_runs(self) -> None:
+        waiting, self._for_runs = self._for_runs, {}
+        for run, mails in waiting.items():
+            if run in self.site.broken and not self.site.mend_run(run):
+                self._refuse(run, [mail.message for mail in mails])
+                continue
+            work = self.runs.get(run) or self.site.runs.get(run)
+            if work is not None and work.is_open:
+                self._step_run(work, self._hold_back(work, mails))
+
+    def _hold_back(self, work: RunWork, mails: Sequence[Mail]) -> list[ToRun]:
+        """Return what is taken in now: not the ends of tasks whose device is just about to speak."""
+        now = []
+        for mail in mails:
+            message = mail.message
+            is_end = isinstance(message, TaskEnded) and not message.kind and bool(work.needs.properties)
+            order = self.site.order_of(work, message.task) if isinstance(message, TaskEnded) and is_end else None
+            if is_end and is_early(work.row, work.needs, message, order, mail.since, self.now):
+                self.site.wakes_at = time.monotonic() + AT_MOST.total_seconds()
+                if mail.row:
+                    self.taken.remove(mail.row)
+                else:
+                    self.kept.append((run_target(work.id), message))
+            else:
+                now.append(message)
+        return now
+
+    def _step_run(self, work: RunWork, messages: list[ToRun]) -> None:
+        """Let a run take messages in; one that raises is set aside, the run is paused in its place."""
+        reading = self._facts_reader(work, messages)
+        for _ in range(len(messages) + 2):
+            names = self.site.names_of(things_named(messages))
+            try:
+                new, told = fold(work, reading, messages, self.now, names)
+            except CannotTakeIn as bad:
+                log.exception("Run %s cannot take something in.", work.id)
+                error = words_of(bad)
+                if bad.index is not None and messages[bad.index] != pause_for(error):
+                    self._note_dead(run_target(work.id), to_json(messages[bad.index]), error, work.id)
+                    messages[bad.index] = pause_for(error)
+                elif bad.index is None and work.state is not None and reading is not _no_facts:
+                    self._note_dead(run_target(work.id), {"type": "facts"}, error, work.id)
+                    reading, messages = _no_facts, [pause_for(error), *messages]
+                else:
+                    self._pause_by_hand(work, error)
+                    return
+            else:
+                self.runs[work.id] = new
+                self._for_floor += told
+                return
+
+    def _facts_reader(self, work: RunWork, messages: Sequence[ToRun]) -> Any:
+        """Return what reads the facts for a run: once in a turn, and again when it has a robot that it had not."""
+        if work.id in self._facts_read and not any(isinstance(message, RoleFilled) for message in messages):
+            return _no_facts
+        self._facts_read.add(work.id)
+        return lambda: facts_of(work.needs, work.row, messages, self.now)
+
+    def _pause_by_hand(self, work: RunWork, error: str) -> None:
+        """Pause a run that cannot begin, or whose machine raises whatever it is told."""
+        self._note_dead(run_target(work.id), {"type": "start" if work.state is None else "step"}, error, work.id)
+        new = work.fork()
+        journal = pause_by_hand(new.row, error, self.now)
+        if journal is not None:
+            new.lines += journal.close()
+            new.is_changed = True
+        self.runs[work.id] = new
+
+    def _refuse(self, run: str, messages: Sequence[ToRun]) -> None:
+        """Set aside what a run is told whose plan or state cannot be read; it can be cancelled all the same."""
+        row, error = self.site.broken[run]
+        hand = self.by_hand.setdefault(run, ByHand(row))
+        journal: Journal | None = None
+        for message in messages:
+            if isinstance(message, CancelAsked) and row.status in Run.OPEN:
+                journal = cancel_by_hand(row, message.reason, self.now)
+                hand.lines += journal.close()
+                self._for_floor.append(m.RunOver(run))
+            elif row.status in Run.OPEN:
+                self._set_aside(run_target(run), to_json(message), error, run)
+
+    # The floor
+
+    def _step_floor(self) -> None:
+        told, self._for_floor = self._for_floor, []
+        if not told and not self._wants_look:
+            return
+        try:
+            news = self._look_around()
+            if self.floor is None:
+                self.site.read_floor()
+                self.floor = self.site.floor
+        except registry.NoMap as error:
+            self._without_map(told, error.detail)
+            return
+        if self.floor is None:
+            self._aside_all(told, self.site.floor_error)
+            return
+        try:
+            self._take_step(self.floor, news, told)
+        except Exception as error:
+            log.exception("The floor of %s cannot take something in.", self.site.slug)
+            self._step_apart(news, told, words_of(error))
+
+    @property
+    def _wants_look(self) -> bool:
+        """Tell whether the floor is to see where the devices are, though nobody tells it anything."""
+        return self._look and (self.floor is None or self.floor.is_active)
+
+    def _look_around(self) -> list[m.Event]:
+        """Return what the registry has to tell; in a turn it is asked once, and only if what it said is old."""
+        if self._devices is not None or not (self._wants_look or self._started or self.site.is_stale):
+            return []
+        _, self._devices = self.site.look()
+        return news_of(self.floor.state, self._devices) if self.floor else []
+
+    def _take_step(self, work: FloorWork, news: Sequence[m.Event], told: Sequence[ToFloor]) -> None:
+        self._floor_was_told |= bool(told)  # then it is written, so that nobody else has changed it meanwhile
+        self.floor, said = step_floor(work, self.site.layout, news, told, self.now.timestamp())
+        for run, message in said:
+            self._post(run, Mail(message, self.now))
+
+    def _step_apart(self, news: list[m.Event], told: Sequence[ToFloor], error: str) -> None:
+        """Find out what the floor cannot take in, and set just that aside."""
+        if not self._can_go_on(news, error):
+            self._aside_all(told, error)
+            return
+        for message in told:
+            assert self.floor is not None
+            try:
+                self._take_step(self.floor, [], [message])
+            except Exception as own:  # noqa: BLE001 - it is one message, the others are taken in all the same
+                run = run_of(message, self.floor.state)
+                self._set_aside(site_target(self.site.slug), to_json(message), words_of(own), run)
+
+    def _can_go_on(self, news: list[m.Event], error: str) -> bool:
+        """Let the floor take in the news alone, without the tasks of one run if it has to be."""
+        assert self.floor is not None
+        try:
+            self._take_step(self.floor, news, [])
+        except Exception:  # noqa: BLE001 - then it is something that the floor has in it already
+            return any(self._goes_on_without(*one, news, error) for one in without_tasks_of_one(self.floor))
+        return True
+
+    def _goes_on_without(
+        self, run: str, others: FloorWork, asked: list[ToFloor], news: list[m.Event], error: str
+    ) -> bool:
+        """Try the floor without the tasks of a run; if that works they are set aside."""
+        try:
+            self._take_step(others, news, [])
+        except Exception:  # noqa: BLE001 - it is not this run's tasks alone
+            return False
+        self._set_aside(site_target(self.site.slug), several(asked), error, run)
+        return True
+
+    def _aside_all(self, told: Sequence[ToFloor], error: str) -> None:
+        """Set everything aside that a floor is told which can take in nothing at all."""
+        for message in told:
+            run = run_of(message, None)
+            self._set_aside(site_target(self.site.slug), to_json(message), error, run)
+
+    def _without_map(self, told: Sequence[ToFloor], why: str) -> None:
+        """Let what asks for something on a floor that has no map yet fail with that reason."""
+        for message in told:
+            if isinstance(message, m.TaskAsked):
+                self._post(message.run, Mail(TaskEnded(message.task, "failed", why), self.now))
+
+    # What is set aside
+
+    def _set_aside(self, target: str, event: dict[str, Any], error: str, run: str) -> None:
+        """Set something aside, and pause the run that it concerns."""
+        self._note_dead(target, event, error, run)
+        if run in self.site.broken:
+            row, _ = self.site.broken[run]
+            hand = self.by_hand.setdefault(run, ByHand(row))
+            journal = pause_by_hand(row, error, self.now)
+            hand.lines += journal.close() if journal else []
+        elif run and event.get("type") != "run_over":
+            self._post(run, Mail(pause_for(error), self.now))
+
+    def _note_dead(self, target: str, event: dict[str, Any], error: str, run: str) -> None:
+        self.dead.append(
+            SetAside(target, event, error, run if run in self.site.runs or run in self.site.broken else "")
+        )
+
+
+def _no_facts() -> Facts:
+    return {}
+
+
+def _timeless(work: FloorWork) -> FloorState:
+    return replace(work.state, now=0.0)

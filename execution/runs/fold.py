@@ -1,0 +1,264 @@
+"""What a run makes of what it is told, in memory: nothing here is written, and what raises has changed nothing."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+from typing import Any, assert_never
+
+from editor.language.plan.instructions import Plan
+from execution.floor_protocol import AskingRun, DeadlinePassed, ToFloor, ToRun, to_floor, to_json, to_machine
+from execution.machine import machine
+from execution.machine import messages as r
+from execution.machine.floor_task import TaskOrder
+from execution.machine.needs import Needs
+from execution.machine.state import RunState
+from execution.models import Run, RunEvent
+from execution.runs import notices
+from execution.runs.before_start import is_before_start, may_begin, take_in
+from execution.runs.journal import Journal, describe
+from execution.traffic.messages import RunPaused, RunResumed, floor_zones
+from vipo_device.protocol.description import Scalar
+
+Facts = Mapping[tuple[str, str], Scalar]
+REASON_CHARACTERS = 500
+
+
+class CannotTakeIn(Exception):
+    """A run cannot take something in; `index` says which of the messages, None that it is the facts or the start."""
+
+    def __init__(self, index: int | None) -> None:
+        super().__init__(index)
+        self.index = index
+
+
+@dataclass
+class RunWork:
+    """An open run in memory with what a turn has made of it so far: lines, orders to the floor, timers, questions.
+
+    `row` has neither document nor plan. `orders` are the tasks of the floor that are under way, kept only where the
+    plan reads properties.
+    """
+
+    row: Run
+    plan: Plan
+    needs: Needs
+    state: RunState | None
+    orders: dict[int, TaskOrder] = field(default_factory=dict)
+    is_changed: bool = False
+    lines: list[RunEvent] = field(default_factory=list)
+    live: list[Mapping[str, Any]] = field(default_factory=list)
+    timers: dict[int, float] = field(default_factory=dict)
+    dropped_timers: set[int] = field(default_factory=set)
+    asked: list[r.AskPeople | r.CancelQuestion] = field(default_factory=list)
+    inputs: list[dict[str, Any]] = field(default_factory=list)
+
+    @property
+    def id(self) -> str:
+        """The run's id."""
+        return str(self.row.id)
+
+    @property
+    def is_open(self) -> bool:
+        """Tell whether the run is not over."""
+        return self.row.status in Run.OPEN
+
+    def fork(self) -> RunWork:
+        """Return the same to work on; this one stays as it is."""
+        row = copy.copy(self.row)
+        row.notices = dict(row.notices)
+        return replace(
+            self,
+            row=row,
+            orders=dict(self.orders),
+            lines=list(self.lines),
+            live=list(self.live),
+            timers=dict(self.timers),
+            dropped_timers=set(self.dropped_timers),
+            asked=list(self.asked),
+            inputs=list(self.inputs),
+        )
+
+    def settled(self) -> RunWork:
+        """Return the run after all this was written down."""
+        return RunWork(self.row, self.plan, self.needs, self.state, self.orders)
+
+
+@dataclass
+class _Fold:
+    """One run taking several messages in."""
+
+    work: RunWork
+    journal: Journal
+    told: list[ToFloor]
+    asking: AskingRun
+
+
+def fold(
+    work: RunWork, facts: Callable[[], Facts], messages: Sequence[ToRun], now: datetime, names: Mapping[str, str]
+) -> tuple[RunWork, list[ToFloor]]:
+    """Take in all messages, oldest first; return the run after them and what the floor is told.
+
+    Readings come before messages, since a device speaks before it answers. They are asked for if the run has begun, or
+    begins now. Raises CannotTakeIn; the work that was given is as it was.
+    """
+    new = work.fork()
+    doing = _Fold(new, Journal(new.row, now, names), [], _asking(new))
+    if is_before_start(new.row):
+        _before_start(doing, messages)
+        messages = []
+    if may_begin(new.row, now):
+        _take_facts(doing, facts)
+        for index, message in enumerate(messages):
+            _take_message(doing, index, message)
+        _close(doing)
+    if doing.journal.live or doing.journal.seq != new.row.next_seq:
+        new.is_changed = True
+    new.lines += doing.journal.close()
+    new.live += doing.journal.live
+    return new, doing.told
+
+
+def _asking(work: RunWork) -> AskingRun:
+    run, plan = work.row, work.plan
+    due = run.deadline.timestamp() if run.deadline else 0.0
+    zones = floor_zones(str(run.program), plan.zones)
+    return AskingRun(str(run.id), f"run {run.number}", plan.roles, zones, run.priority, due)
+
+
+def _before_start(doing: _Fold, messages: Sequence[ToRun]) -> None:
+    before = (doing.work.row.status, doing.work.row.reason, doing.work.row.late)
+    take_in(doing.work.row, doing.journal, list(messages))
+    run = doing.work.row
+    doing.work.is_changed |= before != (run.status, run.reason, run.late)
+
+
+def _take_facts(doing: _Fold, facts: Callable[[], Facts]) -> None:
+    """Begin the run, or take in what readings are news."""
+    work = doing.work
+    try:
+        known = facts()
+        if work.state is None:
+            work.row.started_at = doing.journal.now
+            _say_started(doing)
+            work.is_changed = True
+            work.inputs.append({"start": _listed(known)})
+            work.state, actions = machine.start(work.plan, work.row.parameters, known, work.row.entry)
+            _do(doing, actions)
+            return
+        news = {key: value for key, value in known.items() if work.state.facts.get(key) != value}
+        if news:
+            work.inputs.append({"facts": _listed(news)})
+            _tell(doing, r.Facts(news))
+    except Exception as error:
+        raise CannotTakeIn(None) from error
+
+
+def _listed(facts: Facts) -> list[list[Scalar]]:
+    return [[thing, name, value] for (thing, name), value in facts.items()]
+
+
+def _take_message(doing: _Fold, index: int, message: ToRun) -> None:
+    try:
+        doing.journal.note(message)
+        if isinstance(message, DeadlinePassed):
+            notices.tell_late(doing.work.row, doing.journal)
+        event = to_machine(message)
+        if event is not None:
+            if isinstance(event, r.TaskDone | r.TaskFailed):
+                doing.work.orders.pop(event.task, None)
+            doing.work.inputs.append({"told": to_json(message)})
+            _tell(doing, event)
+    except Exception as error:
+        raise CannotTakeIn(index) from error
+
+
+def _close(doing: _Fold) -> None:
+    """Say in the run's row what its machine has come to."""
+    run, state = doing.work.row, doing.work.state
+    assert state is not None
+    watches = state.status in {"running", "paused"} and _watches(doing.work.plan, state)
+    said = (state.status, state.reason[:REASON_CHARACTERS], watches)
+    if said != (run.status, run.reason, run.watches):
+        run.status, run.reason, run.watches = said
+        doing.work.is_changed = True
+
+
+def _say_started(doing: _Fold) -> None:
+    run, by = doing.work.row, doing.work.row.started_by or "Somebody"
+    if run.entry:
+        text = f"Run {run.number} started by itself; {by} has armed the program."
+        doing.journal.say("run", text, code="started_itself", by=by, number=run.number)
+    elif run.not_before:
+        text = f"Run {run.number} began at its time; {by} has planned it."
+        doing.journal.say("run", text, code="started_planned", by=by, number=run.number)
+    else:
+        doing.journal.say("run", f"{by} started run {run.number}.", code="started", by=by, number=run.number)
+
+
+def _tell(doing: _Fold, event: r.Event) -> None:
+    work = doing.work
+    assert work.state is not None
+    before = work.state
+    work.state, actions = machine.step(work.plan, before, event)
+    work.is_changed |= work.state is not before and work.state != before
+    _do(doing, actions)
+    if before.status != work.state.status and {before.status, work.state.status} == {"running", "paused"}:
+        doing.journal.say("run", describe(work.state.status, work.state.reason), code=work.state.status)
+        doing.told.append(RunPaused(work.id) if work.state.status == "paused" else RunResumed(work.id))
+
+
+def _do(doing: _Fold, actions: tuple[r.Action, ...]) -> None:
+    """Note what the machine wants done."""
+    work, journal = doing.work, doing.journal
+    for action in actions:
+        match action:
+            case r.Ask(task=task, order=order):
+                if work.needs.properties:
+                    work.orders[task] = order
+                doing.told.append(to_floor(doing.asking, action))
+            case r.Cancel(task=task):
+                work.orders.pop(task, None)
+                doing.told.append(to_floor(doing.asking, action))
+            case r.SetTimer() | r.CancelTimer():
+                _time(work, action)
+            case r.AskPeople() | r.CancelQuestion() | r.Tell():
+                _speak(doing, action)
+            case r.Finished(status=status, reason=reason):
+                work.row.ended_at = journal.now
+                notices.say_held(work.row, journal)
+                journal.say("run", describe(status, reason), code=status)
+                doing.told.append(to_floor(doing.asking, action))
+            case r.StepEntered() | r.StepLeft() | r.StepFailed():
+                journal.mark(action)
+            case _:
+                assert_never(action)
+
+
+def _time(work: RunWork, action: r.SetTimer | r.CancelTimer) -> None:
+    """Note a timer that is to be set, or is not needed any more."""
+    if isinstance(action, r.SetTimer):
+        work.timers[action.timer] = action.seconds
+        work.dropped_timers.discard(action.timer)
+    elif work.timers.pop(action.timer, None) is None:
+        work.dropped_timers.add(action.timer)
+
+
+def _speak(doing: _Fold, action: r.AskPeople | r.CancelQuestion | r.Tell) -> None:
+    """Note what people are asked or told."""
+    match action:
+        case r.AskPeople(step=name, text=text):
+            doing.journal.ask(name, text)
+            doing.work.asked.append(action)
+        case r.CancelQuestion():
+            doing.work.asked.append(action)
+        case r.Tell():
+            notices.tell(doing.work.row, doing.journal, action)
+
+
+def _watches(plan: Plan, state: RunState) -> bool:
+    """Tell whether news of devices may let the run go on."""
+    waits = any(thread.waits_for == "until" for thread in state.threads.values())
+    return waits or any(event.starts == "branch" for event in plan.events)

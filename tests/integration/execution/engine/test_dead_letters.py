@@ -1,0 +1,150 @@
+"""What raises is set aside with its error; its run is paused with the reason, and the others go on."""
+
+import pytest
+
+from bench.hall import SITE, fill_hall
+from execution import services
+from execution.engine import drive
+from execution.errors import NotFound, NotPossibleNow
+from execution.models import DeadLetter, FloorState, InboxEvent, Run
+from registry import services as registry
+from tests.integration.execution.engine.hall import WAITS, answer_open, heating, row, start, told
+
+pytestmark = pytest.mark.django_db(transaction=True)
+NOW = "2026-01-01T00:00Z"
+
+
+@pytest.fixture(autouse=True)
+def hall():
+    fill_hall(6)
+
+
+def put(target, payload, key="odd"):
+    InboxEvent.objects.create(site=SITE, target=target, key=key, payload=payload, created_at=NOW)
+
+
+def finish(run, steps):
+    for _ in range(steps):
+        drive.advance_site(SITE)
+        answer_open(run)
+    drive.advance_site(SITE)
+    return row(run).status
+
+
+def test_an_event_that_nobody_can_read_is_set_aside_and_another_run_goes_on():
+    bad, good = start(heating()), start(heating(2, "machine003"))
+    drive.advance_site(SITE)
+    put(f"run:{bad}", {"type": "nonsense", "x": 1})
+    answer_open(good)
+    drive.advance_site(SITE)
+    (letter,) = services.list_dead_letters(site=SITE)
+    assert (str(letter.run), letter.event, letter.state) == (bad, {"type": "nonsense", "x": 1}, "open")
+    assert letter.error.startswith("UnreadableMessage: There is no message of type 'nonsense'.")
+    assert (row(bad).status, row(good).status, len(told(good))) == ("paused", "running", 2)
+    assert services.get_run(run_id=bad).run.cause["code"] == "set_aside"
+    assert InboxEvent.objects.filter(taken_at=None).count() == 0
+    assert finish(good, 1) == "finished"
+
+
+def test_an_event_that_the_machine_cannot_take_in_is_retried_when_its_cause_is_mended():
+    run = start(heating(1))
+    drive.advance_site(SITE)
+    put(
+        f"run:{run}",
+        {"type": "answer", "device": "machine000", "method": "heat", "step": "s0", "status": "ODD", "why": ""},
+    )
+    drive.advance_site(SITE)
+    (letter,) = services.list_dead_letters(site=SITE, state="open")
+    assert (letter.error, row(run).status) == ("KeyError: 'ODD'", "paused")
+    DeadLetter.objects.update(event={**letter.event, "status": "DONE"})
+    retried = services.retry_dead_letter(letter_id=letter.id, by="Ada")
+    assert (retried.state, retried.settled_by) == ("retried", "Ada")
+    with pytest.raises(NotPossibleNow, match="Ada has retried it already"):
+        services.retry_dead_letter(letter_id=letter.id, by="Otto")
+    assert finish(run, 1) == "finished"
+    assert services.list_dead_letters(site=SITE, state="open") == ()
+
+
+def test_a_plan_that_cannot_be_read_pauses_its_run_which_can_be_cancelled():
+    bad, good = start(heating()), start(heating(1, "machine003"))
+    Run.objects.filter(id=bad).update(plan={"no": "plan"})
+    assert finish(good, 1) == "finished"
+    (letter,) = services.list_dead_letters(site=SITE)
+    assert (str(letter.run), row(bad).status) == (bad, "paused")
+    services.cancel_run(run_id=bad, by="Ada")
+    drive.advance_site(SITE)
+    assert (row(bad).status, row(bad).reason) == ("cancelled", "Ada cancelled it")
+
+
+def test_a_plan_that_raises_when_it_begins_begins_when_it_is_resumed_and_mended():
+    run = start(heating(1))
+    Run.objects.filter(id=run).update(parameters=5)
+    drive.advance_site(SITE)
+    assert (row(run).status, row(run).started_at, told(run)) == ("paused", None, [])
+    Run.objects.filter(id=run).update(parameters={})
+    drive.forget_all()
+    (letter,) = services.list_dead_letters(site=SITE, state="open")
+    services.retry_dead_letter(letter_id=letter.id, by="Ada")
+    assert finish(run, 1) == "finished"
+
+
+def test_a_floor_that_cannot_be_read_holds_only_those_who_need_it():
+    drive.advance_site(SITE)
+    FloorState.objects.update(state={"format": 99})
+    drive.forget_all()
+    needs, waits = start(heating()), start(WAITS)
+    drive.advance_site(SITE)
+    assert (row(needs).status, row(waits).status) == ("paused", "running")
+    paused, letter = services.list_dead_letters(site=SITE)
+    assert [(str(each.run), each.event["type"]) for each in (letter, paused)] == [
+        (needs, "mission_asked"),
+        (needs, "run_paused"),
+    ]
+    assert "format 99" in letter.error
+    FloorState.objects.update(state=None)
+    drive.forget_all()
+    services.retry_dead_letter(letter_id=letter.id, by="Ada")
+    assert finish(needs, 3) == "finished"
+
+
+def test_a_task_in_the_floor_that_raises_at_every_look_is_taken_out_with_its_run_alone():
+    bad, good = start(heating()), start(heating(2, "machine003"))
+    drive.advance_site(SITE)
+    state = FloorState.objects.get().state
+    (task,) = [job for job in state["jobs"] if job["run"] == bad]
+    task["order"]["target"]["id"] = ["no", "device"]
+    task["command"] = ""
+    state["sent"] = [sent for sent in state["sent"] if sent["run"] != bad]
+    FloorState.objects.update(state=state)
+    drive.forget_all()
+    answer_open(good)
+    drive.advance_site(SITE)
+    assert (row(bad).status, row(good).status, len(told(good))) == ("paused", "running", 2)
+    (letter,) = services.list_dead_letters(site=SITE)
+    assert (str(letter.run), letter.event["type"]) == (bad, "several")
+
+
+def test_what_was_set_aside_is_dropped_and_its_run_stays_as_it_is():
+    run = start(heating(1))
+    drive.advance_site(SITE)
+    put(f"run:{run}", ["no", "object"])
+    drive.advance_site(SITE)
+    (letter,) = services.list_dead_letters(site=SITE)
+    assert services.drop_dead_letter(letter_id=letter.id, by="Ada").state == "dropped"
+    drive.advance_site(SITE)
+    assert row(run).status == "paused"
+    services.resume_run(run_id=run, by="Ada")
+    assert finish(run, 1) == "finished"
+    with pytest.raises(NotFound):
+        services.drop_dead_letter(letter_id=letter.id + 1, by="Ada")
+
+
+def test_people_who_watch_the_site_are_told(monkeypatch):
+    heard = []
+    monkeypatch.setattr(registry, "publish_all", lambda messages: heard.extend(each for _, each in messages))
+    run = start(heating(1))
+    drive.advance_site(SITE)
+    put(f"run:{run}", {"type": "nonsense"})
+    drive.advance_site(SITE)
+    (notice,) = [each for each in heard if each["type"] == "notice"]
+    assert (notice["code"], notice["run"], notice["level"]) == ("set_aside", run, "warning")

@@ -1,0 +1,107 @@
+"""Owners in processes of their own on one PostgreSQL: frozen, killed at named points, asked to go."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+
+import pytest
+from celery import Celery
+
+from bench.hall import SITE, fill_hall
+from execution.engine import drive
+from execution.mailbox import DRIVE_SITE
+from execution.models import Command, InboxEvent, SiteLease
+from tests.integration.execution.engine.hall import answer_open, heating, row, start, told
+from tests.kit.databases import on_database
+from tests.kit.files import ROOT
+from tests.kit.served import WORKER, served_without_broker
+from tests.kit.waiting import wait_for
+from vipo_site.settings import postgres
+
+pytestmark = [pytest.mark.servers, pytest.mark.django_db(transaction=True)]
+OWNER = ("-m", "tests.integration.execution.engine.owner", SITE)
+
+
+@pytest.fixture
+def owners(tmp_path, database_url, shared_redis):
+    """Start owners on a database that the test uses, too."""
+    with on_database(**postgres(database_url)):
+        fill_hall(4)
+        begun = []
+
+        def begin(*command, **more):
+            environment = {**served_without_broker(tmp_path, database_url, shared_redis.url), **more}
+            log = (tmp_path / f"owner{len(begun)}.log").open("wb")
+            with log:
+                process = subprocess.Popen(
+                    [sys.executable, *command], cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=log
+                )
+            begun.append(process)
+            return process
+
+        yield begin
+        for process in begun:
+            process.kill()
+            process.communicate()
+
+
+def expire():
+    SiteLease.objects.update(expires_at="2026-01-01T00:00Z")
+
+
+def wait_told(run, count):
+    wait_for(f"command {count}", lambda: len(told(run)) >= count)
+
+
+def test_a_frozen_owner_is_replaced_and_what_it_decides_when_it_thaws_changes_nothing(owners):
+    run = start(heating(3))
+    frozen = owners(*OWNER, "60", "30")
+    wait_told(run, 1)
+    frozen.send_signal(signal.SIGSTOP)
+    answer_open(run)
+    began = time.monotonic()
+    wait_for("another owner", lambda: drive.advance_site(SITE), every_s=0.1)
+    assert time.monotonic() - began < 8
+    wait_told(run, 2)
+    fences = [command.fence for command in told(run)]
+    assert fences == sorted(set(fences))
+    frozen.send_signal(signal.SIGCONT)
+    assert frozen.communicate(timeout=30)[0] == b"False\n"
+    for _ in range(2):
+        answer_open(run)
+        assert drive.advance_site(SITE)
+    assert row(run).status == "finished"
+    assert Counter(command.step for command in told(run)) == {"s0": 1, "s1": 1, "s2": 1}
+
+
+@pytest.mark.parametrize("point", ["turn_before_commit", "turn_after_commit", "before_hand_over", "after_hand_over"])
+def test_an_owner_that_is_killed_at_a_named_point_loses_and_repeats_nothing(owners, point):
+    run = start(heating(2))
+    dead = owners(*OWNER, "1", "0", VIPO_CRASH_AT=point)
+    assert dead.wait(60) == 137
+    expire()
+    for count in (1, 2):
+        drive.forget_all()
+        drive.advance_site(SITE)
+        assert [command.step for command in told(run)] == ["s0", "s1"][:count]
+        assert answer_open(run)
+    drive.advance_site(SITE)
+    assert (row(run).status, InboxEvent.objects.filter(taken_at=None).count()) == ("finished", 0)
+    assert len({command.id for command in told(run)}) == 2
+
+
+def test_a_worker_that_is_asked_to_end_hands_its_sites_over_at_once(owners, shared_redis):
+    run = start(heating(2))
+    worker = owners(*WORKER)
+    Celery(broker=shared_redis.url, set_as_current=False).send_task(DRIVE_SITE, [SITE])
+    wait_told(run, 1)
+    lease = SiteLease.objects.get()
+    assert lease.owner.split(":")[1] == str(worker.pid)
+    worker.send_signal(signal.SIGTERM)
+    assert worker.wait(30) == 0
+    assert drive.advance_site(SITE)
+    assert SiteLease.objects.get().owner.split(":")[1] == str(os.getpid())
+    assert Command.objects.count() == 1
