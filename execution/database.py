@@ -23,9 +23,10 @@ class _Heard:
         self._lock = threading.Lock()
         self._said: tuple[datetime, float] | None = None
 
-    def note(self, said: datetime) -> datetime:
+    def note(self, said: datetime, asked_at: float) -> datetime:
+        """Take in what the clock said; counted from the question, so that what others have just written is past."""
         with self._lock:
-            self._said = (said, time.monotonic())
+            self._said = (said, asked_at)
         return said
 
     def count_on(self, limit_s: float = float("inf")) -> datetime | None:
@@ -50,7 +51,8 @@ def now() -> datetime:
     said = _heard.count_on(KEPT_S)
     if said is None:
         try:
-            said = _heard.note(_ask())
+            asked_at = time.monotonic()
+            said = _heard.note(_ask(), asked_at)
         except (DatabaseError, InterfaceError):
             said = _heard.count_on() or datetime.now(UTC)
     return said
