@@ -44,7 +44,7 @@ def measure() -> Iterator[dict[str, object]]:
 
 def _figures_inside(folder: Path, steps: int, tail: int) -> Iterator[dict[str, object]]:
     """Yield figures of a room in a process of its own: ten people edit it four times a second and look on."""
-    command = [sys.executable, "-m", "bench.rooms_inside", str(steps), str(tail)]
+    command = [sys.executable, "-m", "bench.rooms.inside", str(steps), str(tail)]
     done = subprocess.run(command, env=environment(folder, {}), capture_output=True, text=True, check=True)
     seen: Json = json.loads(done.stdout)
     for name, what in (

@@ -96,7 +96,7 @@ def test_an_owner_that_is_killed_at_a_named_point_loses_and_repeats_nothing(owne
 def test_a_worker_that_is_asked_to_end_hands_its_sites_over_at_once(owners, shared_redis):
     run = start(heating(2))
     worker = owners(*WORKER)
-    Celery(broker=shared_redis.url, set_as_current=False).send_task(DRIVE_SITE, [SITE])
+    Celery(broker=shared_redis.url, set_as_current=False).send_task(DRIVE_SITE, [SITE], queue="runs")
     wait_told(run, 1)
     lease = SiteLease.objects.get()
     assert lease.owner.split(":")[1] == str(worker.pid)

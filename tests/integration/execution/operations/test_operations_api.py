@@ -35,7 +35,7 @@ def make_run(site: str, number: int = 1, **more: Any) -> Run:
     )
 
 
-def make_process(kind: str, name: str = "p1", *, seconds: float = 0, **more: Any) -> None:
+def make_process(kind: str, name: str = "p1", *, seconds: float = -60, **more: Any) -> None:
     at = timezone.now() - timedelta(seconds=seconds)
     Heartbeat.objects.create(kind=kind, name=name, machine="m1", process=7, version="1", since=at, at=at, **more)
 
@@ -60,11 +60,12 @@ def test_an_operator_sees_what_waits_at_the_own_site_alone(other: str) -> None:
     run = make_run("hall", status="running")
     foreign = make_run(other, status="paused")
     at = timezone.now() - timedelta(seconds=30)
-    for target in (f"run:{run.pk}", "site:hall", f"run:{foreign.pk}", "site:shed"):
-        InboxEvent.objects.create(target=target, key=target, payload={}, created_at=at)
-    InboxEvent.objects.create(target="site:hall", key="old", payload={}, created_at=at, taken_at=at)
-    make_command("hall", 2, status="pending")
-    make_command("hall", 3, status="running")
+    waits = (("hall", f"run:{run.pk}"), ("hall", "site:hall"), (other, f"run:{foreign.pk}"), (other, "site:shed"))
+    for site, target in waits:
+        InboxEvent.objects.create(site=site, target=target, key=target, payload={}, created_at=at)
+    InboxEvent.objects.create(site="hall", target="site:hall", key="old", payload={}, created_at=at, taken_at=at)
+    make_command("hall", -60, status="pending")
+    make_command("hall", -60, status="running")
     make_command(other, 60)
     for site in ("hall", other):
         Rehearsal.objects.create(site=Site.objects.get(slug=site), program=uuid4(), created_at=at)
@@ -80,7 +81,7 @@ def test_an_operator_sees_what_waits_at_the_own_site_alone(other: str) -> None:
 
 def test_commands_are_overdue_after_ten_seconds_of_silence_the_oldest_first(hall: str) -> None:
     run = make_run(hall, number=7, status="running")
-    make_command(hall, 9)
+    make_command(hall, -60)
     make_command(hall, 90, status="accepted")
     of_run, by_hand = make_command(hall, 12, run=run.pk, tries=3), make_command(hall, 40, status="pending")
     told = ask(signed_in("operator"), "operations")

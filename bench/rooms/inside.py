@@ -1,4 +1,4 @@
-"""`python -m bench.rooms_inside <steps> <tail>`: a room of a large program, opened and edited in this process.
+"""`python -m bench.rooms.inside <steps> <tail>`: a room of a large program, opened and edited in this process.
 
 Prints how long its event loop stood still at longest, and what an edit costs it and the child processes that check.
 """

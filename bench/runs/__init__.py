@@ -1,7 +1,7 @@
 """Runs against real PostgreSQL, Redis and Mosquitto, on devices that answer at once: how soon, how many, at what cost.
 
-The load generator (`bench.runs_inside`) plays all devices over one MQTT connection and measures by its own clock, from
-the answer that it gives to the next command that it hears. Servers, ours and the generator share the machine's cores.
+The load generator (`load_generator`) plays all devices over one MQTT connection and measures by its own clock, from the
+answer that it gives to the next command that it hears. Servers, ours and the generator share the machine's cores.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ def measure() -> Iterator[dict[str, object]]:
         mosquitto = stack.enter_context(run_mosquitto(folder, {"server": PASSWORD}))
         environment = _environment(folder, postgres, redis.url, mosquitto)
         _run(environment, "manage.py", "migrate", "-v0", "--skip-checks")
-        _run(environment, "-m", "bench.runs_inside", "fill")
+        _run(environment, "-m", "bench.runs.load_generator", "fill")
         ours = {part: _start(stack, folder, environment, part, *command) for part, command in _PARTS.items()}
         assert postgres.process is not None
         pids = {**ours, "postgres": postgres.process.pid, "redis": redis.process.pid}
-        story = _run(environment, "-m", "bench.runs_inside", "measure", json.dumps(pids))
+        story = _run(environment, "-m", "bench.runs.load_generator", "measure", json.dumps(pids))
         yield from map(json.loads, story.splitlines())
 
 

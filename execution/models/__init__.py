@@ -1,0 +1,24 @@
+"""What execution keeps: runs, commands, sites, rehearsals."""
+
+from execution.models.commands import Command
+from execution.models.rehearsals import Rehearsal
+from execution.models.runs import ArmedProgram, Question, Run, RunEvent, RunInput, Timer
+from execution.models.sites import DeadLetter, FloorState, InboxEvent, Lease, SiteLease, SiteStop, StopFollowed
+
+__all__ = [
+    "ArmedProgram",
+    "Command",
+    "DeadLetter",
+    "FloorState",
+    "InboxEvent",
+    "Lease",
+    "Question",
+    "Rehearsal",
+    "Run",
+    "RunEvent",
+    "RunInput",
+    "SiteLease",
+    "SiteStop",
+    "StopFollowed",
+    "Timer",
+]
