@@ -135,7 +135,6 @@ def test_home_does_not_say_that_nothing_runs_before_it_knows(sign_in: SignIn) ->
     expect(page.get_by_role("heading", name="Live now")).to_be_visible()
     expect(page.get_by_role("heading", name="Recent runs")).to_be_visible()
     expect(page.get_by_text("No program is running.")).to_have_count(0)
-    page.unroute_all()
     for each in held:
         each.continue_()
     expect(page.get_by_text("No program is running.")).to_be_visible()
