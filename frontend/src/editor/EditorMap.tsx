@@ -2,7 +2,7 @@
 import { useCallback, useMemo } from "react";
 import { liveRobots } from "@/live/robots";
 import { isRobot } from "@/map/devices/device";
-import { type Insets, toPixels } from "@/map/plane/projection";
+import { type Insets, toMetres, toPixels } from "@/map/plane/projection";
 import type { NodeLooks } from "@/program/canvas/buildNodes";
 import { MapControls } from "@/program/canvas/MapControls";
 import { MapStage, type MapStageProps, type StagePress } from "@/program/canvas/MapStage";
@@ -11,10 +11,11 @@ import { chipLabel } from "@/program/scene/announcements";
 import { frameAt } from "@/program/scene/frames";
 import type { SiteDevice } from "@/program/surroundings";
 import { useOpenProgram, type OpenProgram } from "./state/context";
+import { chooseBranch, invitation } from "./state/nextPlace";
 import { goInto } from "./state/newStep";
 import { useDrawing, type Drawing } from "./canvas/stepGesture";
 import { moveChips } from "./canvas/chipDrop";
-import { cursorShower, othersOn } from "./state/presence";
+import { cursorShower, dragShower, othersOn, useCarried } from "./state/presence";
 import { askOf, stepBack, suits, type Gesture } from "./state/tool";
 import { select, toggleSelected, useUi } from "./state/ui";
 import { swapBranches } from "./edits/branches";
@@ -58,9 +59,11 @@ export function EditorMap({ insets, fitInsets, small }: EditorMapProps) {
       insets={fitInsets}
       label={t("map_label")}
       mode={gesture.tool === "pan" ? "pan" : gesture.tool === "select" ? "select" : "draw"}
-      lines={useLines(open)}
+      lines={useLines(open, drawing.takeFloor)}
       onlyFloor={gesture.tool === ZONE_TOOL}
       {...presses}
+      carried={useCarried(shared)}
+      onDragging={useMemo(() => dragShower(shared), [shared])}
       onMove={(moved) => moveChips(open, moved)}
       onSelectMany={select}
       joinLine={JoinLine}
@@ -139,15 +142,20 @@ function pressResting(open: OpenProgram, press: StagePress): void {
 }
 
 /** What presses on arrows and their words do. */
-function useLines(open: OpenProgram): MapStageProps["lines"] {
+function useLines(open: OpenProgram, takeFloor: Drawing["takeFloor"]): MapStageProps["lines"] {
   const { document, canEdit, t } = open;
   const into = useUi((ui) => ui.into);
   return {
     chosenLink: into?.link ?? null,
     onSwap: canEdit ? (step) => settle(open, swapBranches(document, step)) : undefined,
     swapLabel: t("gesture.swap"),
+    targetWords: canEdit ? (into) => invitation(open, into) : undefined,
     onSelectLink: canEdit
-      ? (link) => useUi.setState({ into: { branch: link.into, link: link.id, word: link.word ?? t("then") } })
+      ? (link) => {
+          const end = link.points.at(-1);
+          chooseBranch(open, link);
+          if (link.to === null && end && askOf(useUi.getState().gesture) === "floor") takeFloor(toMetres(end));
+        }
       : undefined,
   };
 }

@@ -12,6 +12,7 @@ import { deviceBox, spotOf, type SiteDevice, type Spot } from "@/program/surroun
 import { createStep } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { createAtDevice, createOnFloor } from "../state/newStep";
+import { openEnds } from "../state/freeSpot";
 import { useLanding } from "./landing";
 import { askOf, suggestedLoads, suits, withDevice, type Gesture } from "../state/tool";
 import { say, useUi } from "../state/ui";
@@ -87,7 +88,7 @@ function spotOfDevice({ surroundings, document }: OpenProgram, id: string | null
 }
 
 function chipBoxes({ scene }: OpenProgram): Box[] {
-  return [...scene.chips.values()].map((chip) => chip.box);
+  return [...[...scene.chips.values()].map((chip) => chip.box), ...openEnds(scene)];
 }
 
 function takeDeviceFor(open: OpenProgram, gesture: Gesture, id: string): void {

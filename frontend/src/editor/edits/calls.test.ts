@@ -122,3 +122,10 @@ test("other text is no clipping", () => {
   ])
     expect(clippingFromText(text)).toBeNull();
 });
+
+test("a fresh call stands under all of its steps and covers none", () => {
+  const at = (key: string, y: number): Step => ({ ...step("wait", ["program", "body", key]), pos: [2, y] });
+  const document = { ...EMPTY_DOCUMENT, steps: { a: at("A", -1), b: at("B", -2.6) } };
+  const decision = wrapInFunction(document, ["a", "b"], { functionId: "f", callId: "c", name: "both" });
+  expect("edits" in decision && applyEdits(document, decision.edits).steps.c?.pos).toEqual([2, -3.5]);
+});

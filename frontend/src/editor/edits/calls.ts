@@ -19,7 +19,7 @@ export function wrapInFunction(
   const call: Step = {
     kind: "call",
     place: document.steps[steps[0] ?? ""]?.place,
-    pos: middle(document, steps),
+    pos: below(document, steps),
     params: { function: fresh.functionId, args: {} },
   };
   const room = roomAt(document, { branch: { parent: fresh.functionId, branch: "body" }, after: null }, steps.length);
@@ -32,10 +32,11 @@ export function wrapInFunction(
   };
 }
 
-function middle(document: ProgramDocument, ids: readonly string[]): Position {
+/** Under the lowest of the steps: a fresh call covers none of its own. */
+function below(document: ProgramDocument, ids: readonly string[]): Position {
   const positions = ids.map((id) => document.steps[id]?.pos ?? [0, 0]);
-  const mean = (axis: 0 | 1) => positions.reduce((sum, pos) => sum + pos[axis], 0) / Math.max(1, positions.length);
-  return [toCentimetre(mean(0)), toCentimetre(mean(1) - 0.8)];
+  const across = positions.reduce((sum, [x]) => sum + x, 0) / Math.max(1, positions.length);
+  return [toCentimetre(across), toCentimetre(Math.min(...positions.map(([, y]) => y)) - 0.9)];
 }
 
 interface Expansion {

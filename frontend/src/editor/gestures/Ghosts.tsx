@@ -1,10 +1,11 @@
-/** Steps that somebody else took away while this person had them selected: still there to be kept. */
+/** Steps that somebody else took away while this person had them selected or had changed them: still there to be kept. */
 import { useEffect } from "react";
 import { toPixels } from "@/map/plane/projection";
 import { FloatAt } from "../canvas/FloatAt";
 import { clip } from "../edits/clipping";
 import type { Edit } from "../edits/edits";
 import type { SharedProgram } from "../shared/sharedProgram";
+import { outermost } from "@/program/document/tree";
 import { useOpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";
 import classes from "../canvas/gestures.module.css";
@@ -20,9 +21,14 @@ export function Ghosts() {
 /** The document that others read is still the one before: it is read anew only when the transaction has ended. */
 function keepGhosts(shared: SharedProgram, gone: readonly string[]): void {
   const before = shared.getDocument();
-  const lost = useUi.getState().selected.filter((id) => gone.includes(id) && Object.hasOwn(before.steps, id));
+  const { selected } = useUi.getState();
+  const concerns = (id: string) => selected.includes(id) || shared.isUnsaved(id);
+  const lost = outermost(
+    before,
+    gone.filter((id) => concerns(id) && Object.hasOwn(before.steps, id)),
+  );
   if (lost.length === 0) return;
-  const fresh = lost.map((id): Ghost => ({ id, clipping: clip(before, [id]) }));
+  const fresh = lost.map((id): Ghost => ({ id, clipping: clip(before, [id]), changed: shared.isUnsaved(id) }));
   useGestures.setState(({ ghosts }) => ({ ghosts: [...ghosts.filter(({ id }) => !lost.includes(id)), ...fresh] }));
   select(useUi.getState().selected.filter((id) => !gone.includes(id)));
 }
@@ -36,6 +42,7 @@ function GhostCard({ ghost }: { ghost: Ghost }) {
   }, [back, ghost.id]);
   const remover = people.find((person) => !person.me && removedBy(shared, person.client).includes(ghost.id));
   if (!step || back) return null;
+  const words = ghost.changed ? "gesture.ghost.changed_" : "gesture.ghost.";
   const keep = () => {
     apply(Object.entries(ghost.clipping.steps).map(([id, each]): Edit => ({ do: "add_step", id, step: each })));
     letGo(ghost.id);
@@ -44,7 +51,7 @@ function GhostCard({ ghost }: { ghost: Ghost }) {
   return (
     <FloatAt at={toPixels(step.pos ?? [1, -1])}>
       <div className={classes.ghost} role="alert">
-        {remover ? t("gesture.ghost.by", { name: remover.name }) : t("gesture.ghost.by_somebody")}
+        {remover ? t(`${words}by`, { name: remover.name }) : t(`${words}by_somebody`)}
         <button type="button" onClick={keep}>
           {t("gesture.ghost.keep")}
         </button>

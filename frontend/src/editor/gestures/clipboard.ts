@@ -3,7 +3,7 @@ import { useEffect } from "react";
 import { clip, clippingFromText, clippingToText } from "../edits/clipping";
 import { copySelected, pasteCopied, putCopies, removeSelected } from "../state/actions";
 import type { OpenProgram } from "../state/context";
-import { isTyping } from "../state/shortcuts";
+import { isTyping } from "../state/focus";
 import { useUi } from "../state/ui";
 
 /** From a menu: the system's clipboard may refuse, this browser's memory does not. */

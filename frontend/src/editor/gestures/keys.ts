@@ -1,7 +1,7 @@
 /** The keys of the gestures; they are heard before the lists and the map hear them. */
 import { useLayoutEffect } from "react";
 import type { OpenProgram } from "../state/context";
-import { isTyping } from "../state/shortcuts";
+import { isTyping } from "../state/focus";
 import { useUi } from "../state/ui";
 import { COMMANDS } from "./commands";
 

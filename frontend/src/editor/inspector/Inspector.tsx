@@ -12,6 +12,7 @@ import { isStepKind, kindOf } from "@/program/kinds";
 import { canLimit, duplicateSelected, limitSteps, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
+import { FormBody } from "../canvas/FormBody";
 import { CallForm } from "./forms/CallForm";
 import { AskForm } from "./forms/AskForm";
 import { IfForm } from "./forms/ConditionForm";
@@ -88,11 +89,11 @@ function StepPanel() {
           <X size={17} aria-hidden="true" />
         </IconButton>
       </header>
-      <div className={classes.body} data-form>
+      <FormBody>
         <Summary />
         <Editing />
         <Form kind={step.kind} />
-      </div>
+      </FormBody>
       <Footer />
     </aside>
   );

@@ -9,10 +9,12 @@ import { zoneIcon } from "@/program/canvas/Zones";
 import { unitText } from "@/program/words/stepWords";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
+import { isTyping } from "../state/focus";
 import { hideProgram, select, useUi } from "../state/ui";
 import { selectZone } from "../state/gestures";
 import { AddParameter } from "./forms/FunctionForm";
 import classes from "../panel.module.css";
+import { FormBody } from "../canvas/FormBody";
 import { ParameterCard } from "./fields/ParameterCard";
 import { RolesSection } from "./RolesSection";
 import { Section } from "./fields/FieldFrame";
@@ -31,19 +33,19 @@ export function ProgramPanel() {
           <X size={17} aria-hidden="true" />
         </IconButton>
       </header>
-      <div className={classes.body} data-form>
+      <FormBody>
         <Parameters />
         <hr className={classes.line} />
         <RolesSection />
         <hr className={classes.line} />
         <Variables />
         <Zones />
-      </div>
+      </FormBody>
     </aside>
   );
 }
 
-/** A panel that was asked for takes the focus; Escape puts it away, unless a list in it is open. */
+/** A panel that was asked for takes the focus; Escape puts it away. */
 function useFocusedSheet() {
   const panel = useRef<HTMLElement>(null);
   const asked = useUi((ui) => ui.programSheet);
@@ -53,8 +55,8 @@ function useFocusedSheet() {
   useEffect(() => {
     const box = panel.current;
     const press = (event: KeyboardEvent) => {
-      const list = event.target instanceof Element && event.target.getAttribute("aria-expanded") === "true";
-      if (event.key !== "Escape" || list) return;
+      if (event.key !== "Escape" || isTyping(event.target)) return; // a field is left first
+
       event.preventDefault();
       hideProgram();
     };

@@ -114,7 +114,7 @@ function ValueInput({
     <TextInput
       aria-label={t("condition.value")}
       value={text}
-      placeholder={type === "number" ? "30" : undefined}
+      placeholder={type === "number" ? t("field.example", { value: "30" }) : undefined}
       rightSection={unit ? <span className={classes.legend}>{unitText(unit)}</span> : undefined}
       disabled={!canEdit}
       onChange={(event) => setText(event.currentTarget.value)}

@@ -10,6 +10,8 @@ import { NamedField } from "./fields/NamedField";
 import { RobotChoice } from "./RobotChoice";
 import { Section } from "./fields/FieldFrame";
 
+/** A choice adds one, and the list goes on. */
+const SEVERAL = { "data-several": true };
 const ANY = ":any";
 /** The role that every program has. */
 const FIRST = "robot";
@@ -111,6 +113,7 @@ function Binding({ id, name, role, store }: BindingProps) {
       />
       {role.device ? null : (
         <MultiSelect
+          wrapperProps={SEVERAL}
           classNames={{ pill: classes.pill }}
           aria-label={t("role.can", { role: name })}
           placeholder={role.can?.length ? undefined : t("role.can_what_is_needed")}

@@ -1,8 +1,8 @@
 /** The editor's top bar: where we are, what is saved, who is here, what can be done. */
 import { Button } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { Box, CircleAlert, Play, Redo2, TriangleAlert, Undo2 } from "lucide-react";
-import { useEffect, useState } from "react";
+import { Box, CircleAlert, EyeOff, Play, Redo2, TriangleAlert, Undo2 } from "lucide-react";
+import { useEffect, useRef, useState, useSyncExternalStore } from "react";
 import { useNavigate } from "react-router-dom";
 import { api, ApiProblem } from "@/api/client";
 import { useOnce } from "@/api/once";
@@ -15,6 +15,7 @@ import { IconButton } from "@/design/IconButton";
 import { undoLast } from "../state/actions";
 import { FollowButton } from "../gestures/FollowButton";
 import { Arm } from "./RunDialog";
+import { focusMap } from "../state/focus";
 import { SavedChip } from "./SavedChip";
 import { useOpenProgram } from "../state/context";
 import { say, select, showTab, useUi } from "../state/ui";
@@ -46,6 +47,7 @@ function ProgramName() {
   const { program, canEdit, t } = useOpenProgram();
   const queries = useQueryClient();
   const [name, setName] = useState(program.name);
+  const takenBack = useRef(false);
   useEffect(() => setName(program.name), [program.name]);
   const rename = useMutation({
     mutationFn: (next: string) => api.patch<Program>(`/programs/${program.id}`, { name: next }),
@@ -58,8 +60,9 @@ function ProgramName() {
   if (!canEdit) return <Crumb>{program.name}</Crumb>;
   const keep = () => {
     const next = name.trim();
-    if (next && next !== program.name) rename.mutate(next);
+    if (next && next !== program.name && !takenBack.current) rename.mutate(next);
     else setName(program.name);
+    takenBack.current = false;
   };
   return (
     <input
@@ -70,8 +73,10 @@ function ProgramName() {
       onChange={(event) => setName(event.target.value)}
       onBlur={keep}
       onKeyDown={(event) => {
-        if (event.key === "Enter") event.currentTarget.blur();
-        if (event.key === "Escape") setName(program.name);
+        if ((event.key !== "Enter" && event.key !== "Escape") || event.nativeEvent.isComposing) return;
+        event.preventDefault();
+        takenBack.current = event.key === "Escape";
+        focusMap();
       }}
     />
   );
@@ -105,9 +110,15 @@ function UndoButtons() {
 }
 
 function People() {
-  const { people, t } = useOpenProgram();
+  const { people, t, shared } = useOpenProgram();
+  const { connection } = useSyncExternalStore(shared.subscribeSaving, shared.getSaving);
   return (
     <>
+      {connection === "live" ? null : (
+        <span className={classes.unseen} role="img" aria-label={t("people_unseen")} title={t("people_unseen")}>
+          <EyeOff size={15} aria-hidden="true" />
+        </span>
+      )}
       {people
         .slice(0, 6)
         .map((person) =>

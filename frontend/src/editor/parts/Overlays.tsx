@@ -7,6 +7,8 @@ import { VipoIcon } from "@/design/VipoIcon";
 import classes from "../canvas/float.module.css";
 import { useOpenProgram } from "../state/context";
 import { useGestures } from "../state/gestures";
+import { branchNow } from "../state/actions";
+import { placeWords } from "../state/nextPlace";
 import { type Ask, askOf, type Gesture, RESTING, takeTool } from "../state/tool";
 import { ZONE_TOOL } from "../state/tools";
 import { hideProgram, PROGRAM_BUTTON, useUi } from "../state/ui";
@@ -79,21 +81,25 @@ export function ProgramButton({ small, shown }: { small: boolean; shown: boolean
 }
 
 export function HelpSentence() {
-  const { t } = useOpenProgram();
+  const open = useOpenProgram();
+  const { t } = open;
   const gesture = useUi((ui) => ui.gesture);
+  useUi((ui) => ui.selected); // the next step goes where the selected one stands
   const into = useUi((ui) => ui.into);
   const pick = useUi((ui) => ui.fieldPick);
   const ask = askOf(gesture);
   const corners = useGestures((ui) => ui.corners.length);
+  const place = placeWords(open, branchNow(open.document));
+  const goes = place === null ? "" : t("help.into", { branch: place });
   const text = pick
     ? t("help.field")
     : gesture.tool === ZONE_TOOL
       ? t(corners > 0 ? "gesture.zone.help_more" : "gesture.zone.help_first")
       : ask === "nothing" || ask === "load" || ask === "function"
         ? into
-          ? t("help.into", { branch: into.word })
+          ? goes || t("help.into", { branch: into.word })
           : null
-        : t(`help.${sentenceOf(ask, gesture)}`);
+        : [t(`help.${sentenceOf(ask, gesture)}`), goes].filter(Boolean).join(". ");
   if (!text) return null;
   return (
     <output className={classes.help} aria-live="polite">

@@ -62,8 +62,8 @@ function ScriptText({ session }: { session: ScriptSession }) {
 /** Nobody compiles what the server does not have: what is shown is from before one's last changes, or missing. */
 function useBehind(): boolean {
   const { shared, compiled } = useOpenProgram();
-  const { connection, waiting, notTaken } = useSyncExternalStore(shared.subscribeSaving, shared.getSaving);
-  if (connection === "live" || connection === "connecting") return notTaken > 0;
+  const { connection, waiting, notTaken, late } = useSyncExternalStore(shared.subscribeSaving, shared.getSaving);
+  if (connection === "live" || connection === "connecting") return notTaken > 0 || late;
   return waiting > 0 || compiled === null;
 }
 

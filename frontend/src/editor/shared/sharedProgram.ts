@@ -55,6 +55,8 @@ export class SharedProgram {
   readonly compiled: CompiledForm;
   readonly #copy: LocalCopy;
   readonly #saved = new SavedChanges(() => this.#showSaved());
+  /** Steps that edits changed which the server has not yet called saved. */
+  readonly #unsaved = new Set<string>();
   #earlier = 0;
   #closed = false;
   readonly #origin = Symbol("this person");
@@ -118,6 +120,9 @@ export class SharedProgram {
   readonly getDocument = (): ProgramDocument => (this.#saving.loaded ? this.#document : this.#nothing);
   readonly getSaving = (): Saving => this.#saving;
 
+  /** Whether somebody who removes this step loses a change of ours with it that the server has not seen yet. */
+  readonly isUnsaved = (step: string): boolean => this.#unsaved.has(step);
+
   readonly subscribe = (listener: Listener): (() => void) => {
     this.#listeners.add(listener);
     return () => this.#listeners.delete(listener);
@@ -132,6 +137,7 @@ export class SharedProgram {
   apply(edits: readonly Edit[]): void {
     if (edits.length === 0) return;
     this.undo.stopCapturing();
+    for (const edit of edits) if ("id" in edit) this.#unsaved.add(edit.id);
     applyEditsToDoc(this.doc, edits, this.#origin);
     this.undo.stopCapturing();
     this.undo.undoStack.at(-1)?.meta.set(EDITS, edits);
@@ -217,6 +223,7 @@ export class SharedProgram {
     const { waiting, late, refused } = this.#saved;
     const before = this.#saving;
     if (waiting === before.waiting && late === before.late && refused === before.notTaken) return;
+    if (waiting === 0) this.#unsaved.clear();
     if (waiting !== before.waiting) this.#keepCount(waiting);
     this.#setSaving({ waiting, late, notTaken: refused });
   }

@@ -2,9 +2,9 @@
 import { knownBox } from "@/map/floor/floor";
 import { toMetres, type Box, type Point } from "@/map/plane/projection";
 import type { PixelPoint } from "@/map/plane/paths";
-import { boxAt, grown, overlaps } from "@/program/scene/geometry";
+import { boxAt, grown, legBoxes, overlaps } from "@/program/scene/geometry";
 import { isFramed } from "@/program/kinds";
-import { outerBox } from "@/program/scene/scene";
+import { outerBox, type Scene } from "@/program/scene/scene";
 import { deviceBox } from "@/program/surroundings";
 import type { OpenProgram } from "./context";
 import { useUi } from "./ui";
@@ -32,9 +32,15 @@ export function freeSpot(open: OpenProgram, kind = ""): Point {
     ...[...scene.chips.values()].map((chip) => outerBox(scene, chip.id) ?? chip.box),
     ...devices.filter((device) => device.kind !== "robot").map(deviceBox),
     boxAt(scene.start, 90, 40),
+    ...openEnds(scene),
   ];
   const size = isFramed(kind) ? FRAME : CHIP;
   return toMetres(freeNear(from, size, taken, plan ? knownBox(plan) : null) ?? from);
+}
+
+/** Around the ends of branches without a step: what stands there would look like their step. */
+export function openEnds({ links }: Pick<Scene, "links">): Box[] {
+  return links.filter((link) => link.to === null).flatMap((link) => legBoxes(link.points, 12));
 }
 
 /** The nearest point of widening rings where the box is inside the floor and covers nothing. */

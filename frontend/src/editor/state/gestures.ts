@@ -18,10 +18,12 @@ export interface OpenMenu {
   readonly items: readonly MenuItem[];
 }
 
-/** A step that this person had selected when somebody else took it away. */
+/** A step that this person had selected, or had changed unsaved, when somebody else took it away. */
 export interface Ghost {
   readonly id: string;
   readonly clipping: Clipping;
+  /** A change of this person's went with it, made without a connection, say. */
+  readonly changed: boolean;
 }
 
 export interface GestureUi {

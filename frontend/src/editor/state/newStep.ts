@@ -11,6 +11,7 @@ import { operable } from "@/program/operation";
 import { deviceBox, type SiteDevice } from "@/program/surroundings";
 import { branchNow, createStep } from "./actions";
 import type { OpenProgram } from "./context";
+import { chooseBranch, openBranchAt } from "./nextPlace";
 import { withDevice, type Gesture } from "./tool";
 import { useUi } from "./ui";
 
@@ -66,8 +67,10 @@ export function goInto(open: OpenProgram, frame: Frame): void {
 
 export function createOnFloor(open: OpenProgram, gesture: Gesture, at: Point): void {
   const { document, apply } = open;
+  const branch = openBranchAt(open.scene.links, at);
   const frame = frameAt(open.scene.frames, toPixels(at));
-  if (frame) goInto(open, frame);
+  if (branch) chooseBranch(open, branch);
+  else if (frame) goInto(open, frame);
   if (gesture.tool === "move") {
     createStep(document, apply, { kind: "move", pos: at, params: { role: "robot", to: nearestGoal(open, at) } });
     return;

@@ -1,6 +1,7 @@
 /** Who else is here: their cursors, selections and what they edit, through awareness. */
 import { useEffect, useState } from "react";
 import { personColour } from "@/design/Avatar";
+import type { Point } from "@/map/plane/projection";
 import type { OtherPerson } from "@/program/canvas/StepChip";
 import type { SharedProgram } from "../shared/sharedProgram";
 import { useUi } from "./ui";
@@ -22,10 +23,12 @@ export interface Cursor {
 }
 
 interface Shown {
-  user?: { id?: number | string; name?: string; initials?: string; color?: string };
+  user?: { id?: number | string; name?: string; initials?: string };
   cursor?: [number, number] | null;
   selection?: string[];
   editing?: string | null;
+  /** Steps under their pointer, and where, in metres. */
+  drag?: Record<string, unknown> | null;
 }
 
 const CURSOR_EVERY_MS = 50;
@@ -61,7 +64,7 @@ function readPeople(shared: SharedProgram): Person[] {
       id: state.user.id ?? client,
       name: state.user.name,
       initials: state.user.initials ?? state.user.name.slice(0, 2).toUpperCase(),
-      colour: state.user.color ?? personColour(state.user.name),
+      colour: personColour(state.user.name),
       selection: Array.isArray(state.selection) ? state.selection.map(String) : [],
       editing: typeof state.editing === "string" ? state.editing : null,
     });
@@ -79,7 +82,7 @@ export function readCursors(shared: SharedProgram): Cursor[] {
     cursors.push({
       client,
       name: state.user.name,
-      colour: state.user.color ?? personColour(state.user.name),
+      colour: personColour(state.user.name),
       at: [x, y],
     });
   }
@@ -115,4 +118,45 @@ export function othersOn(people: readonly Person[]): ReadonlyMap<string, OtherPe
   const marked = new Map<string, OtherPerson>();
   for (const person of people) if (!person.me) for (const step of person.selection) marked.set(step, person);
   return marked;
+}
+
+/** A function that shows the others which steps this person holds and where, as often as the pointer. */
+export function dragShower(shared: SharedProgram): (held: Readonly<Record<string, Point>> | null) => void {
+  let last = 0;
+  return (held) => {
+    const now = performance.now();
+    if (held && now - last < CURSOR_EVERY_MS) return;
+    last = held ? now : 0;
+    shared.awareness.setLocalStateField("drag", held);
+  };
+}
+
+const NONE: ReadonlyMap<string, Point> = new Map();
+
+/** Steps that others hold now, and where. */
+export function useCarried(shared: SharedProgram): ReadonlyMap<string, Point> {
+  const [carried, setCarried] = useState(NONE);
+  useEffect(() => {
+    const read = () => {
+      const now = readCarried(shared);
+      setCarried((before) => (now.size === 0 && before.size === 0 ? before : now));
+    };
+    shared.awareness.on("change", read);
+    return () => shared.awareness.off("change", read);
+  }, [shared]);
+  return carried;
+}
+
+function readCarried(shared: SharedProgram): Map<string, Point> {
+  const carried = new Map<string, Point>();
+  for (const [client, state] of shared.awareness.getStates() as Map<number, Shown>) {
+    if (client === shared.doc.clientID || typeof state.drag !== "object" || state.drag === null) continue;
+    for (const [step, at] of Object.entries(state.drag)) if (isPoint(at)) carried.set(step, at);
+  }
+  return carried;
+}
+
+/** Other clients may say anything. */
+function isPoint(value: unknown): value is Point {
+  return Array.isArray(value) && value.length === 2 && value.every(Number.isFinite);
 }

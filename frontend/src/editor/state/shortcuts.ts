@@ -7,6 +7,7 @@ import { TOOLS } from "./tools";
 import { useOpenProgram, type OpenProgram } from "./context";
 import { createOnFloor } from "./newStep";
 import { freeSpot } from "./freeSpot";
+import { isTyping, takesLetters } from "./focus";
 import { askOf, RESTING, stepBack, takeTool } from "./tool";
 import { say, select, showTab, useUi } from "./ui";
 
@@ -15,7 +16,7 @@ export function useShortcuts(): void {
   // Before the next key is heard: what is on the screen and what the keys mean change together.
   useLayoutEffect(() => {
     const press = (event: KeyboardEvent) => {
-      if (event.defaultPrevented || useUi.getState().dialog || isTyping(event.target)) return;
+      if (event.defaultPrevented || useUi.getState().dialog || isTaken(event)) return;
       const control = event.ctrlKey || event.metaKey;
       const done = control ? controlKey(open, event) : plainKey(open, event);
       if (done) event.preventDefault();
@@ -25,11 +26,10 @@ export function useShortcuts(): void {
   }, [open]);
 }
 
-export function isTyping(target: EventTarget | null): boolean {
-  if (!(target instanceof HTMLElement)) return false;
-  return (
-    target.isContentEditable || target.closest("input, textarea, select, [role=combobox], [role=listbox]") !== null
-  );
+/** Letters, and letters with Ctrl, pass where nothing is written; all other keys belong to the field. */
+function isTaken(event: KeyboardEvent): boolean {
+  const letter = event.key.length === 1 && event.key !== " " && !event.altKey;
+  return letter ? takesLetters(event.target) : isTyping(event.target);
 }
 
 function controlKey(open: OpenProgram, event: KeyboardEvent): boolean {

@@ -5,6 +5,7 @@ import { useEffect, useState } from "react";
 import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/design/VipoIcon";
 import { useGestures, selectZone } from "../state/gestures";
+import { FormBody } from "../canvas/FormBody";
 import inspector from "../panel.module.css";
 import type { Zone } from "@/program/document/document";
 import { soundZones, zoneIcon } from "@/program/canvas/Zones";
@@ -45,13 +46,13 @@ function Panel({ id, zone }: { id: string; zone: Zone }) {
           <X size={17} aria-hidden="true" />
         </IconButton>
       </header>
-      <div className={inspector.body} data-form>
+      <FormBody>
         <NameField id={id} zone={zone} />
         <RuleField id={id} zone={zone} />
         {zone.rule === "slow" ? <SpeedField id={id} zone={zone} /> : null}
         {zone.rule === "door" ? <DoorField id={id} zone={zone} /> : null}
         <p className={inspector.now}>{t("gesture.zone.corners", { count: zone.points.length, area })}</p>
-      </div>
+      </FormBody>
     </aside>
   );
 }
@@ -73,7 +74,6 @@ function NameField({ id, zone }: { id: string; zone: Zone }) {
       disabled={!open.canEdit}
       onChange={(event) => setName(event.currentTarget.value)}
       onBlur={keep}
-      onKeyDown={(event) => event.key === "Enter" && keep()}
     />
   );
 }

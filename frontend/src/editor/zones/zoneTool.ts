@@ -5,7 +5,7 @@ import type { Position, Zone } from "@/program/document/document";
 import { makeId } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { freeSpot } from "../state/freeSpot";
-import { isTyping } from "../state/shortcuts";
+import { isTyping } from "../state/focus";
 import { ZONE_TOOL } from "../state/tools";
 import { finish, RESTING, takeTool } from "../state/tool";
 import { say, useUi } from "../state/ui";

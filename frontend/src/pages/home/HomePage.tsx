@@ -22,14 +22,14 @@ import { TableSkeleton } from "../TableSkeleton";
 function SitePart({ site }: { site: Site }) {
   const { t } = useTranslation();
   const programs = usePrograms(site.slug);
-  const runs = useRuns(site.slug).data ?? [];
+  const runs = useRuns(site.slug).data;
   return (
     <>
       <h2 className={styles.heading}>{t("pages.home.programsIn", { site: site.name })}</h2>
       <div className={styles.row}>
         <Panel className={styles.programs}>
           {programs.data?.length ? (
-            <ProgramTable programs={programs.data.slice(0, 6)} runs={runs} editable={mayEdit(site.role)} />
+            <ProgramTable programs={programs.data.slice(0, 6)} runs={runs ?? []} editable={mayEdit(site.role)} />
           ) : null}
           {programs.data?.length === 0 ? (
             <EmptyState

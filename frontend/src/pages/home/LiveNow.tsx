@@ -56,7 +56,8 @@ function DeviceLine({ device, slug }: { device: Device; slug: string }) {
 
 export function LiveNow({ slug }: { slug: string }) {
   const { t } = useTranslation();
-  const runs = (useRuns(slug).data ?? []).filter(isOpen);
+  const known = useRuns(slug).data;
+  const runs = (known ?? []).filter(isOpen);
   const devices = (useDevices(slug).data ?? [])
     .filter((device) => TELLING.includes(device.status))
     .sort((a, b) => TELLING.indexOf(a.status) - TELLING.indexOf(b.status));
@@ -66,7 +67,7 @@ export function LiveNow({ slug }: { slug: string }) {
       {runs.slice(0, 2).map((run) => (
         <OpenRun key={run.id} run={run} />
       ))}
-      {runs.length === 0 ? <p className={styles.quiet}>{t("pages.home.nothingRuns")}</p> : null}
+      {known && runs.length === 0 ? <p className={styles.quiet}>{t("pages.home.nothingRuns")}</p> : null}
       <ul>
         {devices.slice(0, runs.length > 0 ? 3 : 5).map((device) => (
           <DeviceLine key={device.id} device={device} slug={slug} />

@@ -35,23 +35,24 @@ function RunLine({ run, now }: { run: RunSummary; now: number }) {
   );
 }
 
-export function RecentRuns({ slug, runs }: { slug: string; runs: readonly RunSummary[] }) {
+export function RecentRuns({ slug, runs }: { slug: string; runs: readonly RunSummary[] | undefined }) {
   const { t } = useTranslation();
   const now = useNow();
+  const shown = runs ?? [];
   return (
     <Panel className={styles.recents} aria-labelledby="recent-runs">
       <div className={styles.recentHead}>
         <h2 id="recent-runs">{t("pages.home.recentRuns")}</h2>
-        {runs.length > 0 ? (
-          <Link to={`/sites/${slug}/runs`}>{t("pages.home.seeAll", { count: runs.length })}</Link>
+        {shown.length > 0 ? (
+          <Link to={`/sites/${slug}/runs`}>{t("pages.home.seeAll", { count: shown.length })}</Link>
         ) : null}
       </div>
       <ul>
-        {runs.slice(0, 5).map((run) => (
+        {shown.slice(0, 5).map((run) => (
           <RunLine key={run.id} run={run} now={now} />
         ))}
       </ul>
-      {runs.length === 0 ? <p className={styles.quiet}>{t("pages.runs.noneText")}</p> : null}
+      {runs?.length === 0 ? <p className={styles.quiet}>{t("pages.runs.noneText")}</p> : null}
     </Panel>
   );
 }

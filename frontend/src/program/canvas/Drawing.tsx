@@ -2,6 +2,7 @@
 import { memo } from "react";
 import { PathLine } from "@/map/PathLine";
 import { angleOf, roundedOutline, roundedPath, towards, type PixelPoint } from "@/map/plane/paths";
+import type { BranchRef } from "../document/tree";
 import type { Hull } from "../scene/hulls";
 import { type Link, wordPlace } from "../scene/links";
 import type { RouteShape } from "../scene/stepPaths";
@@ -19,6 +20,8 @@ export interface DrawingProps {
   /** A press on a link or stub: the next step goes there. */
   onSelectLink?: (link: Link) => void;
   chosenLink?: string | null;
+  /** What an open branch, one without a step, says to whoever may draw into it. */
+  targetWords?: (into: BranchRef) => string;
   /** A press on the word of an If's arrow: true and false change their steps. */
   onSwap?: (step: string) => void;
   swapLabel?: string;
@@ -59,6 +62,18 @@ export const Drawing = memo(function Drawing(props: DrawingProps) {
           other={props.othersOn.get(frame.id) ?? null}
         />
       ))}
+      {scene.frames.map((frame) =>
+        props.targetWords && frame.empty && selected.has(frame.id) ? (
+          <g key={frame.id} className={classes.link}>
+            <TargetWords
+              words={props.targetWords({ parent: frame.id, branch: "body" })}
+              x={(frame.box.left + frame.box.right) / 2}
+              y={frame.box.bottom + 20}
+              textAnchor="middle"
+            />
+          </g>
+        ) : null,
+      )}
       {scene.links.map((link) => (
         <LinkShape key={link.id} link={link} {...props} />
       ))}
@@ -124,7 +139,7 @@ function LinkShape(props: { link: Link } & DrawingProps) {
     >
       <path d={line} />
       <path d="M-6 -4.5 0 0 -6 4.5" className={classes.arrow} transform={turned(end, before)} />
-      {link.to === null ? <circle cx={end.x} cy={end.y} r={5} className={classes.stubEnd} /> : null}
+      {link.to === null ? <OpenEnd {...props} end={end} before={before} near={near} /> : null}
       {onSelectLink ? (
         <path className={classes.hit} d={line} onClick={() => onSelectLink(link)}>
           <title>{link.word ?? ""}</title>
@@ -133,6 +148,47 @@ function LinkShape(props: { link: Link } & DrawingProps) {
       {link.word ? <LinkWord link={link} word={link.word} onSwap={swapOf(props)} label={props.swapLabel} /> : null}
     </g>
   );
+}
+
+/** The end of a branch without a step: a place to press, which says what is drawn there while its step is looked at. */
+function OpenEnd(props: { link: Link; end: PixelPoint; before: PixelPoint; near: boolean } & DrawingProps) {
+  const { link, end, before, near, onSelectLink, targetWords } = props;
+  const chosen = props.chosenLink === link.id;
+  const invites = targetWords !== undefined && (near || chosen);
+  return (
+    <>
+      <circle cx={end.x} cy={end.y} r={invites ? 9 : 5} className={classes.stubEnd} />
+      {invites ? <path className={classes.plus} d={`M${end.x - 4} ${end.y}h8M${end.x} ${end.y - 4}v8`} /> : null}
+      {onSelectLink ? (
+        <circle cx={end.x} cy={end.y} r={20} className={classes.target} onClick={() => onSelectLink(link)} />
+      ) : null}
+      {invites ? <TargetWords words={targetWords(link.into)} {...besideEnd(end, before)} /> : null}
+    </>
+  );
+}
+
+function TargetWords({
+  words,
+  ...place
+}: {
+  words: string;
+  x: number;
+  y: number;
+  textAnchor: "start" | "middle" | "end";
+}) {
+  return (
+    <text className={classes.targetWords} {...place}>
+      {words}
+    </text>
+  );
+}
+
+/** Beyond the end, where the branch does not come from. */
+function besideEnd(end: PixelPoint, before: PixelPoint) {
+  const [dx, dy] = [end.x - before.x, end.y - before.y];
+  if (Math.abs(dx) > Math.abs(dy))
+    return { x: end.x + Math.sign(dx) * 14, y: end.y + 4, textAnchor: dx > 0 ? ("start" as const) : ("end" as const) };
+  return { x: end.x, y: end.y + (dy > 0 ? 24 : -15), textAnchor: "middle" as const };
 }
 
 /** Only the words of an If can change places. */

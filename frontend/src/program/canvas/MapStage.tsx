@@ -15,7 +15,7 @@ import { type Guide, useSnapping } from "./snapping";
 import classes from "./stage.module.css";
 import { StageContext, type StageHandle } from "./stageContext";
 import type { MapStageProps } from "./stageProps";
-import { useMovingNodes } from "./useMovingNodes";
+import { useMovingNodes, withCarried } from "./useMovingNodes";
 
 export type { MapStageProps, StagePress } from "./stageProps";
 
@@ -34,7 +34,8 @@ function Stage(props: MapStageProps) {
   const [level, setLevel] = useState<LevelOfDetail>("full");
   const built = useMemo(() => buildNodes(scene, devices, looks, plan), [scene, devices, looks, plan]);
   const snapping = useSnapping(scene, devices, viewport);
-  const moving = useMovingNodes(built, props.onMove, props.onSelectMany, snapping.snapTo);
+  const shown = useMemo(() => withCarried(built, props.carried), [built, props.carried]);
+  const moving = useMovingNodes(shown, props, snapping.snapTo);
   const box = useBoxDirection();
   const handle = useHandle(props, size, viewport);
   const taken = useMemo(() => [...scene.chips.values()].map((chip) => chip.box), [scene]);
@@ -49,6 +50,8 @@ function Stage(props: MapStageProps) {
       data-lod={level}
       data-tool={props.mode}
       data-only-floor={props.onlyFloor || undefined}
+      data-map
+      tabIndex={-1}
       role="application"
       aria-label={props.label}
       onPointerMoveCapture={watch}

@@ -28,7 +28,7 @@ export interface MapStageProps {
   mode: "select" | "pan" | "draw";
   /** Presses go through steps, lines and machines to the floor. */
   onlyFloor?: boolean;
-  lines?: Pick<DrawingProps, "onSelectLink" | "chosenLink" | "onSwap" | "swapLabel">;
+  lines?: Pick<DrawingProps, "onSelectLink" | "chosenLink" | "targetWords" | "onSwap" | "swapLabel">;
   onStep?: (step: string, add: boolean) => void;
   onEditStep?: (step: string) => void;
   onDevice?: (device: string, press: StagePress) => void;
@@ -38,6 +38,10 @@ export interface MapStageProps {
   onBack?: () => void;
   onMove?: (moved: readonly MovedNode[]) => void;
   onMoveStart?: (at: Point) => void;
+  /** Where others hold chips at this moment. */
+  carried?: ReadonlyMap<string, Point>;
+  /** Where this person holds chips; null once they are let go. */
+  onDragging?: (held: Readonly<Record<string, Point>> | null) => void;
   onSelectMany?: (steps: readonly string[]) => void;
   /** The line from a dot to the pointer, and what letting go there would mean. */
   joinLine?: ConnectionLineComponent<StageNode>;

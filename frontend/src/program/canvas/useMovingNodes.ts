@@ -1,7 +1,7 @@
 /** Chips under the pointer move at once; the document hears of it when they are let go. */
 import { applyNodeChanges, type Node, type NodeChange, type NodePositionChange } from "@xyflow/react";
 import { useCallback, useEffect, useRef, useState, type RefObject } from "react";
-import { toMetres, type Point } from "@/map/plane/projection";
+import { toMetres, toPixels, type Point } from "@/map/plane/projection";
 import type { Guide, Snapped } from "./snapping";
 import type { StageNode } from "./nodes";
 
@@ -11,6 +11,13 @@ export interface MovedNode {
   readonly at: Point;
   /** Where it was let go, before it snapped. */
   readonly pointed: Point;
+}
+
+/** Who hears of it. */
+interface Moving {
+  readonly onMove?: (moved: readonly MovedNode[]) => void;
+  readonly onSelectMany?: (steps: readonly string[]) => void;
+  readonly onDragging?: (held: Readonly<Record<string, Point>> | null) => void;
 }
 
 export interface MovingNodes {
@@ -26,8 +33,7 @@ const NO_GUIDES: readonly Guide[] = [];
 
 export function useMovingNodes(
   built: StageNode[],
-  onMove: ((moved: readonly MovedNode[]) => void) | undefined,
-  onSelectMany: ((steps: readonly string[]) => void) | undefined,
+  { onMove, onSelectMany, onDragging }: Moving,
   snapTo: (id: string, at: { x: number; y: number }) => Snapped,
 ): MovingNodes {
   const [nodes, setNodes] = useState(built);
@@ -48,8 +54,12 @@ export function useMovingNodes(
         dragging.current.size === 1 ? snapMoves(moves, snapTo, snapped.current) : [moves, NO_GUIDES];
       setGuides(lines);
       setNodes((now) => applyNodeChanges<StageNode>(placed, now));
+      const held = placed.flatMap(({ id, position, dragging: drags }) =>
+        position && drags ? [[id, toMetres(position)] as const] : [],
+      );
+      if (held.length > 0) onDragging?.(Object.fromEntries(held));
     },
-    [snapTo],
+    [snapTo, onDragging],
   );
   const drop = useCallback(
     (dropped: readonly Node[]) => {
@@ -61,9 +71,10 @@ export function useMovingNodes(
       dragging.current.clear();
       snapped.current.clear();
       setGuides(NO_GUIDES);
+      onDragging?.(null);
       if (moved.length > 0) onMove?.(moved);
     },
-    [onMove],
+    [onMove, onDragging],
   );
   return {
     nodes,
@@ -108,6 +119,15 @@ function snapMoves(
     return { ...move, position: goal.at };
   });
   return [placed, guides];
+}
+
+/** Chips that others hold are drawn where they hold them. */
+export function withCarried(nodes: StageNode[], carried: ReadonlyMap<string, Point> | undefined): StageNode[] {
+  if (!carried || carried.size === 0) return nodes;
+  return nodes.map((node) => {
+    const at = carried.get(node.id);
+    return at ? { ...node, position: toPixels(at) } : node;
+  });
 }
 
 /** Other people's changes go on while a chip is held; the held one stays under the pointer. */

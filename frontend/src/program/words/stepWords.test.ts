@@ -69,7 +69,7 @@ test.each<[string, Step["params"], string]>([
   ["wait", { duration: { quantity: [10, "MIN"] } }, "wait 10\u202fmin"],
   ["wait", { duration: 90 }, "wait 1\u202fmin 30\u202fs"],
   ["wait", {}, "wait ?"],
-  ["wait", { until: { op: "<", args: [{ property: ["oven", "temperature"] }, 40] } }, "temperature < 40"],
+  ["wait", { until: { op: "<", args: [{ property: ["oven", "temperature"] }, 40] } }, "Curing Oven temperature < 40"],
   ["move", { to: { device: "oven" } }, "Move to Curing Oven"],
   ["move", {}, "Move to ?"],
   ["pick", { object: "box" }, "? × box"],

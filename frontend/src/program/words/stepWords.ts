@@ -90,7 +90,9 @@ function fieldPart(field: FieldRecord, step: Step, speaker: Speaker): TextPart |
   if (field.wanted === "time" && typeof value === "number") return plain(durationText(value));
   const { family, shape } = kindOf(step.kind);
   const full = family === "func" || shape === "root";
-  const text = valueText(value, full ? { ...speaker, full } : speaker);
+  // A condition that leaves out whose reading it looks at could be about any machine.
+  const named = full || field.wanted === "boolean";
+  const text = valueText(value, named ? { ...speaker, full: true } : speaker);
   if (text === null) return null;
   if (field.wanted === "text") return { text: shortened(text), tone: "soft" };
   if (field.wanted) return plain(text);

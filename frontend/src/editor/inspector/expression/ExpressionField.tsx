@@ -2,7 +2,8 @@
 import { ExpressionInput } from "./ExpressionInput";
 import { FieldFrame, useFieldProblems } from "../fields/FieldFrame";
 import type { Value } from "@/program/document/document";
-import { unitText, withUnit } from "@/program/words/stepWords";
+import { type Translate, unitText, withUnit } from "@/program/words/stepWords";
+import { useOpenProgram } from "../../state/context";
 import { Readings } from "./Readings";
 import { useExpression } from "./useExpression";
 import { useWanted } from "./useWanted";
@@ -27,6 +28,7 @@ export interface ExpressionFieldProps {
 
 export function ExpressionField(props: ExpressionFieldProps) {
   const { value, onChange, step, field, label } = props;
+  const { t } = useOpenProgram();
   const wanted = useWanted(props.wanted, props.options);
   const expression = useExpression({ value, onChange, step, wanted });
   const found = useFieldProblems(field);
@@ -42,7 +44,7 @@ export function ExpressionField(props: ExpressionFieldProps) {
             expression={expression}
             wanted={wanted}
             unit={unitText(props.unit)}
-            placeholder={props.placeholder ?? rangeText(props)}
+            placeholder={props.placeholder ?? rangeText(props, t)}
           />
           <Readings value={value} />
         </>
@@ -51,8 +53,8 @@ export function ExpressionField(props: ExpressionFieldProps) {
   );
 }
 
-/** "1 – 10 min", as far as it is known. */
-function rangeText({ minimum, maximum, unit }: ExpressionFieldProps): string | undefined {
+/** "Between 1 and 10 min", as far as it is known: in words, since a number alone looks like a value. */
+function rangeText({ minimum, maximum, unit }: ExpressionFieldProps, t: Translate): string | undefined {
   if (typeof minimum !== "number" || typeof maximum !== "number") return undefined;
-  return withUnit(`${minimum} – ${maximum}`, unit);
+  return t("field.between", { minimum, maximum: withUnit(String(maximum), unit) });
 }

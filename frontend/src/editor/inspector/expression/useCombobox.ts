@@ -42,13 +42,20 @@ export function useCombobox(expression: Expression, wanted: Wanted, input: RefOb
     else if (shown.length > 0)
       setOpen({ ...open, marked: (Math.max(marked, by > 0 ? -1 : 0) + by + shown.length) % shown.length });
   };
-  const onKeyDown = (event: KeyboardEvent) => {
+  /** True when the line is done with: the panel then gives the keyboard back to the map. */
+  const enter = (): boolean => {
     const under = shown[marked];
+    if (under) choose(under);
+    else expression.settle();
+    return !under || under.whole === true;
+  };
+  const onKeyDown = (event: KeyboardEvent) => {
     if (event.key === "ArrowDown" || event.key === "ArrowUp") move(event.key === "ArrowDown" ? 1 : -1);
-    else if (event.key === "Enter" && under) choose(under);
-    else if (event.key === "Enter") expression.settle();
     else if (event.key === "Escape" && shown.length > 0) setOpen(null);
-    else return;
+    else {
+      if (event.key === "Escape") expression.takeBack();
+      if (event.key !== "Enter" || enter()) return;
+    }
     event.preventDefault();
     event.stopPropagation();
   };

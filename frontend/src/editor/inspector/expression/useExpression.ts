@@ -17,6 +17,8 @@ export interface Expression {
   readonly write: (text: string) => void;
   /** Store at once what is written. */
   readonly settle: () => void;
+  /** Store nothing of what is written. */
+  readonly takeBack: () => void;
 }
 
 interface ExpressionInputs {
@@ -36,7 +38,7 @@ const UNREAD = { read: null, refusal: null };
 
 export function useExpression(inputs: ExpressionInputs): Expression {
   const { i18n, t } = useTranslation();
-  const { written, write, store } = useWritten(inputs);
+  const { written, write, store, forget } = useWritten(inputs);
   const later = useDebouncedCallback((text: string) => void store(text), { delay: PAUSE_MS, flushOnUnmount: true });
   const problem = written.read?.problem ?? null;
   const message = problem && (problem.messages[i18n.language] ?? problem.message);
@@ -49,6 +51,10 @@ export function useExpression(inputs: ExpressionInputs): Expression {
       later(text);
     },
     settle: () => later.flush(),
+    takeBack: () => {
+      later.cancel();
+      forget();
+    },
   };
 }
 
@@ -101,7 +107,12 @@ function useWritten({ value, onChange, step, wanted }: ExpressionInputs) {
     typing.current = true;
     setWritten((before) => ({ ...before, text }));
   };
-  return { written, write, store };
+  /** An answer that still comes is about what is taken back. */
+  const forget = () => {
+    turn.current += 1;
+    typing.current = false;
+  };
+  return { written, write, store, forget };
 }
 
 /** What the server reads, or why it refused; silence leaves the line as it is. */

@@ -155,7 +155,9 @@ function AddItem({
         chosen.current = name;
       }}
       onKeyDown={(event) => {
-        if (event.key === "Enter" && !event.defaultPrevented) add(text);
+        if (event.key !== "Enter" || event.defaultPrevented || !text.trim()) return;
+        event.preventDefault(); // the field goes on, for the next one
+        add(text);
       }}
     />
   );

@@ -35,9 +35,6 @@ export function NamedField({
         if (next && next !== value) onChange(next);
         else setText(value);
       }}
-      onKeyDown={(event) => {
-        if (event.key === "Enter") event.currentTarget.blur();
-      }}
     />
   );
 }

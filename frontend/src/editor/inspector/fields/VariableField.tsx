@@ -45,9 +45,6 @@ export function VariableField({
           onChange={setText}
           onOptionSubmit={keep}
           onBlur={() => keep(text)}
-          onKeyDown={(event) => {
-            if (event.key === "Enter") keep(text);
-          }}
         />
       )}
     </FieldFrame>

@@ -10,6 +10,8 @@ import { useStepEditor } from "../fields/stepEditor";
 import { WrittenValue } from "./WrittenValue";
 import { VariableField } from "../fields/VariableField";
 
+/** Enter adds one, and the field goes on. */
+const SEVERAL = { "data-several": true };
 const ANSWERS = ["boolean", "choice", "number", "text"] as const;
 
 export function AskForm() {
@@ -47,6 +49,7 @@ function Options({ answer }: { answer: Answer }) {
     <FieldFrame label={t("ask.options")} field="answer.options">
       {({ control, note, bad }) => (
         <TagsInput
+          wrapperProps={SEVERAL}
           classNames={{ pill: classes.pill }}
           id={control}
           aria-describedby={bad ? note : undefined}

@@ -58,6 +58,7 @@ function WhichFunction({ functionId }: { functionId: string }) {
 }
 
 function ArgumentField({ parameter }: { parameter: Parameter }) {
+  const { t } = useOpenProgram();
   const { id, step, set } = useStepEditor();
   const args = (step.params.args ?? {}) as Record<string, Value | Place>;
   const { name, type } = parameter;
@@ -81,7 +82,11 @@ function ArgumentField({ parameter }: { parameter: Parameter }) {
       unit={parameter.unit}
       value={args[name] as Value}
       onChange={give}
-      placeholder={typeof parameter.default === "object" ? undefined : parameter.default?.toString()}
+      placeholder={
+        typeof parameter.default === "object" || parameter.default === undefined
+          ? undefined
+          : t("call.default", { value: String(parameter.default) })
+      }
     />
   );
 }

@@ -172,13 +172,16 @@ function useCompared() {
   const groups = [
     ...readingsOfRoles(document, devices).map(({ role, readings }) => ({
       group: t("condition.of_role", { role: roleName(role, speaker) }),
-      items: readings.map((one) => ({ value: `${ROLE}${role}\n${one.name}`, label: one.name })),
+      items: readings.map((one) => ({
+        value: `${ROLE}${role}\n${one.name}`,
+        label: `${roleName(role, speaker)} ${one.name}`,
+      })),
     })),
     ...devices
       .filter((each) => each.properties.length > 0 && each.lifecycle !== "pending")
       .map((each) => ({
         group: each.name,
-        items: each.properties.map((one) => ({ value: `${each.id}\n${one.name}`, label: one.name })),
+        items: each.properties.map((one) => ({ value: `${each.id}\n${one.name}`, label: `${each.name} ${one.name}` })),
       })),
     { group: t("field.parameters"), items: parameters.map((one) => ({ value: `\n${one.name}`, label: one.name })) },
   ];
@@ -224,7 +227,7 @@ function RightField({ row, field, first, onChange }: RowProps) {
       unit={facts?.unit}
       minimum={reading?.minimum}
       maximum={reading?.maximum}
-      placeholder={reading ? undefined : "60"}
+      placeholder={reading ? undefined : t("field.example", { value: "60" })}
       value={row.right}
       onChange={(right) => onChange({ ...row, right })}
     />

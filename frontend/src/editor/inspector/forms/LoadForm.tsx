@@ -105,7 +105,7 @@ function Load() {
         wanted="number"
         value={step.params.quantity as Value}
         onChange={(value) => set("quantity", value)}
-        placeholder={most > 1 ? t("field.up_to", { most }) : "1"}
+        placeholder={most > 1 ? t("field.up_to", { most }) : t("field.example", { value: "1" })}
       />
       <ExpressionField
         label={t("field.object")}

@@ -1,0 +1,87 @@
+/** The fields of a panel: Enter settles one, Esc takes its change back, and both give the keyboard to the map. */
+import {
+  Fragment,
+  type FocusEvent,
+  type KeyboardEvent,
+  type MouseEvent,
+  type ReactNode,
+  useRef,
+  useState,
+} from "react";
+import { flushSync } from "react-dom";
+import { focusMap } from "../state/focus";
+import { useOpenProgram } from "../state/context";
+import classes from "../panel.module.css";
+
+export function FormBody({ children }: { children: ReactNode }) {
+  const [round, setRound] = useState(0);
+  const takeBack = useTakeBack();
+  const onKeyDown = (event: KeyboardEvent) => {
+    if (!isField(event.target)) return;
+    if (event.key === "Escape" && !isExpanded(event.target)) {
+      event.preventDefault();
+      event.stopPropagation();
+      takeBack.run();
+      // What was written and not stored goes with the fields, before one of them could store it while it is left.
+      flushSync(() => setRound(round + 1));
+      focusMap();
+    }
+    if (event.key === "Enter" && settles(event, event.target)) leaveUnlessMoved(event.target);
+  };
+  /** Options lie outside of the panel's box, and yet their presses come by here. */
+  const onClick = (event: MouseEvent) => {
+    const { activeElement } = document;
+    const option = event.target instanceof Element && event.target.closest("[role=option]");
+    if (option && isField(activeElement) && !takesSeveral(activeElement)) leaveUnlessMoved(activeElement);
+  };
+  return (
+    // eslint-disable-next-line jsx-a11y/no-static-element-interactions -- it hears what its fields hear
+    <div className={classes.body} data-form onKeyDown={onKeyDown} onClick={onClick} onFocus={takeBack.begin}>
+      <Fragment key={round}>{children}</Fragment>
+    </div>
+  );
+}
+
+/** Everything that a field has stored since it has the keyboard is undone. */
+function useTakeBack() {
+  const { shared } = useOpenProgram();
+  const begun = useRef<{ readonly field: EventTarget; readonly entries: number } | null>(null);
+  const begin = ({ target }: FocusEvent) => {
+    if (begun.current?.field !== target) begun.current = { field: target, entries: shared.undo.undoStack.length };
+  };
+  const run = () => {
+    const entries = begun.current?.entries ?? Infinity;
+    while (shared.undo.undoStack.length > entries) shared.undo.undo();
+    begun.current = null;
+    shared.awareness.setLocalStateField("editing", null);
+  };
+  return { begin, run };
+}
+
+function isField(target: EventTarget | null): target is HTMLInputElement | HTMLTextAreaElement {
+  return target instanceof HTMLInputElement || target instanceof HTMLTextAreaElement;
+}
+
+function isExpanded(field: Element): boolean {
+  return field.getAttribute("aria-expanded") === "true";
+}
+
+/** Enter that the field has used for something else does not settle: it opens a list, or adds one of several. */
+function settles(event: KeyboardEvent, field: HTMLInputElement | HTMLTextAreaElement): boolean {
+  if (event.nativeEvent.isComposing) return false;
+  if (isExpanded(field)) return !takesSeveral(field);
+  if (event.defaultPrevented || event.shiftKey) return false;
+  if (field instanceof HTMLTextAreaElement) event.preventDefault();
+  return true;
+}
+
+function takesSeveral(field: Element): boolean {
+  return field.closest("[data-several]") !== null;
+}
+
+/** After what the key or the press has changed is drawn; a field that has passed the keyboard on keeps it so. */
+function leaveUnlessMoved(field: Element): void {
+  queueMicrotask(() => {
+    if (document.activeElement === field) focusMap();
+  });
+}

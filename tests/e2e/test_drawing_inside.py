@@ -1,0 +1,140 @@
+"""Drawing into branches is found, what others hold and take away is seen, and a screen says only what it knows."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+from playwright.sync_api import Locator, Page, WebSocketRoute, expect
+
+from tests.e2e.conftest import SignIn
+from tests.e2e.screens import ask, chip, click_floor, make_program, open_program, saved, the_map, violations
+
+pytestmark = pytest.mark.browser
+
+
+def steps(page: Page) -> dict[str, dict[str, Any]]:
+    """Return the program's steps by their kinds, as the database has them."""
+    saved(page)
+    found = re.search(r"/programs/[^/]+$", page.url)
+    assert found is not None
+    by_id = ask(page, f"/api{found[0]}/document")["steps"]
+    return {each["kind"]: {**each, "id": id_} for id_, each in by_id.items()}
+
+
+def draw(page: Page, key: str, x: float, y: float) -> None:
+    """Set a step down at a share of the map's width and height, and close what it opened."""
+    page.keyboard.press("Escape")
+    page.keyboard.press(key)
+    click_floor(page, x, y)
+    expect(page.get_by_role("complementary", name="Selected step")).to_be_visible()
+
+
+def middle(of: Locator) -> tuple[float, float]:
+    box = of.bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_an_open_branch_invites_takes_the_next_step_and_says_so(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "Into branches")
+    draw(page, "i", 0.3, 0.4)
+    expect(the_map(page).get_by_text("draw here what is done when it is true")).to_be_visible()
+    expect(the_map(page).get_by_text("draw here what is done when it is false")).to_be_visible()
+    x, y = middle(chip(page, "1, If"))
+    page.keyboard.press("n")
+    page.mouse.click(x, y - 62)
+    expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Notify")
+    page.keyboard.press("u")
+    expect(page.get_by_text("The next step goes here: If 1, branch \u201cfalse\u201d")).to_be_visible()
+    assert violations(page) == []
+    page.keyboard.press("Escape")
+    drawn = steps(page)
+    assert drawn["notify"]["place"][:2] == [drawn["if"]["id"], "else"]
+
+
+def test_a_step_that_somebody_holds_moves_on_the_others_screen(sign_in: SignIn) -> None:
+    author, admin = sign_in("author"), sign_in("admin")
+    make_program(author, "Held")
+    draw(author, "n", 0.4, 0.4)
+    saved(author)
+    open_program(admin, "Held")
+    there = chip(admin, "1, Notify")
+    own = author.get_by_role("banner").get_by_role("img", name=re.compile("you"))
+    seen = admin.get_by_role("button", name=re.compile("^.*: Follow the view of")).locator("span").first
+    colour = "(avatar) => getComputedStyle(avatar).backgroundColor"
+    assert seen.evaluate(colour) == own.evaluate(colour)
+    before = middle(there)
+    x, y = middle(chip(author, "1, Notify"))
+    author.mouse.move(x, y)
+    author.mouse.down()
+    author.mouse.move(x + 60, y + 40, steps=6)
+    author.mouse.move(x + 120, y + 80, steps=6)
+    admin.wait_for_function(
+        "([name, x]) => [...document.querySelectorAll('.react-flow__node')].some((each) =>"
+        " each.getAttribute('aria-label')?.startsWith(name) && each.getBoundingClientRect().x > x)",
+        arg=["1, Notify", before[0] + 20],
+    )
+    author.mouse.up()
+    saved(author)
+    expect(admin.get_by_role("img", name="Without a connection you cannot see who else is here")).to_have_count(0)
+
+
+def test_a_move_made_offline_of_a_step_that_was_removed_is_told_and_brought_back(
+    sign_in: SignIn, faults: list[str]
+) -> None:
+    author, admin = sign_in("author"), sign_in("admin")
+    cut = [False]
+    sockets: list[WebSocketRoute] = []
+
+    def route(socket: WebSocketRoute) -> None:
+        if cut[0]:
+            socket.close(code=4503, reason="not now")
+        else:
+            socket.connect_to_server()
+            sockets.append(socket)
+
+    author.route_web_socket(re.compile("/ws/program/"), route)
+    make_program(author, "Taken away")
+    draw(author, "n", 0.4, 0.4)
+    author.keyboard.press("Escape")
+    saved(author)
+    open_program(admin, "Taken away")
+    expect(chip(admin, "1, Notify")).to_be_visible()
+    cut[0] = True
+    for each in sockets:
+        each.close(code=4503, reason="not now")
+    unseen = author.get_by_role("img", name="Without a connection you cannot see who else is here")
+    expect(unseen).to_be_visible()
+    x, y = middle(chip(author, "1, Notify"))
+    author.mouse.move(x, y)
+    author.mouse.down()
+    author.mouse.move(x + 90, y + 50, steps=6)
+    author.mouse.up()
+    author.keyboard.press("Escape")
+    expect(author.get_by_role("banner").get_by_text("Offline: one change waits here")).to_be_visible()
+    chip(admin, "1, Notify").click()
+    admin.keyboard.press("Delete")
+    saved(admin)
+    cut[0] = False
+    told = author.get_by_role("alert").filter(has_text="removed this step, and your change of it with it")
+    expect(told).to_be_visible()
+    told.get_by_role("button", name="Keep").click()
+    expect(chip(author, "1, Notify")).to_be_visible()
+    expect(chip(admin, "1, Notify")).to_be_visible()
+    faults.clear()
+
+
+def test_home_does_not_say_that_nothing_runs_before_it_knows(sign_in: SignIn) -> None:
+    page = sign_in("author", "/nowhere")
+    held: list[Any] = []
+    page.route(re.compile(r"/api/sites/[^/]+/runs"), lambda route: held.append(route))
+    page.goto(re.sub(r"(https?://[^/]+).*", r"\1", page.url))
+    expect(page.get_by_role("heading", name="Live now")).to_be_visible()
+    expect(page.get_by_role("heading", name="Recent runs")).to_be_visible()
+    expect(page.get_by_text("No program is running.")).to_have_count(0)
+    for each in held:
+        each.continue_()
+    expect(page.get_by_text("No program is running.")).to_be_visible()

@@ -1,0 +1,123 @@
+"""A field never eats the drawing's keys: Enter settles it, Esc takes its change back, both give the map the keys."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.e2e.conftest import SignIn
+from tests.e2e.screens import ask, chip, saved, write_program
+
+pytestmark = pytest.mark.browser
+
+EVERY_FIELD = """class Task(object):
+    def new_task(self):
+        self.curing_oven.cure_paint(4)
+        self.notify("Next", level="info")
+        self.wait(60)
+        self.count = 3
+        if self.curing_oven.temperature > 40:
+            self.curing_oven.cure_paint(4)
+
+    def run(self, ctx):
+        self.curing_oven = ctx.get("curingOven01")
+        self.new_task()
+"""
+
+
+def document(page: Page) -> dict[str, Any]:
+    saved(page)
+    found = re.search(r"/programs/[^/]+$", page.url)
+    assert found is not None
+    answer: dict[str, Any] = ask(page, f"/api{found[0]}/document")
+    return answer
+
+
+def params(page: Page, kind: str) -> dict[str, Any]:
+    (step,) = (each for each in document(page)["steps"].values() if each["kind"] == kind)
+    return dict(step["params"])
+
+
+def panel(page: Page) -> Locator:
+    return page.get_by_role("complementary", name="Selected step")
+
+
+def every_tool_answers(page: Page) -> None:
+    """Type each tool's letter, and see that it is taken and nothing is written."""
+    buttons = page.get_by_role("toolbar", name="Tools").locator("button[aria-keyshortcuts]")
+    letters: list[str] = buttons.evaluate_all("(all) => all.map((each) => each.getAttribute('aria-keyshortcuts'))")
+    assert {"M", "P", "W", "I", "N", "Z"} < set(letters)
+    for letter in letters:
+        if letter in "FVH.":  # F opens a dialog, the dot a list; V and H draw nothing
+            continue
+        page.keyboard.press(letter.lower())
+        pressed = page.get_by_role("toolbar", name="Tools").locator("button[aria-pressed=true]")
+        expect(pressed).to_have_attribute("aria-keyshortcuts", letter)
+        page.keyboard.press("Escape")
+        expect(pressed).to_have_attribute("aria-keyshortcuts", "V")
+
+
+def test_each_kind_of_field_gives_the_keys_back(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    write_program(page, "Keys after fields", EVERY_FIELD)
+    page.get_by_role("banner").get_by_label("Name of the program").click()
+    page.keyboard.press("Enter")
+    every_tool_answers(page)
+    chip(page, "3, Wait").click()
+    panel(page).get_by_label("Time", exact=True).fill("90")
+    page.keyboard.press("Enter")
+    every_tool_answers(page)
+    assert params(page, "wait") == {"duration": 90}
+    chip(page, "2, Notify").click()
+    panel(page).get_by_label("Message", exact=True).fill("box")
+    page.keyboard.press("Enter")
+    every_tool_answers(page)
+    panel(page).get_by_text("Warning", exact=True).click()
+    every_tool_answers(page)
+    assert params(page, "notify") == {"message": "box", "level": "warning"}
+    chip(page, "4, Set").click()
+    panel(page).get_by_label("Variable", exact=True).fill("boxes")
+    page.keyboard.press("Enter")
+    every_tool_answers(page)
+    assert params(page, "set") == {"variable": "boxes", "value": 3}
+    chip(page, "5, If").click()
+    panel(page).get_by_role("combobox", name="Comparison").click()
+    page.get_by_role("option", name="<", exact=True).click()
+    every_tool_answers(page)
+    panel(page).get_by_role("combobox", name="Reading").click()
+    page.keyboard.type("door")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Enter")
+    every_tool_answers(page)
+    assert params(page, "if")["condition"]["op"] == "<"
+
+
+def test_escape_takes_a_fields_change_back_and_ctrl_z_undoes_the_drawing(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    write_program(page, "Taken back", EVERY_FIELD)
+    expect(chip(page, "5, If")).to_be_visible()
+    before = document(page)
+    for step, field in (("3, Wait", "Time"), ("2, Notify", "Message"), ("4, Set", "Variable")):
+        chip(page, step).click()
+        box = panel(page).get_by_label(field, exact=True)
+        was = box.input_value()
+        box.press_sequentially("7")
+        page.keyboard.press("Escape")
+        if box.evaluate("(box) => box === document.activeElement"):  # the first one closed its list
+            page.keyboard.press("Escape")
+        expect(box).to_have_value(was)
+        expect(box).not_to_be_focused()
+    assert document(page)["steps"] == before["steps"]
+    page.keyboard.press("Escape")
+    chip(page, "3, Wait").click()
+    page.keyboard.press("Delete")
+    expect(chip(page, "3, Wait")).to_have_count(0)
+    chip(page, "2, Notify").click()
+    panel(page).get_by_label("Message", exact=True).press_sequentially("7")
+    page.keyboard.press("Escape")
+    page.keyboard.press("Control+z")
+    expect(chip(page, "3, Wait")).to_be_visible()
+    assert document(page)["steps"] == before["steps"]
