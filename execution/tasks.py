@@ -1,4 +1,4 @@
-"""Celery tasks: harmless when they run twice, never waiting for a robot, and short, save rehearsals."""
+"""Celery tasks: harmless when they run twice, never waiting for a robot, and short, save rehearsals and archiving."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from execution.errors import StepConflict
 from execution.floor.advance import advance_site as step_site
 from execution.mailbox import REQUEST_HEADER
 from execution.rehearsals import worker
+from execution.retention import upkeep
 from execution.runs.advance import advance_run as step_run
 from vipo_device.kit.log_ids import LogId, bind_ids
 
@@ -49,6 +50,13 @@ def advance_site(slug: str) -> bool:
 def rehearse(_hint: str) -> int:
     """Carry out the rehearsals that wait, each in a process of its own; which one is next the database knows."""
     return worker.carry_out_waiting()
+
+
+@shared_task(name=upkeep.ARCHIVE_OLD, ignore_result=True)  # type: ignore[untyped-decorator]
+def archive_old(_hint: str) -> None:
+    """Put into the archive what is older than its site keeps it; what is left when time runs out is for the next."""
+    if upkeep.archive_old():
+        upkeep.ask_for_archiving()
 
 
 @worker_shutting_down.connect  # type: ignore[untyped-decorator]

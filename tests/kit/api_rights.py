@@ -55,7 +55,8 @@ _NAMES = {
         create_program put_document put_script""",
     Right("admin", "admin"): """edit_device approve_device reject_device retire_device readmit_device
         rotate_credential revoke_credential confirm_topic withdraw_topic renew_enrolment_key reserve_device
-        use_robot_map restore_map patch_thing list_processes""",
+        use_robot_map restore_map patch_thing list_processes
+        show_retention set_retention""",
 }
 RIGHTS = {name: right for right, names in _NAMES.items() for name in names.split()}
 """What each operation asks; whoever adds an operation adds it here."""
