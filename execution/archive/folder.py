@@ -40,7 +40,7 @@ def new_file(file: str) -> Iterator[BinaryIO]:
             out.flush()
             os.fsync(out.fileno())
         written.replace(path)
-        for folder in (path.parent, path.parent.parent):
+        for folder in path.parents[:3]:
             _sync_folder(folder)
     except BaseException:
         with suppress(OSError):
