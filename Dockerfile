@@ -23,8 +23,8 @@ COPY simulation simulation
 COPY execution execution
 COPY connectors connectors
 RUN pip install --no-cache-dir --disable-pip-version-check --constraint constraints.txt --editable . \
-    && useradd --system --uid 10001 --home-dir /state vipo && mkdir -p /state /mosquitto/config \
-    && chown vipo: /state && chown 1883:1883 /mosquitto/config && chmod 700 /state /mosquitto/config
+    && useradd --system --uid 10001 --home-dir /state vipo && mkdir -p /state /archive /mosquitto/config \
+    && chown vipo: /state /archive && chown 1883:1883 /mosquitto/config && chmod 700 /state /archive /mosquitto/config
 COPY examples examples
 COPY --from=frontend /build/dist frontend/dist
 USER vipo

@@ -12,6 +12,7 @@ from ninja.responses import Status
 from execution import services
 from execution.errors import NotFound, NoWay
 from execution.operations.routes import router as operations_router
+from execution.retention.routes import router as retention_router
 from execution.runs.programs import prepare, site_of_program
 from execution.shapes import (
     ActionInput,
@@ -55,6 +56,7 @@ from vipo_device.descriptions.thing_description import DEVICE_URN
 
 router = Router(tags=["execution"])
 router.add_router("", operations_router)
+router.add_router("", retention_router)
 ABSENT = {
     "program": "There is no such program. It may have been deleted.",
     "question": "There is no such question. Its run may have been deleted.",

@@ -11,6 +11,8 @@ ExecutionError
  ├── ActionFailed: a device did not do what it was told
  ├── TooManyWaiting: as many wait for results as may
  ├── TooManyRehearsals: as many rehearsals wait or are under way as may
+ ├── HistoryUnreadable: it is in the archive, and that cannot be read here now
+ ├── BadKeeping: nothing can be kept for so many days
  └── NoWay: there is no route
 """
 
@@ -94,6 +96,20 @@ class TooManyRehearsals(ExecutionError):
     code = "too_many_rehearsals"
     status = 429
     retry_after_s = 30
+
+
+class HistoryUnreadable(ExecutionError):
+    """It is in the archive, and the archive's folder or this file of it cannot be read by this process now."""
+
+    code = "history_unreadable"
+    status = 503
+
+
+class BadKeeping(ExecutionError):
+    """A time of keeping that is too long to be one."""
+
+    code = "bad_keeping"
+    status = 422
 
 
 class NoWay(ExecutionError):

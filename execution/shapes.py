@@ -110,7 +110,7 @@ class RunStepShape(Schema):
 
 
 class RunSummaryShape(Schema):
-    """A run as lists and live messages have it; times are ISO 8601."""
+    """A run as lists and live messages have it; times are ISO 8601. Lists have no steps of one that is `archived`."""
 
     id: str
     number: int
@@ -129,6 +129,7 @@ class RunSummaryShape(Schema):
     priority: Priority
     not_before: str | None
     deadline: str | None
+    archived: bool
 
 
 class RunShape(RunSummaryShape):

@@ -14,6 +14,7 @@ from execution.engine.drive import drive_site as drive
 from execution.engine.drive import leave
 from execution.errors import NotFound
 from execution.rehearsals import worker
+from execution.retention import upkeep
 from execution.runs.runs import site_of_run
 from vipo_device.kit.log_ids import LogId, bind_ids
 
@@ -56,6 +57,13 @@ def hand_over(**_more: Any) -> None:
 def rehearse(_hint: str) -> int:
     """Carry out the rehearsals that wait, each in a process of its own; which one is next the database knows."""
     return worker.carry_out_waiting()
+
+
+@shared_task(name=upkeep.ARCHIVE_OLD, ignore_result=True)  # type: ignore[untyped-decorator]
+def archive_old(_hint: str) -> None:
+    """Put into the archive what is older than its site keeps it; what is left when time runs out is for the next."""
+    if upkeep.archive_old():
+        upkeep.ask_for_archiving()
 
 
 @worker_shutting_down.connect  # type: ignore[untyped-decorator]

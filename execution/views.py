@@ -21,7 +21,10 @@ LATE = "The device took longer than it may. Look what it is doing."
 
 @dataclass(frozen=True, slots=True)
 class RunView:
-    """A run without its document; `steps` says how far each step is, `roles` which robot has which role."""
+    """A run without its document; `steps` says how far each step is, `roles` which robot has which role.
+
+    Of one that `is_archived` lists have no steps; by itself it has them, from the archive.
+    """
 
     id: UUID
     number: int
@@ -40,6 +43,7 @@ class RunView:
     priority: str = "normal"
     not_before: datetime | None = None
     deadline: datetime | None = None
+    is_archived: bool = False
 
     @property
     def cause(self) -> dict[str, Any] | None:
@@ -194,6 +198,7 @@ def view_run(row: Run) -> RunView:
         priority=PRIORITY_NAMES[row.priority],
         not_before=row.not_before,
         deadline=row.deadline,
+        is_archived=row.archive_id is not None,
     )
 
 
@@ -292,6 +297,7 @@ def run_to_json(run: RunView) -> dict[str, Any]:
         "priority": run.priority,
         "not_before": _iso(run.not_before),
         "deadline": _iso(run.deadline),
+        "archived": run.is_archived,
     }
 
 

@@ -211,6 +211,12 @@ VIPO_REHEARSAL_LIMIT_S = whole_number("VIPO_REHEARSAL_LIMIT_S", 600)
 """After so many seconds by the clock a rehearsal is ended."""
 VIPO_REHEARSAL_MEMORY_MB = whole_number("VIPO_REHEARSAL_MEMORY_MB", 2048, least=512)
 """So much memory the process of a rehearsal may ask for."""
+VIPO_KEEP_RUNS_DAYS = whole_number("VIPO_KEEP_RUNS_DAYS", 365, least=0)
+VIPO_KEEP_REHEARSALS_DAYS = whole_number("VIPO_KEEP_REHEARSALS_DAYS", 30, least=0)
+VIPO_KEEP_CALLS_DAYS = whole_number("VIPO_KEEP_CALLS_DAYS", 365, least=0)
+"""For so many days what has ended stays in the database, 0: for ever; each site may choose others."""
+VIPO_ARCHIVE_DIR = Path(os.environ.get("VIPO_ARCHIVE_DIR", VIPO_STATE_DIR / "archive"))
+"""Where what is older lies as files; the workers of upkeep write it, the web processes read it."""
 VIPO_DEMO = has_demo(ALLOWED_HOSTS)
 VIPO_DEMO_SIGN_IN = VIPO_DEMO and not SERVED
 """Whether the sign-in page offers the demo's accounts, which tells their passwords to who asks."""

@@ -1,16 +1,20 @@
-"""What execution keeps: runs, commands, sites, rehearsals."""
+"""What execution keeps: runs, commands, sites, rehearsals, archives."""
 
+from execution.models.archives import Archivable, Archive, Keeping
 from execution.models.commands import Command
 from execution.models.rehearsals import Rehearsal
 from execution.models.runs import ArmedProgram, Question, Run, RunEvent, RunInput, Timer
 from execution.models.sites import DeadLetter, FloorState, InboxEvent, Lease, SiteLease, SiteStop, StopFollowed
 
 __all__ = [
+    "Archivable",
+    "Archive",
     "ArmedProgram",
     "Command",
     "DeadLetter",
     "FloorState",
     "InboxEvent",
+    "Keeping",
     "Lease",
     "Question",
     "Rehearsal",

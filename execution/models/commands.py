@@ -60,6 +60,7 @@ class Command(models.Model):
                 condition=models.Q(status__in=["failed", "rejected", "timed_out"]),
                 name="commands_gone_wrong",
             ),
+            models.Index(fields=["site", "ended_at"], condition=models.Q(run=None), name="commands_of_no_run"),
         ]
 
     def __str__(self) -> str:

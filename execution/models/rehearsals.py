@@ -6,8 +6,10 @@ import uuid
 
 from django.db import models
 
+from execution.models.archives import Archivable
 
-class Rehearsal(models.Model):
+
+class Rehearsal(Archivable):
     """A program tried out in a pretend world.
 
     `person` is whose it is. The worker that carries it out has its `claim`, runs on `machine` and says at `beat_at`, by
@@ -55,6 +57,7 @@ class Rehearsal(models.Model):
                 fields=["status"], condition=models.Q(status__in=["queued", "running"]), name="rehearsals_not_over"
             ),
             models.Index(fields=["began_at"]),
+            models.Index(fields=["site", "ended_at"], condition=models.Q(archive=None), name="rehearsals_not_archived"),
         ]
 
     def __str__(self) -> str:

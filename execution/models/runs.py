@@ -6,8 +6,10 @@ import uuid
 
 from django.db import models
 
+from execution.models.archives import Archivable
 
-class Run(models.Model):
+
+class Run(Archivable):
     """A program being carried out. It holds all it needs: the document, the plan and the machine's state.
 
     `not_before` is when it may begin, `deadline` when it should be over; `late` says that people were told that it is
@@ -68,7 +70,10 @@ class Run(models.Model):
         """Runs are counted from 1 at each site."""
 
         constraints = [models.UniqueConstraint(fields=["site", "number"], name="one_run_per_number")]
-        indexes = [models.Index(fields=["status"])]
+        indexes = [
+            models.Index(fields=["status"]),
+            models.Index(fields=["site", "ended_at"], condition=models.Q(archive=None), name="runs_not_archived"),
+        ]
 
     def __str__(self) -> str:
         return f"run {self.number}"

@@ -16,6 +16,7 @@ from django.db.models import Max, QuerySet
 from django.db.models.functions import Now
 
 from execution import mailbox
+from execution.archive.rows import read_rehearsal
 from execution.errors import NotFound, NotPossibleNow, TooManyRehearsals
 from execution.floor.layouts import place_facts
 from execution.models import Lease, Rehearsal
@@ -110,12 +111,14 @@ def _scene(site: str, seed: int) -> dict[str, Any]:
 
 
 def get_rehearsal(*, rehearsal_id: UUID | str) -> RehearsalView:
-    """Return a rehearsal.
+    """Return a rehearsal, from the archive if it is there.
 
     Raises:
         NotFound: there is none.
+        HistoryUnreadable: it is in the archive, which cannot be read.
     """
-    return _view(_find(Rehearsal.objects.defer("job"), rehearsal_id))
+    row = _find(Rehearsal.objects.select_related("archive").defer("job"), rehearsal_id)
+    return _view(read_rehearsal(row) if row.archive_id else row)
 
 
 def list_open_rehearsals(*, site: str) -> list[RehearsalView]:

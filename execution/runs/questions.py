@@ -11,6 +11,7 @@ from uuid import UUID
 from django.db import transaction
 
 from execution import mailbox
+from execution.archive.rows import read_questions
 from execution.errors import AlreadyAnswered, AnswerNotFitting, NotFound, NotPossibleNow
 from execution.floor_protocol import QuestionAnswered
 from execution.machine.messages import AskPeople
@@ -27,8 +28,12 @@ def list_questions(*, site: str, run_id: UUID | str | None = None) -> tuple[Ques
     """Return the open questions of a site, the oldest first; of one run all questions."""
     rows = Question.objects.select_related("run", "run__site").filter(run__site__slug=site).order_by("asked_at")
     rows = rows.filter(run_id=run_id) if run_id else rows.filter(state=Question.State.OPEN)
-    rows = rows.defer("run__plan", "run__state", "run__document", "run__compiled")
-    return tuple(view_question(row) for row in rows)
+    found = list(rows.defer("run__plan", "run__state", "run__document", "run__compiled"))
+    if run_id:
+        runs = Run.objects.select_related("site", "archive").defer("plan", "state", "document", "compiled")
+        archived = runs.filter(id=run_id, site__slug=site).exclude(archive=None).first()
+        found = read_questions(archived) if archived is not None else found
+    return tuple(view_question(row) for row in found)
 
 
 def site_of_question(*, question_id: UUID | str) -> str:

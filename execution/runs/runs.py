@@ -11,6 +11,7 @@ from django.db import IntegrityError, transaction
 from django.db.models import Max
 
 from execution import database, mailbox
+from execution.archive.rows import read_events, read_run
 from execution.errors import NotFound, NotPossibleNow
 from execution.floor.stops import get_stop, hold_if_stopped
 from execution.floor_protocol import ResumeAsked, ToRun
@@ -134,7 +135,7 @@ def _order(row: Run, order: ToRun) -> RunView:
 
 
 def _find(run_id: UUID | str) -> Run:
-    row = Run.objects.select_related("site").defer("plan", "state").filter(id=run_id).first()
+    row = Run.objects.select_related("site", "archive").defer("plan", "state").filter(id=run_id).first()
     if row is None:
         raise NotFound("There is no such run. It may have been deleted with its site.")
     return row
@@ -153,8 +154,14 @@ def site_of_run(*, run_id: UUID | str) -> str:
 
 
 def get_run(*, run_id: UUID | str) -> WholeRunView:
-    """Return a run with its document and compiled form; raises NotFound."""
+    """Return a run with its document and compiled form, from the archive if it is there.
+
+    Raises:
+        NotFound: there is none.
+        HistoryUnreadable: it is in the archive, which cannot be read.
+    """
     row = _find(run_id)
+    row = read_run(row) if row.archive_id else row
     return WholeRunView(view_run(row), row.document, row.compiled)
 
 
@@ -193,6 +200,20 @@ def list_runs(
 
 
 def list_events(*, run_id: UUID | str, after: int = 0) -> tuple[RunEventView, ...]:
-    """Return the lines of a run's journal after a number, oldest first; at most a thousand at once."""
-    rows = RunEvent.objects.filter(run_id=run_id, seq__gt=after).order_by("seq")
-    return tuple(view_event(row) for row in rows[:EVENTS_AT_ONCE])
+    """Return the lines of a run's journal after a number, oldest first; at most a thousand at once.
+
+    Raises:
+        HistoryUnreadable: it is in the archive, which cannot be read.
+    """
+    found = list(RunEvent.objects.filter(run_id=run_id, seq__gt=after).order_by("seq")[:EVENTS_AT_ONCE])
+    # Asked afterwards: a run is named as archived before any row of it goes, so what was read just now is all there is.
+    archived = (
+        Run.objects.select_related("site", "archive")
+        .filter(id=run_id)
+        .exclude(archive=None)
+        .only("site", "archive", "archive_offset", "archive_bytes")
+        .first()
+    )
+    if archived is not None:
+        found = read_events(archived, after, EVENTS_AT_ONCE)
+    return tuple(view_event(row) for row in found)

@@ -21,6 +21,7 @@ from execution.lease import HeldLease
 from execution.machine.messages import TimerFired
 from execution.models import Run, Timer
 from execution.rehearsals.worker import sweep_rehearsals
+from execution.retention.upkeep import ask_for_archiving
 from execution.runs.terms import call_late
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
@@ -61,6 +62,7 @@ class Ticker:
             watch_alerts(now=now, since=self._leads_since)
         if self._is_due("prune", PRUNE_S, now):
             mailbox.forget_taken(now - KEPT_FOR)
+            ask_for_archiving()
             registry.prune_samples(now=now)
             registry.prune_alerts(now=now)
             registry.prune_tokens(now=now)

@@ -41,6 +41,7 @@ BODIES: dict[str, dict[str, Any]] = {
     "wait_until_stored": {"seen": ""},
     "save_function": {"program": "{program}", "function": "f", "name": "F"},
     "use_robot_map": {"device": "{device}", "version": 1, "replaces": 1},
+    "set_retention": {"runs": 30, "rehearsals": None, "calls": 0},
     "restore_map": {"version": 1, "replaces": 1},
     "reserve_device": {"id": "mixer-9"},
     "create_program": {"name": "New"},

@@ -56,7 +56,7 @@ _NAMES = {
     Right("admin", "admin"): """edit_device approve_device reject_device retire_device readmit_device
         rotate_credential revoke_credential confirm_topic withdraw_topic renew_enrolment_key reserve_device
         use_robot_map restore_map patch_thing list_processes list_dead_letters retry_dead_letter
-        drop_dead_letter""",
+        drop_dead_letter show_retention set_retention""",
 }
 RIGHTS = {name: right for right, names in _NAMES.items() for name in names.split()}
 """What each operation asks; whoever adds an operation adds it here."""

@@ -115,6 +115,7 @@ export const api = {
   all: receiveAll,
   post: <T = void>(path: string, body?: unknown) => sendJson<T>("POST", path, body),
   postOnce,
+  put: <T = void>(path: string, body: unknown) => sendJson<T>("PUT", path, body),
   patch: <T = void>(path: string, body: unknown) => sendJson<T>("PATCH", path, body),
   replace,
   delete: <T = void>(path: string) => sendJson<T>("DELETE", path),

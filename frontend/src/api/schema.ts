@@ -896,6 +896,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site}/retention": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Retention
+         * @description Return the site's times of keeping, how many bytes its histories take by program, and its archive.
+         */
+        get: operations["show_retention"];
+        /**
+         * Set Retention
+         * @description Choose for how many days the site keeps each kind; what is older then is archived within the next minutes.
+         */
+        put: operations["set_retention"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site}/route": {
         parameters: {
             query?: never;
@@ -2167,6 +2191,18 @@ export interface components {
             taken: boolean;
             takes: string[];
         };
+        /** @description A file of the archive: how many histories are in it, when they ended, and how many bytes it has. */
+        ArchiveShape: {
+            bytes: number;
+            count: number;
+            file: string;
+            first_at: string;
+            id: string;
+            /** @enum {string} */
+            kind: "runs" | "rehearsals" | "calls";
+            last_at: string;
+            made_at: string;
+        };
         /** @description Whether the program shall start by itself. */
         ArmProgram: {
             on: boolean;
@@ -2521,7 +2557,7 @@ export interface components {
                 [key: string]: unknown;
             };
             /** @enum {string} */
-            code: "no_gateway" | "no_worker" | "no_ticker" | "process_silent" | "clock_apart";
+            code: "no_gateway" | "no_worker" | "no_ticker" | "process_silent" | "clock_apart" | "archive_failed";
             /** @enum {string} */
             severity: "warning" | "error";
             text: string;
@@ -2561,6 +2597,14 @@ export interface components {
             name: string;
             /** Format: uuid */
             program: string;
+        };
+        /** @description A kind's time of keeping in days (0: for ever): what holds, what the site has chosen, and the server's. */
+        KeepingShape: {
+            chosen: number | null;
+            days: number;
+            /** @enum {string} */
+            kind: "runs" | "rehearsals" | "calls";
+            server: number;
         };
         /** @description Who does a job that only one process may do; `held_s` is how much longer it is theirs, below 0 afterwards. */
         LeaseShape: {
@@ -2930,6 +2974,16 @@ export interface components {
             processes: components["schemas"]["ProcessShape"][];
             queues: components["schemas"]["QueueShape"][];
         };
+        /** @description How many bytes the histories of a program take: as rows, by what they are, and in files of the archive. */
+        ProgramBytesShape: {
+            archived: number;
+            commands: number;
+            journals: number;
+            name: string;
+            program: string;
+            rehearsals: number;
+            runs: number;
+        };
         /** @description A name for a program. */
         ProgramName: {
             name: string;
@@ -3127,6 +3181,22 @@ export interface components {
             type: string;
             unit?: string | null;
         };
+        /**
+         * @description Times of keeping, what takes how much, the newest 50 files of the archive, and what keeps it from growing.
+         *
+         *     `calls` are the bytes of what was told devices outside of runs, as rows and in files.
+         */
+        RetentionShape: {
+            archive_bytes: number;
+            archive_count: number;
+            archives: components["schemas"]["ArchiveShape"][];
+            calls: number;
+            calls_archived: number;
+            keeping: components["schemas"]["KeepingShape"][];
+            programs: components["schemas"]["ProgramBytesShape"][];
+            trouble: string;
+            trouble_at: string | null;
+        };
         /** @description What a robot did, and its charge at the end (%). */
         RobotFigures: {
             battery: number;
@@ -3189,6 +3259,7 @@ export interface components {
         };
         /** @description A run with the program as it was when it was started. */
         RunShape: {
+            archived: boolean;
             cause: components["schemas"]["Cause"] | null;
             compiled: components["schemas"]["CompiledShape"];
             created_at: string;
@@ -3226,8 +3297,9 @@ export interface components {
             wait: string | null;
             why?: components["schemas"]["WaitReason"] | null;
         };
-        /** @description A run as lists and live messages have it; times are ISO 8601. */
+        /** @description A run as lists and live messages have it; times are ISO 8601. Lists have no steps of one that is `archived`. */
         RunSummaryShape: {
+            archived: boolean;
             cause: components["schemas"]["Cause"] | null;
             created_at: string;
             deadline: string | null;
@@ -3312,6 +3384,12 @@ export interface components {
             property: string;
             since: string;
             unit: string;
+        };
+        /** @description For how many days a site keeps what has ended; 0: for ever, null: as the server's settings say. */
+        SetKeeping: {
+            calls: number | null;
+            rehearsals: number | null;
+            runs: number | null;
         };
         /** @description What somebody signs in with. */
         SignIn: {
@@ -5759,6 +5837,92 @@ export interface operations {
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_retention: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RetentionShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    set_retention: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SetKeeping"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RetentionShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

@@ -53,6 +53,8 @@ export type MadeToken = Schemas["MadeToken"];
 
 export type Alert = Schemas["AlertShape"];
 export type Finding = Schemas["FindingShape"];
+export type Retention = Schemas["RetentionShape"];
+export type SetKeeping = Schemas["SetKeeping"];
 export type Operations = Schemas["OperationsShape"];
 export type OverdueCommand = Schemas["OverdueShape"];
 export type Queue = Schemas["QueueShape"];

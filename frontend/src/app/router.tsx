@@ -25,6 +25,7 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/map", "pages/map/MapPage"],
   ["/sites/:slug/tokens", "pages/tokens/TokensPage"],
   ["/sites/:slug/operations", "pages/operations/OperationsPage"],
+  ["/sites/:slug/retention", "pages/retention/RetentionPage"],
   ["/programs/:id", "editor/EditorScreen"],
   ["/programs/:id/simulate/:rehearsal?", "simulation/SimulationScreen"],
   ["/runs/:id", "run/RunScreen"],

@@ -19,6 +19,13 @@ export function formatNumber(value: number, digits = 0): string {
   }).format(value);
 }
 
+/** A size in bytes, in the largest unit of 1,000 that fits. */
+export function formatBytes(bytes: number): string {
+  const units = ["B", "kB", "MB", "GB", "TB"];
+  const step = Math.min(units.length - 1, bytes < 1 ? 0 : Math.floor(Math.log10(bytes) / 3));
+  return withUnit(formatNumber(bytes / 1000 ** step, step === 0 ? 0 : 1), units[step] ?? "B");
+}
+
 /** `2.20, -1.95`; with a stroke between them where the comma is the decimal sign. */
 export function formatPoint(x: number, y: number): string {
   const [first, second] = [formatNumber(x, 2), formatNumber(y, 2)];

@@ -205,6 +205,7 @@ function RunTop({ view, onProblem }: { view: RunView; onProblem: (problem: strin
       chips={
         <span className={styles.chips}>
           {run.version !== null && <Chip mono>v{run.version}</Chip>}
+          {run.archived && <Chip>{t("run.archived")}</Chip>}
           {site?.simulated && <Chip>{t("run.simulated")}</Chip>}
           <RunTerms run={run} now={view.now} />
         </span>

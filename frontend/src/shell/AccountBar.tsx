@@ -1,6 +1,17 @@
 /** Who is signed in, what they may do here, and how the screen looks to them. */
 import { Menu } from "@mantine/core";
-import { Check, KeyRound, Languages, LogOut, Monitor, Moon, Sun, UserRound, type LucideIcon } from "lucide-react";
+import {
+  Archive,
+  Check,
+  KeyRound,
+  Languages,
+  LogOut,
+  Monitor,
+  Moon,
+  Sun,
+  UserRound,
+  type LucideIcon,
+} from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { useMe } from "@/api/queries";
@@ -81,6 +92,11 @@ function AccountMenu({ user, role, slug }: { user: User; role: Role | undefined;
           {slug ? (
             <Menu.Item component={Link} to={`/sites/${slug}/tokens`} leftSection={<KeyRound size={15} />}>
               {t("tokens.menu")}
+            </Menu.Item>
+          ) : null}
+          {slug && role === "admin" ? (
+            <Menu.Item component={Link} to={`/sites/${slug}/retention`} leftSection={<Archive size={15} />}>
+              {t("retention.menu")}
             </Menu.Item>
           ) : null}
           <Menu.Item leftSection={<LogOut size={15} />} onClick={signOut.ask}>

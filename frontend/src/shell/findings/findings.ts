@@ -10,7 +10,7 @@ export function seesOperations(role: Role | undefined): boolean {
 
 /** A finding as a sentence in the language of the screen; one that this page does not know yet as the server says it. */
 export function findingWords(finding: Finding): string {
-  const { kind, name, machine, seconds } = finding.args as Record<string, string | number | undefined>;
+  const { kind, name, machine, seconds, why } = finding.args as Record<string, string | number | undefined>;
   const apart = typeof seconds === "number" ? seconds : 0;
   const way = apart < 0 ? "_behind" : "_ahead";
   const key = `operations.finding.${finding.code}${finding.code === "clock_apart" ? way : ""}`;
@@ -19,6 +19,7 @@ export function findingWords(finding: Finding): string {
     kind: kind ? i18next.t(`operations.kind.${kind}`) : "",
     name,
     machine,
+    why,
     ago: formatSpan(apart),
     seconds: withUnit(formatNumber(Math.abs(apart), 1), "s"),
   });

@@ -1,0 +1,1 @@
+"""Histories as files: compressed JSON lines, how they are written, and how they are opened again."""
