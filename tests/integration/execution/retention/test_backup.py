@@ -7,7 +7,6 @@ import re
 import shutil
 import subprocess
 from collections import Counter
-from collections.abc import Callable
 from datetime import timedelta
 from pathlib import Path
 from typing import Any
@@ -96,4 +95,8 @@ def test_a_paused_run_goes_on_in_a_restored_database_and_no_device_is_told_anyth
     assert before > 0
     assert len(log.told) > before
     assert set(Counter(log.told).values()) == {1}
-    assert [method for _, method, _ in log.told if method in ("dispense", "pick", "drop")] == ["dispense", "pick", "drop"]
+    assert [method for _, method, _ in log.told if method in ("dispense", "pick", "drop")] == [
+        "dispense",
+        "pick",
+        "drop",
+    ]
