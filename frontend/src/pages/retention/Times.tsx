@@ -54,7 +54,7 @@ export function Times({ slug, retention }: { slug: string; retention: Retention 
             onChange={(event) => setTyped({ ...typed, [kind]: event.currentTarget.value })}
           />
         ))}
-        <Button type="submit" loading={save.isPending} disabled={isWrong}>
+        <Button type="submit" className={styles.save} loading={save.isPending} disabled={isWrong}>
           {t("retention.save")}
         </Button>
       </form>

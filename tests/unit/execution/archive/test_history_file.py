@@ -112,6 +112,7 @@ END = {"row": "end", "rows": 0}
         (packed(HEAD, END) + b"rest", "It is not compressed as VIPO's archives are"),
         (packed(HEAD, END)[:-5], "The file is damaged, or a part of it is missing"),
     ],
+    ids=lambda value: value if isinstance(value, str) else "",
 )
 def test_what_is_no_archive_is_said_in_one_sentence(
     content: bytes, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
