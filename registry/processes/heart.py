@@ -70,7 +70,7 @@ class Heart:
         self._beats = 0
         self._stopping = threading.Event()
         self._thread: threading.Thread | None = None
-        self._outage = Outage("The database", "Nobody sees that this process works.")
+        self._outage = Outage("The database of heartbeats", "Nobody sees that this process works.")
 
     def beat(self, activity: str = "") -> None:
         """Say that the loop has come round once more, and what it is at; costs no question to the database."""

@@ -233,10 +233,10 @@ def test_a_connection_that_is_cut_is_made_anew(plant: Plant) -> None:
         others = "FROM pg_stat_activity WHERE datname = 'vipo' AND pid <> pg_backend_pid()"
 
         def are_all_there() -> bool:
-            return len(other.execute(f"SELECT pid {others}").fetchall()) == 3
+            return len(other.execute(f"SELECT pid {others}").fetchall()) == 4
 
-        wait_for("what comes in, what goes out, what dashboards are told", are_all_there)
-        assert len(other.execute(f"SELECT pg_terminate_backend(pid) {others}").fetchall()) == 3
+        wait_for("what comes in, what goes out, what dashboards are told, the heartbeat", are_all_there)
+        assert len(other.execute(f"SELECT pg_terminate_backend(pid) {others}").fetchall()) == 4
     plant.describe("Fourth")
     plant.say_states(1)
     plant.wait_kept("Fourth")

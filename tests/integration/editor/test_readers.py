@@ -15,7 +15,7 @@ from editor.rooms.room import MOST_OF_PERSON, MOST_READERS
 from tests.kit.web import Web, make_people
 
 EDITS, PER_S = 60, 20
-LATE, WRITERS, TEXTS, TEXT_BYTES = 5, 5, 20, 300_000
+LATE, WRITERS, TEXTS, TEXT_BYTES = 5, 5, 14, 300_000
 MOST_KEPT_BYTES = 10_000_000
 """Of the 30 MB that are sent to who reads all."""
 PATIENCE_S = 90
