@@ -74,7 +74,7 @@ def test_a_silent_process_and_what_is_missing_are_told() -> None:
         (("code", "process_silent"), ("severity", "warning")): 1,
     }
     assert found["vipo_queue_length"][(("queue", "inbox"),)] == 0
-    assert found["vipo_queue_length"][(("queue", "tasks:celery"),)] >= 0
+    assert found["vipo_queue_length"][(("queue", "tasks:runs"),)] >= 0
     assert set(found["vipo_runs_open"]) == {(("state", each),) for each in ("pending", "running", "paused")}
 
 
