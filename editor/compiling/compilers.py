@@ -68,8 +68,9 @@ class Compilers:
         return (*self._lanes, self._slow, self._cutting)
 
     def prepare(self, program: str) -> None:
-        """Start the process of a program that will be checked soon."""
+        """Start the process of a program that will be checked soon, and the one that reads what is sent to it."""
         self._lane(program).prepare()
+        self._cutting.prepare()
 
     async def check(self, wanted: Wanted, begin: Callable[[], None]) -> Found:
         """Check a program; `begin` is called when its document is read, which may be twice. Raises CheckFailed.

@@ -48,6 +48,7 @@ class Inbox:
         now_s = time.monotonic()
         try:
             self._room.receiver.count(self._member, frame, now_s)
+            self._member.not_acted_on += 1
             if self._working is not None or self._member.allowance.rest_s(now_s):
                 self._member.allowance.let_wait(len(frame))
                 self._waiting.append(frame)
@@ -55,7 +56,9 @@ class Inbox:
                 return
             acting = self._room.receiver.act(self._member, frame, now_s)
             wanted, is_done = self._step(acting, None)
-            if not is_done:
+            if is_done:
+                self._member.not_acted_on -= 1
+            else:
                 self._work(acting, wanted)
         except Close as close:
             self._end(close)
@@ -87,11 +90,13 @@ class Inbox:
         try:
             if acting is not None:
                 await self._go_on(acting, wanted)
+                self._member.not_acted_on -= 1
             while self._waiting and self._member.closing is None:
                 await asyncio.sleep(self._member.allowance.rest_s(time.monotonic()))
                 frame = self._waiting.popleft()
                 self._member.allowance.let_wait(-len(frame))
                 await self._go_on(self._room.receiver.act(self._member, frame, time.monotonic()), None)
+                self._member.not_acted_on -= 1
         except Close as close:
             self._end(close)
         except Exception:  # the edge of the task: nobody else would hear of it

@@ -183,6 +183,8 @@ class Member:
         """Whether the connection wants to be told."""
         self.unsaved: deque[tuple[int, int]] = deque()
         """Numbers of messages with the room's place up to which they are saved."""
+        self.not_acted_on = 0
+        """How many messages of it have come and are not acted on: who is asked meanwhile sends their content again."""
         self.behind: bytes | None = None
         """Up to where it was told of the document, while it has not read that and is told nothing more."""
         self.outbox: deque[bytes] = deque()

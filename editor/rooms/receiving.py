@@ -131,7 +131,7 @@ class Receiver:
                 yield from self._receive_update(member, update, now_s)
             case yjs_protocol.QueryAwareness():
                 member.post(yjs_protocol.encode_awareness(self._room.board.everybody()))
-        if member.probe_is_due:
+        if member.probe_is_due and member.not_acted_on <= 1:  # this one
             member.ask_for_state(self._room.document.state())
 
     def _receive_update(self, member: Member, update: bytes, now_s: float) -> Acting:

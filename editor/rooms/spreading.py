@@ -48,7 +48,7 @@ class Spreading:
         if member.is_full and member.behind is None:
             member.behind = self._state()
             member.ask_for_state(member.behind)
-        elif member.probe_is_due:
+        elif member.probe_is_due and not member.not_acted_on:
             member.ask_for_state(self._state())
 
 

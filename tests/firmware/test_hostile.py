@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -25,9 +27,22 @@ REFUSED: dict[str, tuple[object, str]] = {
 
 @pytest.fixture(params=["amqtt", "mosquitto"])
 def mixer(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Running]:
+    with running_mixer(request, tmp_path) as running:
+        yield running
+
+
+@pytest.fixture(params=["amqtt", "mosquitto"])
+def slow_mixer(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Running]:
+    """A mixer for which a second takes a second: it is still at its first command when the last one comes."""
+    with running_mixer(request, tmp_path, speed=1) as running:
+        yield running
+
+
+@contextmanager
+def running_mixer(request: pytest.FixtureRequest, tmp_path: Path, **more: Any) -> Iterator[Running]:
     with running_bus(request.param, tmp_path) as bus, listening(bus) as ear:
         ear.say(f"vipo/v1/dev/{DEVICE}/down/mixPaint", {"id": "kept", "v": {"time": 1}}, retain=True)
-        process = start_firmware(find_interpreter(request, "micropython"), tmp_path, bus)
+        process = start_firmware(find_interpreter(request, "micropython"), tmp_path, bus, **more)
         running = Running(ear, bus, process, tmp_path / "panel.log")
         try:
             running.state(lambda _state: True)
@@ -67,17 +82,17 @@ def test_hostile_messages_harm_nothing(mixer: Running) -> None:
     assert mixer.process.poll() is None
 
 
-def test_a_command_under_way_is_never_forgotten(mixer: Running) -> None:
-    mixer.tell("mixPaint", "c1", time=30)
-    mixer.answer("c1", "RUNNING")
-    for number in range(40):
-        mixer.tell("mixPaint", f"other{number}", time=1)
-    mixer.answer("other39", "REJECTED")
-    mixer.ear.forget()
-    mixer.tell("mixPaint", "c1", time=30)
-    mixer.answer("c1", "RUNNING")
-    mixer.ear.say(mixer.down + "mixPaint", b'{"id": "c1", "x": "' + b"x" * 6000)
-    mixer.tell("cancel", "x1", command="c1")
-    mixer.answer("c1", "CANCELED")
-    assert mixer.answers("c1") == ["RUNNING", "RUNNING", "CANCELED"]
-    assert mixer.log.read_text().count("Mixing Started") == 1
+def test_a_command_under_way_is_never_forgotten(slow_mixer: Running) -> None:
+    slow_mixer.tell("mixPaint", "c1", time=30)
+    slow_mixer.answer("c1", "RUNNING")
+    for number in range(300):  # more than a board of 100 kB has room for answers to
+        slow_mixer.tell("mixPaint", f"other{number}", time=1)
+    slow_mixer.answer("other299", "REJECTED")
+    slow_mixer.ear.forget()
+    slow_mixer.tell("mixPaint", "c1", time=30)
+    slow_mixer.answer("c1", "RUNNING")
+    slow_mixer.ear.say(slow_mixer.down + "mixPaint", b'{"id": "c1", "x": "' + b"x" * 6000)
+    slow_mixer.tell("cancel", "x1", command="c1")
+    slow_mixer.answer("c1", "CANCELED")
+    assert slow_mixer.answers("c1") == ["RUNNING", "RUNNING", "CANCELED"]
+    assert slow_mixer.log.read_text().count("Mixing Started") == 1

@@ -25,7 +25,8 @@ class Device:
         self.feed = None
         self._told = None
         self._told_at = 0
-        duties.say = lambda answer: client.publish(self.base + "up/ack", answer)
+        answers = self.base + "up/ack"
+        duties.say = lambda answer: client.publish(answers, answer)
         duties.changed = lambda: self._tell_state(False)
         client.will = (self.base + "up/presence", self._presence("offline"), True)
         client.on_message, client.on_up, client.on_down = self._heard, self._up, self._down

@@ -76,6 +76,8 @@ class Client:
             try:
                 await self._session()
             except FAILURES as error:
+                if isinstance(error, MemoryError):
+                    self.outbox.shorten()
                 if isinstance(error, Refused) and self.on_refused:
                     self.on_refused()
                 if self.on_down:
@@ -120,6 +122,8 @@ class Client:
             await part
         except FAILURES as error:
             self._broken = self._broken or str(error) or "no answer"
+            if isinstance(error, MemoryError):
+                self.outbox.shorten()
         finally:
             self._over.set()
 

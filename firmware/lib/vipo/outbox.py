@@ -4,7 +4,8 @@ from vipo.packets import PINGREQ, puback_packet, publish_head
 from vipo.portable import seconds_since, ticks_ms
 
 MOST_FLYING = 8
-MOST_QUEUED = 64
+MOST_QUEUED = 24
+FEW = 4
 MOST_TOGETHER = 512
 LAST_ID = 65535
 
@@ -43,6 +44,11 @@ class Outbox:
         if len(self.queue) >= MOST_QUEUED:
             self.queue.pop(self._flying())
         self.queue.append(Message(topic, payload, retain))
+
+    def shorten(self):
+        """Make room in a heap that is full: of what does not fly only the newest few stay; the server asks again."""
+        flying = self._flying()
+        self.queue = self.queue[:flying] + self.queue[flying:][-FEW:]
 
     def next_pieces(self):
         """Return what is to be written next, in pieces; small packets go together, and a large payload is not copied.

@@ -11,11 +11,12 @@ from pycrdt import Doc, Map
 from websockets.asyncio.client import ClientConnection, connect
 
 from editor.rooms import yjs_protocol
+from editor.rooms.member import BYTES_PER_S
 from editor.rooms.room import MOST_OF_PERSON, MOST_READERS
 from tests.kit.web import Web, make_people
 
 EDITS, PER_S = 60, 20
-LATE, WRITERS, TEXTS, TEXT_BYTES = 5, 5, 14, 300_000
+LATE, WRITERS, TEXTS, TEXT_BYTES = 5, 5, 20, 300_000
 MOST_KEPT_BYTES = 10_000_000
 """Of the 30 MB that are sent to who reads all."""
 PATIENCE_S = 90
@@ -69,6 +70,12 @@ async def join(stack: AsyncExitStack, web: Web, program: str, session: str) -> P
     return peer
 
 
+async def seen_by_all(peers: list[Peer], wanted: dict[str, Any]) -> None:
+    async with asyncio.timeout(PATIENCE_S):
+        while any(peer.content("parameters") != wanted for peer in peers):
+            await asyncio.sleep(0.01)
+
+
 async def test_three_hundred_readers_see_every_step_that_an_editor_draws(web: Web) -> None:
     viewers, program = make_people(web.folder, {}, "viewer", MOST_READERS // MOST_OF_PERSON), web.new_program("Watched")
     wanted = {f"s{number}": {"kind": "wait", "pos": [number, 1]} for number in range(EDITS)}
@@ -90,10 +97,11 @@ async def test_little_is_kept_for_who_does_not_read_and_it_has_all_once_it_reads
         late = [await join(stack, web, program, web.sessions["viewer"]) for _ in range(LATE)]
         reading = [asyncio.create_task(writer.read()) for writer in writers]
         for number in range(TEXTS):
-            for name, writer in enumerate(writers):
-                await writer.draw("parameters", f"p{name}", f"{number % 10}" * TEXT_BYTES)
-            await asyncio.sleep(0.05)
-        wanted = {f"p{name}": f"{(TEXTS - 1) % 10}" * TEXT_BYTES for name in range(WRITERS)}
+            wanted = {f"p{name}": f"{number % 10}" * TEXT_BYTES for name in range(WRITERS)}
+            for writer, (name, text) in zip(writers, wanted.items(), strict=True):
+                await writer.draw("parameters", name, text)
+            await seen_by_all(writers, wanted)
+            await asyncio.sleep(TEXT_BYTES / BYTES_PER_S)  # who sends more is closed, and that is another test
         await asyncio.gather(*(reader.read_until("parameters", wanted) for reader in late))
         assert [reader.content("parameters") == wanted for reader in late] == [True] * LATE
         assert max(reader.read_bytes for reader in late) < MOST_KEPT_BYTES

@@ -38,9 +38,9 @@ function isFresh({ connection, waiting, late }: Saving): boolean {
 }
 
 function savedWords(saving: Saving, t: Translate): string {
-  const { waiting, late } = saving;
+  const { waiting, kept, late } = saving;
   const state = stateOf(saving);
   if (state === "refused") return waiting > 0 ? t("saved.not_taken", { count: waiting }) : t("saved.refused");
-  if (state === "away") return waiting > 0 ? t("saved.waiting", { count: waiting }) : t("saved.away");
+  if (state === "away") return waiting > 0 && kept ? t("saved.waiting", { count: waiting }) : t("saved.away");
   return t(late ? "saved.saving" : "saved.saved");
 }

@@ -23,8 +23,8 @@ const counts = async () => (await listCopies()).map(({ person, waiting }) => [pe
 test("what a page counted waits in the next one, with what it drew, until that is settled", async () => {
   const first = await page("1");
   first.doc.getMap("steps").set("a", 1);
-  first.copy.keep(2);
-  await expect.poll(counts).toEqual([["1", 2]]);
+  await first.copy.keep(2);
+  expect(await counts()).toEqual([["1", 2]]);
   await first.copy.close();
   const second = await page("1");
   expect(second.waiting).toBe(2);
@@ -35,11 +35,10 @@ test("what a page counted waits in the next one, with what it drew, until that i
 
 test("settling leaves what another page has made since, and its own count", async () => {
   const other = await page("1");
-  other.copy.keep(1);
+  await other.copy.keep(1);
   await expect.poll(counts).toEqual([["1", 1]]);
   const mine = await page("1");
-  mine.copy.keep(4);
-  other.copy.keep(2);
+  await Promise.all([mine.copy.keep(4), other.copy.keep(2)]);
   await expect.poll(counts).toEqual([["1", 6]]);
   await mine.copy.settle();
   expect(await counts()).toEqual([["1", 6]]);
@@ -48,7 +47,7 @@ test("settling leaves what another page has made since, and its own count", asyn
 test("another person sees nothing of a copy, and signing in removes it", async () => {
   const first = await page("1");
   first.doc.getMap("steps").set("a", 1);
-  first.copy.keep(1);
+  await first.copy.keep(1);
   await expect.poll(counts).toEqual([["1", 1]]);
   const second = await page("2");
   expect(second.doc.getMap("steps").size).toBe(0);
@@ -58,7 +57,7 @@ test("another person sees nothing of a copy, and signing in removes it", async (
 
 test("a session that ended by itself leaves only what waits", async () => {
   const waits = await page("1", "p");
-  waits.copy.keep(1);
+  await waits.copy.keep(1);
   await page("1", "q");
   await expect.poll(counts).toContainEqual(["1", 1]);
   await keepOnlyOf(null);

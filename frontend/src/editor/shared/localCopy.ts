@@ -4,6 +4,8 @@ import { IndexeddbPersistence } from "y-indexeddb";
 import * as Y from "yjs";
 import { COUNTS, copyOf, isKept, oldCopyOf } from "@/api/localCopies";
 
+/** Where y-indexeddb keeps the document. */
+const UPDATES = "updates";
 /** What comes out of a copy of before, which belonged to nobody, is kept in this one, and no change of one's own. */
 export const TAKEN_OVER = Symbol("taken over");
 
@@ -37,10 +39,18 @@ export class LocalCopy {
     return [...this.#before.values()].reduce((sum, count) => sum + count, 0);
   }
 
-  /** Keep how many changes of this page wait. */
-  keep(waiting: number): void {
-    const { persistence, page } = { persistence: this.#persistence, page: this.#page };
-    void (waiting > 0 ? persistence.set(page, waiting) : persistence.del(page)).catch(() => {});
+  /**
+   * Keep how many changes of this page wait; done when they are in the copy, and so is the number: a page that is closed
+   * before may take them along. Fails where the browser keeps nothing.
+   */
+  async keep(waiting: number): Promise<void> {
+    const persistence = this.#persistence;
+    await (waiting > 0 ? persistence.set(this.#page, waiting) : persistence.del(this.#page));
+    await persistence.whenSynced;
+    const db = await persistence._db;
+    // Has its turn when all that was to be written before has been.
+    const [updates] = idb.transact(db, [UPDATES, COUNTS], "readonly");
+    if (updates) await idb.count(updates);
   }
 
   /** What pages before this one had made is saved; a page that has made more since still counts its own. */

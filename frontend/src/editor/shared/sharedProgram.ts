@@ -20,6 +20,8 @@ export interface Saving {
   readonly connection: Connection;
   /** How many of our own edits the server has not yet called saved. */
   readonly waiting: number;
+  /** All of them are in this browser's copy: a page that is opened anew has them. */
+  readonly kept: boolean;
   /** Something of it has waited for longer than a moment. */
   readonly late: boolean;
   /** How many messages with edits of ours it did not take, since we may only look. */
@@ -40,6 +42,7 @@ type Listener = () => void;
 const START: Saving = {
   connection: "connecting",
   waiting: 0,
+  kept: true,
   late: false,
   notTaken: 0,
   loaded: false,
@@ -58,6 +61,7 @@ export class SharedProgram {
   /** Steps that edits changed which the server has not yet called saved. */
   readonly #unsaved = new Set<string>();
   #earlier = 0;
+  #keepings = 0;
   #closed = false;
   readonly #origin = Symbol("this person");
   readonly #listeners = new Set<Listener>();
@@ -234,7 +238,12 @@ export class SharedProgram {
       this.#earlier = 0;
       void this.#copy.settle();
     }
-    this.#copy.keep(waiting - this.#earlier);
+    this.#setSaving({ kept: false });
+    const keeping = ++this.#keepings;
+    void this.#copy.keep(waiting - this.#earlier).then(
+      () => keeping === this.#keepings && !this.#closed && this.#setSaving({ kept: true }),
+      () => {}, // a browser that keeps nothing never says that it does
+    );
   }
 
   #listenToServer(): void {
