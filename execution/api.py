@@ -12,6 +12,8 @@ from ninja.responses import Status
 from execution import services
 from execution.errors import NotFound, NoWay
 from execution.operations.routes import router as operations_router
+from execution.rehearsals.shapes import RehearsalShape, RehearsalSummaryShape, StartRehearsal
+from execution.rehearsals.views import rehearsal_to_json, whole_rehearsal_to_json
 from execution.retention.routes import router as retention_router
 from execution.runs.programs import prepare, site_of_program
 from execution.shapes import (
@@ -26,15 +28,12 @@ from execution.shapes import (
     CallShape,
     ChangedMap,
     QuestionShape,
-    RehearsalShape,
-    RehearsalSummaryShape,
     RestoreMap,
     RouteShape,
     RunEventShape,
     RunsAsked,
     RunShape,
     RunSummaryShape,
-    StartRehearsal,
     StartRun,
     UseRobotMap,
 )
@@ -43,10 +42,8 @@ from execution.views import (
     call_to_json,
     event_to_json,
     question_to_json,
-    rehearsal_to_json,
     route_to_json,
     run_to_json,
-    whole_rehearsal_to_json,
     whole_run_to_json,
 )
 from registry import services as registry

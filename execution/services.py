@@ -35,6 +35,7 @@ from execution.rehearsals.rehearsals import (
     list_open_rehearsals,
     start_rehearsal,
 )
+from execution.rehearsals.views import RehearsalView
 from execution.runs.programs import Prepared
 from execution.runs.questions import answer_question, list_questions, site_of_question
 from execution.runs.runs import (
@@ -55,7 +56,6 @@ from execution.views import (
     ArmedView,
     CallView,
     QuestionView,
-    RehearsalView,
     RouteView,
     RunEventView,
     RunView,

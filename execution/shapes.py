@@ -15,8 +15,6 @@ RunStatus = Literal["pending", "running", "paused", "finished", "failed", "cance
 StepStatus = Literal["waiting", "running", "done", "failed", "skipped"]
 Scalar = bool | int | float | str
 Priority = Literal["low", "normal", "high"]
-Driver = Literal["physics", "kinematic"]
-Seed = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
 MapVersion = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
 
 
@@ -42,14 +40,6 @@ class StartRun(Asked):
     deadline: Annotated[
         AwareDatetime | None, Field(description="It should be over by then; people are told when it is not.")
     ] = None
-
-
-class StartRehearsal(Asked):
-    """How a rehearsal is done: with `physics`, or `kinematic` and quicker."""
-
-    parameters: dict[str, Any] = {}
-    seed: Seed = 0
-    driver: Driver = "physics"
 
 
 End = Annotated[Any, Unchecked(Position | DevicePlace | NamedPlace | PointPlace)]
@@ -245,159 +235,6 @@ class CallShape(Schema):
     expires_at: str
     sent_at: str | None
     ended_at: str | None
-
-
-class RehearsalError(Schema):
-    """Something that the real run would meet, too."""
-
-    t: float
-    step: str
-    kind: str
-    message: str
-    code: str
-    args: dict[str, Scalar]
-
-
-class RobotFigures(Schema):
-    """What a robot did, and its charge at the end (%)."""
-
-    distance_m: float
-    busy_s: float
-    wait_s: float
-    battery: float
-
-
-class MachineFigures(Schema):
-    """What a machine did."""
-
-    busy_s: float
-
-
-class Encounter(Schema):
-    """Two bodies that came too near, or touched."""
-
-    t: float
-    a: str
-    b: str
-    distance_m: float
-    x: float
-    y: float
-
-
-class WaitShape(Schema):
-    """A robot that had to wait, and why."""
-
-    t: float
-    duration_s: float
-    robot: str
-    reason: str
-    why: WaitReason
-
-
-class RehearsedStep(Schema):
-    """One time that a step was carried out."""
-
-    step: str
-    count: int
-    robot: str
-    device: str
-    started_s: float
-    ended_s: float | None
-    status: StepStatus
-
-
-class Frames(Schema):
-    """Where each robot was, every `dt_s`: x, y, theta."""
-
-    dt_s: float
-    robots: dict[str, list[tuple[float, float, float]]]
-
-
-class PlannedWay(Schema):
-    """A way that a robot set out on."""
-
-    t: float
-    robot: str
-    path: list[Position]
-
-
-class LogLine(Schema):
-    """A line of what happened: in English, and `code` with `args` for other languages."""
-
-    t: float
-    step: str
-    device: str
-    text: str
-    code: str
-    args: dict[str, Scalar]
-
-
-class RehearsalResultShape(Schema):
-    """What a rehearsal found: figures, and the whole course of it."""
-
-    ok: bool
-    duration_s: float
-    errors: list[RehearsalError]
-    robots: dict[str, RobotFigures]
-    machines: dict[str, MachineFigures]
-    near_misses: list[Encounter]
-    collisions: list[Encounter]
-    waits: list[WaitShape]
-    steps: list[RehearsedStep]
-    frames: Frames
-    carrying: dict[str, list[tuple[float, dict[str, int]]]]
-    machine_states: dict[str, list[tuple[float, bool]]]
-    properties: dict[str, list[tuple[float, str, Scalar | None]]]
-    routes: list[PlannedWay]
-    log: list[LogLine]
-
-
-RehearsalResult = Annotated[dict[str, Any] | None, Unchecked(RehearsalResultShape | None)]
-
-
-class CourseShape(Schema):
-    """How far a rehearsal is: its virtual time, the step it is at, and how many steps were done once.
-
-    `share` is of these steps; without `end_known` the program repeats some, and they do not tell when it ends.
-    """
-
-    virtual_s: float
-    step: str
-    steps_done: int
-    steps: int
-    share: float
-    end_known: bool
-
-
-class RehearsalSummaryShape(Schema):
-    """A rehearsal without its program; `progress` goes from 0 to 1, `tries` is how often it was begun.
-
-    `place` counts from 1 in the queue of all sites, while it waits; `mine` tells whether the asker has started it.
-    """
-
-    id: str
-    program: str
-    program_name: str
-    status: Literal["queued", "running", "done", "failed", "cancelled"]
-    progress: float
-    course: CourseShape | None
-    place: int | None
-    tries: int
-    reason: str
-    cause: Cause | None
-    started_by: str
-    mine: bool
-    created_at: str
-    began_at: str | None
-    ended_at: str | None
-
-
-class RehearsalShape(RehearsalSummaryShape):
-    """A rehearsal with its result, once there is one."""
-
-    result: RehearsalResult
-    document: Document
-    compiled: Compiled
 
 
 class UseRobotMap(Asked):

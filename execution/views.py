@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any
 from uuid import UUID
 
-from execution.models import ArmedProgram, Command, Question, Rehearsal, Run, RunEvent
+from execution.models import ArmedProgram, Command, Question, Run, RunEvent
 from execution.reasons import cause_of
 from vipo_device.protocol.description import Scalar
 
@@ -138,38 +138,6 @@ class CallView:
 
 
 @dataclass(frozen=True, slots=True)
-class RehearsalView:
-    """A rehearsal with its result, once there is one; `progress` goes from 0 to 1.
-
-    `place` counts from 1 in the queue of all sites, while it waits; `tries` is how often it was begun.
-    """
-
-    id: UUID
-    program: UUID
-    program_name: str
-    site: str
-    status: str
-    progress: float
-    course: Mapping[str, Any] | None
-    place: int | None
-    tries: int
-    reason: str
-    started_by: str
-    person: int | None
-    created_at: datetime
-    began_at: datetime | None
-    ended_at: datetime | None
-    result: Mapping[str, Any] | None
-    document: Mapping[str, Any]
-    compiled: Mapping[str, Any]
-
-    @property
-    def cause(self) -> dict[str, Any] | None:
-        """Why it has not come to a result, for screens to say."""
-        return cause_of(self.reason)
-
-
-@dataclass(frozen=True, slots=True)
 class RouteView:
     """The way that a robot would drive, as a drawn line in metres."""
 
@@ -253,30 +221,6 @@ def view_call(row: Command) -> CallView:
     )
 
 
-def view_rehearsal(row: Rehearsal, order: Sequence[UUID] = (), *, whole: bool = True) -> RehearsalView:
-    """Return the view of a rehearsal's row; `order` is the queue, and not `whole` leaves out what lists do not show."""
-    return RehearsalView(
-        id=row.id,
-        program=row.program,
-        program_name=row.program_name,
-        site=row.site.slug,
-        status=row.status,
-        progress=row.progress,
-        course=row.course or None,
-        place=order.index(row.id) + 1 if row.id in order else None,
-        tries=row.tries,
-        reason=row.reason,
-        started_by=row.started_by,
-        person=row.person,
-        created_at=row.created_at,
-        began_at=row.began_at,
-        ended_at=row.ended_at,
-        result=row.result if whole else None,
-        document=row.document if whole else {},
-        compiled=row.compiled if whole else {},
-    )
-
-
 def run_to_json(run: RunView) -> dict[str, Any]:
     """Return a run as lists and live messages have it."""
     return {
@@ -289,14 +233,14 @@ def run_to_json(run: RunView) -> dict[str, Any]:
         "reason": run.reason,
         "cause": run.cause,
         "created_at": run.created_at.isoformat(),
-        "started_at": _iso(run.started_at),
-        "ended_at": _iso(run.ended_at),
+        "started_at": iso(run.started_at),
+        "ended_at": iso(run.ended_at),
         "started_by": run.started_by,
         "steps": run.steps,
         "roles": run.roles,
         "priority": run.priority,
-        "not_before": _iso(run.not_before),
-        "deadline": _iso(run.deadline),
+        "not_before": iso(run.not_before),
+        "deadline": iso(run.deadline),
         "archived": run.is_archived,
     }
 
@@ -338,7 +282,7 @@ def question_to_json(question: QuestionView) -> dict[str, Any]:
         "value": question.value,
         "asked_at": question.asked_at.isoformat(),
         "answered_by": question.answered_by,
-        "answered_at": _iso(question.answered_at),
+        "answered_at": iso(question.answered_at),
     }
 
 
@@ -362,39 +306,8 @@ def call_to_json(call: CallView) -> dict[str, Any]:
         "result": call.result,
         "created_at": call.created_at.isoformat(),
         "expires_at": call.expires_at.isoformat(),
-        "sent_at": _iso(call.sent_at),
-        "ended_at": _iso(call.ended_at),
-    }
-
-
-def rehearsal_to_json(rehearsal: RehearsalView, asker: int | None) -> dict[str, Any]:
-    """Return a rehearsal as lists have it, for the person who asks."""
-    return {
-        "id": str(rehearsal.id),
-        "program": str(rehearsal.program),
-        "program_name": rehearsal.program_name,
-        "status": rehearsal.status,
-        "progress": rehearsal.progress,
-        "course": rehearsal.course,
-        "place": rehearsal.place,
-        "tries": rehearsal.tries,
-        "reason": rehearsal.reason,
-        "cause": rehearsal.cause,
-        "started_by": rehearsal.started_by,
-        "mine": rehearsal.person is not None and rehearsal.person == asker,
-        "created_at": rehearsal.created_at.isoformat(),
-        "began_at": _iso(rehearsal.began_at),
-        "ended_at": _iso(rehearsal.ended_at),
-    }
-
-
-def whole_rehearsal_to_json(rehearsal: RehearsalView, asker: int | None) -> dict[str, Any]:
-    """Return a rehearsal with its program as it was then, and its result, if there is one."""
-    return {
-        **rehearsal_to_json(rehearsal, asker),
-        "result": rehearsal.result,
-        "document": rehearsal.document,
-        "compiled": rehearsal.compiled,
+        "sent_at": iso(call.sent_at),
+        "ended_at": iso(call.ended_at),
     }
 
 
@@ -403,5 +316,6 @@ def route_to_json(route: RouteView) -> dict[str, Any]:
     return {"path": [list(point) for point in route.path], "length_m": route.length_m, "seconds": route.seconds}
 
 
-def _iso(at: datetime | None) -> str | None:
+def iso(at: datetime | None) -> str | None:
+    """Return a moment as JSON says it."""
     return at.isoformat() if at else None

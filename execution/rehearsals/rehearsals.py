@@ -22,8 +22,8 @@ from execution.floor.layouts import place_facts
 from execution.models import Lease, Rehearsal
 from execution.rehearsals.child_process import scene_to_json
 from execution.rehearsals.queue_order import Entry, order_fairly
+from execution.rehearsals.views import RehearsalView, view_rehearsal
 from execution.runs.programs import Prepared
-from execution.views import RehearsalView, view_rehearsal
 from registry import services as registry
 from simulation.world import Scene
 

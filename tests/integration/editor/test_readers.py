@@ -44,11 +44,6 @@ class Peer:
             while self.content(root) != wanted:
                 await self.take(await self.socket.recv())
 
-    async def read(self) -> None:
-        """Apply and answer for ever."""
-        while True:
-            await self.take(await self.socket.recv())
-
     async def take(self, frame: str | bytes) -> None:
         assert isinstance(frame, bytes)
         self.read_bytes += len(frame)
@@ -70,12 +65,6 @@ async def join(stack: AsyncExitStack, web: Web, program: str, session: str) -> P
     return peer
 
 
-async def seen_by_all(peers: list[Peer], wanted: dict[str, Any]) -> None:
-    async with asyncio.timeout(PATIENCE_S):
-        while any(peer.content("parameters") != wanted for peer in peers):
-            await asyncio.sleep(0.01)
-
-
 async def test_three_hundred_readers_see_every_step_that_an_editor_draws(web: Web) -> None:
     viewers, program = make_people(web.folder, {}, "viewer", MOST_READERS // MOST_OF_PERSON), web.new_program("Watched")
     wanted = {f"s{number}": {"kind": "wait", "pos": [number, 1]} for number in range(EDITS)}
@@ -95,16 +84,13 @@ async def test_little_is_kept_for_who_does_not_read_and_it_has_all_once_it_reads
     async with AsyncExitStack() as stack:
         writers = [await join(stack, web, program, web.sessions["author"]) for _ in range(WRITERS)]
         late = [await join(stack, web, program, web.sessions["viewer"]) for _ in range(LATE)]
-        reading = [asyncio.create_task(writer.read()) for writer in writers]
         for number in range(TEXTS):
             wanted = {f"p{name}": f"{number % 10}" * TEXT_BYTES for name in range(WRITERS)}
             for writer, (name, text) in zip(writers, wanted.items(), strict=True):
                 await writer.draw("parameters", name, text)
-            await seen_by_all(writers, wanted)
+            await asyncio.gather(*(writer.read_until("parameters", wanted) for writer in writers))
             await asyncio.sleep(TEXT_BYTES / BYTES_PER_S)  # who sends more is closed, and that is another test
         await asyncio.gather(*(reader.read_until("parameters", wanted) for reader in late))
         assert [reader.content("parameters") == wanted for reader in late] == [True] * LATE
         assert max(reader.read_bytes for reader in late) < MOST_KEPT_BYTES
         assert [reader.socket.close_code for reader in late] == [None] * LATE
-        for task in reading:
-            task.cancel()

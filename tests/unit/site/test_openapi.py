@@ -8,6 +8,7 @@ from ninja import Schema
 
 import editor.api
 import editor.shapes
+import execution.rehearsals.shapes
 import execution.shapes
 import registry.shapes
 import vipo_site.http.openapi
@@ -15,7 +16,7 @@ from editor.language import compile_document, compiled_to_json
 from editor.language.document.outline import BRANCHES, COMMENT
 from editor.shapes import CompiledShape, DocumentShape, StepKind
 from execution.rehearsals.program_file import rehearse_program
-from execution.shapes import RehearsalResultShape
+from execution.rehearsals.shapes import RehearsalResultShape
 from tests.kit.files import ROOT
 from vipo_site.cli.program_file import read_program_file
 from vipo_site.http.api import api
@@ -75,7 +76,14 @@ def test_every_answer_has_a_shape(described):
 
 
 def test_no_two_shapes_have_one_name():
-    modules = (registry.shapes, editor.api, editor.shapes, execution.shapes, vipo_site.http.openapi)
+    modules = (
+        registry.shapes,
+        editor.api,
+        editor.shapes,
+        execution.shapes,
+        execution.rehearsals.shapes,
+        vipo_site.http.openapi,
+    )
     shapes = {s for m in modules for s in vars(m).values() if isinstance(s, type) and issubclass(s, Schema)}
     assert [name for name, count in Counter(shape.__name__ for shape in shapes).items() if count > 1] == []
 
