@@ -15,8 +15,8 @@ from editor.rooms.ledger import updates_of
 from editor.rooms.room import Room
 from editor.rooms.runner import LARGE_BYTES, OpenRoom, Shared
 from editor.rooms.stream import Entry
+from editor.rooms.stream_tail import read_tail
 from editor.rooms.threads import in_database
-from editor.rooms.told import read_tail
 
 HEARD_AT_ONCE, SLICES_AT_ONCE = 200, 5
 

@@ -10,7 +10,7 @@ from ninja import Router
 
 from execution.operations import overview
 from execution.operations.shapes import FindingShape, OperationsShape, ProcessesShape
-from execution.retention.keeping import get_keeping
+from execution.retention.periods import get_keeping
 from registry import services as registry
 from registry.services import require
 

@@ -8,7 +8,7 @@ from django.http import HttpRequest
 from ninja import Router
 
 from execution.models import Archive
-from execution.retention.keeping import KINDS, default_days, get_keeping, set_keeping
+from execution.retention.periods import KINDS, default_days, get_keeping, set_keeping
 from execution.retention.shapes import RetentionShape, SetKeeping
 from execution.retention.usage import list_archives, read_usage
 from registry.services import require

@@ -19,7 +19,7 @@ from execution.archive.history_file import UnreadableHistory
 from execution.lease import HeldLease
 from execution.models import Archive, Lease
 from execution.retention.archiving import Overtaken, Turn, archive_next, check_whole, discard
-from execution.retention.keeping import KINDS, get_keeping, note_trouble
+from execution.retention.periods import KINDS, get_keeping, note_trouble
 from execution.retention.pruning import prune
 from registry import services as registry
 

@@ -43,7 +43,7 @@ def mend(options: argparse.Namespace) -> int:
             found = services.restore_rows(file=options.restore, folder=folder)
         else:
             services.show_mending(program_id=options.id)  # so that an id that is none is told of first
-            told = _read_told(options.id)
+            told = _read_unstored(options.id)
             if options.apply:
                 found = services.mend_program(program_id=options.id, folder=folder, told=told or ())
             else:
@@ -61,12 +61,12 @@ def mend(options: argparse.Namespace) -> int:
     return CLEAN if is_whole else FAULTY
 
 
-def _read_told(program: str) -> tuple[Change, ...] | None:
+def _read_unstored(program: str) -> tuple[Change, ...] | None:
     """Return what may be in no row yet; None where that cannot be asked."""
-    from editor.rooms.told import StreamLost, read_told
+    from editor.rooms.stream_tail import StreamLost, read_unstored
 
     try:
-        return read_told(program_id=program)
+        return read_unstored(program_id=program)
     except StreamLost:
         return None
 

@@ -16,7 +16,7 @@ from execution import services
 from execution.errors import BadKeeping, HistoryUnreadable
 from execution.models import Archive, Command, InboxEvent, Keeping, Question, Rehearsal, Run, RunEvent, Timer
 from execution.rehearsals.views import whole_rehearsal_to_json
-from execution.retention.keeping import get_keeping, set_keeping
+from execution.retention.periods import get_keeping, set_keeping
 from execution.views import event_to_json, question_to_json, whole_run_to_json
 from registry.models import Device, DeviceAlert, Site
 from tests.integration.execution.retention.histories import NOW, archive, make_command, make_rehearsal, make_run

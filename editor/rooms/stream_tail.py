@@ -11,7 +11,7 @@ from editor.rooms.stream import Entry, RoomStream, make_stream
 from editor.rooms.stream import StreamLost as StreamLost
 
 
-def read_told(*, program_id: str) -> tuple[Change, ...]:
+def read_unstored(*, program_id: str) -> tuple[Change, ...]:
     """Return the changes in the program's stream that may not be in its rows.
 
     Within one process (`memory://`) there are none for another one. Raises StreamLost, NoSuchProgram.
