@@ -1,6 +1,9 @@
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 import react from "@vitejs/plugin-react";
-import { defineConfig } from "vite";
+import { defineConfig, type Plugin } from "vite";
 import { VitePWA } from "vite-plugin-pwa";
 
 const backend = process.env.VIPO_BACKEND ?? "http://127.0.0.1:8000";
@@ -14,14 +17,40 @@ const worker: Parameters<typeof VitePWA>[0] = {
   manifest: false,
   injectManifest: {
     rollupFormat: "iife",
-    globPatterns: ["index.html", "theme.js", "favicon.svg", "assets/*.{js,css}", "assets/*-latin-{wght,400,600}-*.woff2"],
+    globPatterns: [
+      "index.html",
+      "theme.js",
+      "favicon.svg",
+      "assets/*.{js,css}",
+      "assets/*-latin-{wght,400,600}-*.woff2",
+    ],
     globIgnores: ["**/Scene3D*", "**/SimulationScreen*"],
     maximumFileSizeToCacheInBytes: 3_000_000,
   },
 };
 
+/** Beside each text of the build stands what a browser is sent that reads it compressed (servestatic finds it). */
+function compressed(): Plugin {
+  let folder = "";
+  return {
+    name: "compressed",
+    apply: "build",
+    configResolved: (config) => void (folder = join(config.root, config.build.outDir, "assets")),
+    closeBundle() {
+      for (const name of readdirSync(folder).filter((each) => /\.(js|css|svg)$/.test(each))) {
+        const path = join(folder, name);
+        const content = readFileSync(path);
+        if (content.length < 1024) continue;
+        writeFileSync(`${path}.gz`, gzipSync(content, { level: 9 }));
+        const params = { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: content.length };
+        writeFileSync(`${path}.br`, brotliCompressSync(content, { params }));
+      }
+    },
+  };
+}
+
 export default defineConfig({
-  plugins: [react(), VitePWA(worker)],
+  plugins: [react(), VitePWA(worker), compressed()],
   resolve: { alias: { "@": fileURLToPath(new URL("./src", import.meta.url)) } },
   build: { target: "es2022", sourcemap: false, chunkSizeWarningLimit: 1500 },
   server: { proxy: { "/api": backend, "/ws": { target: backend.replace("http", "ws"), ws: true } } },

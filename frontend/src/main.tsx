@@ -11,12 +11,13 @@ import { App } from "./app/App";
 import { startI18n } from "./i18n";
 import { startOffline } from "./offline/register";
 
-startI18n();
 if (import.meta.env.PROD) startOffline();
-const root = document.getElementById("root");
-if (!root) throw new Error("The page has no element with the id root.");
-createRoot(root).render(
-  <StrictMode>
-    <App />
-  </StrictMode>,
-);
+void startI18n().then(() => {
+  const root = document.getElementById("root");
+  if (!root) throw new Error("The page has no element with the id root.");
+  createRoot(root).render(
+    <StrictMode>
+      <App />
+    </StrictMode>,
+  );
+});

@@ -8,16 +8,12 @@ import { useClipboard } from "./gestures/clipboard";
 import { useGestureKeys } from "./gestures/keys";
 import { StepMenu } from "./gestures/StepMenu";
 import { Inspector } from "./inspector/Inspector";
+import { Dialogs } from "./dialogs/Dialogs";
 import { Drawer } from "./parts/Drawer";
 import { EditorTop } from "./parts/EditorTop";
-import { FunctionDialog } from "./parts/FunctionDialog";
 import { NotTaken } from "./parts/NotTaken";
 import { Unopened } from "./parts/Unopened";
-import { LibraryDialog } from "./parts/LibraryDialog";
 import { EmptyProgram, HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
-import { RunDialog } from "./parts/RunDialog";
-import { SaveFunctionDialog } from "./parts/SaveFunctionDialog";
-import { ShortcutsDialog } from "./parts/ShortcutsDialog";
 import { ToolRail } from "./parts/ToolRail";
 import { pasteIfScript } from "./script/pastedScript";
 import { useOpenProgram } from "./state/context";
@@ -71,11 +67,7 @@ export function EditorWorkspace() {
           </>
         ) : null}
       </main>
-      <RunDialog />
-      <FunctionDialog />
-      <LibraryDialog />
-      <SaveFunctionDialog />
-      <ShortcutsDialog />
+      <Dialogs />
     </div>
   );
 }

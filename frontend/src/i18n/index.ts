@@ -1,43 +1,44 @@
-/** The languages of the screens: each file of a language is one area, `t("area.key")`. */
+/** The languages of the screens; the texts of one are loaded when it is chosen. */
 import i18next from "i18next";
 import { initReactI18next } from "react-i18next";
+import type { Areas } from "./areas";
 
 export const LANGUAGES = ["en", "de"] as const;
 export type Language = (typeof LANGUAGES)[number];
 
 const KEPT_AS = "vipo.language";
-const files = import.meta.glob<Record<string, unknown>>("./{en,de}/*.json", { eager: true, import: "default" });
-
-/** `{en: {shell: …}, de: …}` out of `./en/shell.json` and so on. */
-export function gatherAreas(sources: Record<string, Record<string, unknown>>): Record<string, Record<string, unknown>> {
-  const gathered: Record<string, Record<string, unknown>> = {};
-  for (const [path, texts] of Object.entries(sources)) {
-    const [, language = "", area = ""] = /\/(\w+)\/(\w+)\.json$/.exec(path) ?? [];
-    gathered[language] = { ...gathered[language], [area]: texts };
-  }
-  return gathered;
-}
+const CATALOGUES: Record<Language, () => Promise<{ texts: Areas }>> = {
+  en: () => import("./catalogue.en"),
+  de: () => import("./catalogue.de"),
+};
 
 function firstLanguage(): Language {
   const wanted = [localStorage.getItem(KEPT_AS), ...navigator.languages.map((each) => each.slice(0, 2))];
   return wanted.find((each): each is Language => LANGUAGES.includes(each as Language)) ?? "en";
 }
 
-/** Choose a language and keep the choice in this browser. */
-export function chooseLanguage(language: Language): void {
+/** Choose a language and keep the choice in this browser; a page that is older than the server begins anew with it. */
+export async function chooseLanguage(language: Language): Promise<void> {
   localStorage.setItem(KEPT_AS, language);
-  void i18next.changeLanguage(language);
+  try {
+    const { texts } = await CATALOGUES[language]();
+    i18next.addResourceBundle(language, "translation", texts);
+    await i18next.changeLanguage(language);
+  } catch {
+    location.reload();
+  }
 }
 
-/** Ready when this returns: the catalogues are part of the page. */
-export function startI18n(): void {
-  const areas = gatherAreas(files);
-  i18next.on("languageChanged", (language) => document.documentElement.setAttribute("lang", language));
-  void i18next.use(initReactI18next).init({
-    resources: Object.fromEntries(Object.entries(areas).map(([language, texts]) => [language, { translation: texts }])),
-    lng: firstLanguage(),
-    fallbackLng: "en",
+/** Done when there are texts. */
+export async function startI18n(): Promise<void> {
+  const language = firstLanguage();
+  const { texts } = await CATALOGUES[language]();
+  i18next.on("languageChanged", (chosen) => document.documentElement.setAttribute("lang", chosen));
+  await i18next.use(initReactI18next).init({
+    resources: { [language]: { translation: texts } },
+    lng: language,
+    // Each language has every text: a test holds that.
+    fallbackLng: false,
     interpolation: { escapeValue: false },
-    initAsync: false,
   });
 }

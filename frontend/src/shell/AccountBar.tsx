@@ -80,7 +80,7 @@ function AccountMenu({ user, role, slug }: { user: User; role: Role | undefined;
               key={language}
               leftSection={<Languages size={15} />}
               rightSection={i18n.language === language ? <Check size={15} /> : null}
-              onClick={() => chooseLanguage(language)}
+              onClick={() => void chooseLanguage(language)}
             >
               {t(`shell.language.${language}`)}
             </Menu.Item>

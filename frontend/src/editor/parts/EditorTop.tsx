@@ -14,7 +14,7 @@ import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
 import { undoLast } from "../state/actions";
 import { FollowButton } from "../gestures/FollowButton";
-import { Arm } from "./RunDialog";
+import { Arm } from "./Arm";
 import { focusMap } from "../state/focus";
 import { SavedChip } from "./SavedChip";
 import { useOpenProgram } from "../state/context";

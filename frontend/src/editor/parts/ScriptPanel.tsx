@@ -3,7 +3,7 @@ import { useEffect, useId, useMemo, useRef, useState, useSyncExternalStore } fro
 import i18next from "i18next";
 import { completeScript } from "../script/completion";
 import type { LineMessage, ScriptContent } from "../script/decorations";
-import { openScript, type ScriptView } from "../script/scriptView";
+import type { ScriptView } from "../script/scriptView";
 import type { ScriptProblem, ScriptSession, ScriptState } from "../script/session";
 import { sameLines } from "../script/textMerge";
 import { useScriptSession } from "../script/useScriptSession";
@@ -27,6 +27,8 @@ function ScriptText({ session }: { session: ScriptSession }) {
   const selected = useUi((ui) => ui.selected);
   const place = useRef<HTMLDivElement>(null);
   const [view, setView] = useState<ScriptView | null>(null);
+  /** The editor of scripts could not be loaded: the script can be read. */
+  const [without, setWithout] = useState(false);
   const devices = useRef(open.devices);
   const telling = useId();
   const label = t("drawer.script");
@@ -34,26 +36,36 @@ function ScriptText({ session }: { session: ScriptSession }) {
     devices.current = open.devices;
   }, [open.devices]);
   useEffect(() => {
-    if (!place.current) return;
-    const opened = openScript(place.current, label, canEdit, {
-      onStep: (step) => select([step]),
-      onType: (text) => session.type(text),
-      onFocus: (focused) => session.focus(focused),
-      onLeave: () => document.getElementById("drawer-tab-script")?.focus(),
-      complete: completeScript(() => devices.current),
-    });
-    setView(opened);
+    let opened: ScriptView | undefined;
+    const closing = new AbortController();
+    void import("../script/scriptView").then(
+      ({ openScript }) => {
+        if (!place.current || closing.signal.aborted) return;
+        opened = openScript(place.current, label, canEdit, {
+          onStep: (step) => select([step]),
+          onType: (text) => session.type(text),
+          onFocus: (focused) => session.focus(focused),
+          onLeave: () => document.getElementById("drawer-tab-script")?.focus(),
+          complete: completeScript(() => devices.current),
+        });
+        setView(opened);
+      },
+      () => setWithout(true),
+    );
     return () => {
+      closing.abort();
       setView(null);
       session.focus(false);
-      opened.destroy();
+      opened?.destroy();
     };
   }, [label, canEdit, session]);
   const content = useMemo(() => contentOf(open, state, selected, telling), [open, state, selected, telling]);
   useEffect(() => view?.show(content), [view, content]);
   return (
     <div className={classes.scriptPanel}>
-      <div ref={place} className={classes.script} />
+      <div ref={place} className={classes.script}>
+        {without ? <pre aria-label={label}>{state.text}</pre> : null}
+      </div>
       <ScriptStrip state={state} session={session} id={telling} />
     </div>
   );

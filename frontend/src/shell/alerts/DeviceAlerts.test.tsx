@@ -15,11 +15,11 @@ const ALERT: Alert = {
   ...{ state: "open", first_at: AT, last_at: AT, over_at: null, seen_by: "", seen_at: null },
 };
 
-beforeEach(() => {
+beforeEach(async () => {
   const media = { matches: false, addEventListener: () => undefined, removeEventListener: () => undefined };
   vi.stubGlobal("matchMedia", () => media);
   vi.stubGlobal("fetch", () => Promise.resolve(Response.json({ ...ALERT, state: "seen" })));
-  startI18n();
+  await startI18n();
 });
 afterEach(() => {
   cleanup();

@@ -6,10 +6,10 @@ import { type ReactNode, useState } from "react";
 import { useNavigate } from "react-router-dom";
 import { useOnce } from "@/api/once";
 import type { Run } from "@/api/types";
-import { ArmSwitch } from "@/shell/ArmSwitch";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
 import classes from "./dialogs.module.css";
+import { Arm } from "../parts/Arm";
 import { completed, type Given, RunParameters } from "./RunParameters";
 import { RunTermsForm } from "./RunTermsForm";
 import { termsToSend, USUAL } from "./runTerms";
@@ -128,19 +128,4 @@ function useRobotLines(): readonly string[] {
     const robot = role?.device ? (surroundings.devices.get(role.device)?.name ?? role.device) : t("role.any");
     return `${role?.name ?? t("role.default")}: ${robot}`;
   });
-}
-
-export function Arm() {
-  const { program, shared, site, document } = useOpenProgram();
-  const starts = Object.values(document.steps).some(
-    (step) => step.kind === "on_event" && step.params.starts === "run" && step.place,
-  );
-  return (
-    <ArmSwitch
-      site={site.slug}
-      program={{ id: program.id, kinds: starts ? ["on_event"] : [] }}
-      role={site.role}
-      stored={() => shared.stored()}
-    />
-  );
 }

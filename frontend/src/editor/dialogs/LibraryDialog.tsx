@@ -1,8 +1,7 @@
 /** The library's functions, to be brought into this program and called at once. */
 import { Modal, TextInput } from "@mantine/core";
 import { useDebouncedValue } from "@mantine/hooks";
-import { useEffect, useState } from "react";
-import { useSearchParams } from "react-router-dom";
+import { useState } from "react";
 import { api } from "@/api/client";
 import { useLibrary, useLibraryFunction } from "@/api/queries";
 import type { LibraryFunction } from "@/api/types";
@@ -13,26 +12,12 @@ import { branchNow, makeId } from "../state/actions";
 import { freeSpot } from "../state/freeSpot";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
+import { useAskedFunction } from "./askedFunction";
 import classes from "./dialogs.module.css";
-
-/** `?import=<id>` in the address: the library page sent somebody here with one of its functions. */
-function useAsked(canEdit: boolean) {
-  const [address, setAddress] = useSearchParams();
-  const asked = canEdit ? address.get("import") : null;
-  useEffect(() => {
-    if (asked) useUi.setState({ dialog: "library" });
-  }, [asked]);
-  const answered = () => {
-    if (!address.has("import")) return;
-    address.delete("import");
-    setAddress(address, { replace: true });
-  };
-  return { asked, answered };
-}
 
 export function LibraryDialog() {
   const { t, canEdit } = useOpenProgram();
-  const { asked, answered } = useAsked(canEdit);
+  const { asked, answered } = useAskedFunction(canEdit);
   const opened = useUi((ui) => ui.dialog === "library");
   const close = () => {
     useUi.setState({ dialog: null });

@@ -1,0 +1,49 @@
+/** The dialogs of the editor; what they are made of is loaded once the program is on the screen. */
+import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
+import { useOpenProgram } from "../state/context";
+import { type Dialog, useUi } from "../state/ui";
+import { useAskedFunction } from "./askedFunction";
+
+type Name = NonNullable<Dialog>;
+
+const LOAD = {
+  run: () => import("./RunDialog").then(({ RunDialog }) => ({ default: RunDialog })),
+  function: () => import("./FunctionDialog").then(({ FunctionDialog }) => ({ default: FunctionDialog })),
+  library: () => import("./LibraryDialog").then(({ LibraryDialog }) => ({ default: LibraryDialog })),
+  save_function: () =>
+    import("./SaveFunctionDialog").then(({ SaveFunctionDialog }) => ({ default: SaveFunctionDialog })),
+  shortcuts: () => import("./ShortcutsDialog").then(({ ShortcutsDialog }) => ({ default: ShortcutsDialog })),
+};
+const DIALOGS: Record<Name, ComponentType> = {
+  run: lazy(LOAD.run),
+  function: lazy(LOAD.function),
+  library: lazy(LOAD.library),
+  save_function: lazy(LOAD.save_function),
+  shortcuts: lazy(LOAD.shortcuts),
+};
+/** So long after the program has come its dialogs are fetched, so that the first one opens at once. */
+const FETCH_AFTER_MS = 2000;
+
+export function Dialogs() {
+  const { canEdit } = useOpenProgram();
+  const { asked } = useAskedFunction(canEdit);
+  const now = useUi((ui) => ui.dialog);
+  const [opened, setOpened] = useState<readonly Name[]>([]);
+  // One that was open stays, so that it is seen to close.
+  if (now && !opened.includes(now)) setOpened([...opened, now]);
+  useEffect(() => {
+    if (asked) useUi.setState({ dialog: "library" });
+  }, [asked]);
+  useEffect(() => {
+    const timer = setTimeout(() => Object.values(LOAD).forEach((load) => void load().catch(() => {})), FETCH_AFTER_MS);
+    return () => clearTimeout(timer);
+  }, []);
+  return opened.map((name) => {
+    const Shown = DIALOGS[name];
+    return (
+      <Suspense key={name} fallback={null}>
+        <Shown />
+      </Suspense>
+    );
+  });
+}
