@@ -7,7 +7,6 @@ one is found by the ticker's sweep.
 from __future__ import annotations
 
 import logging
-import os
 import time
 from collections.abc import Iterable, Sequence
 from datetime import datetime
@@ -136,9 +135,3 @@ def send_hint(task: str, name: str) -> None:
         current_app.send_task(task, args=[name], retry=False, headers={REQUEST_HEADER: request} if request else None)
     except (OperationalError, OSError) as error:
         log.warning("A hint to %s was not sent; the ticker will find the work: %s", task, error)
-
-
-def crash_point(name: str) -> None:
-    """Die here when the tests ask for it (`VIPO_CRASH_AT`), as a power cut would."""
-    if os.environ.get("VIPO_CRASH_AT") == name:
-        os._exit(137)

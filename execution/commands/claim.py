@@ -15,6 +15,7 @@ from django.db import connection
 from execution import database
 from execution.clock import steady_s
 from execution.database import preparing_cursor
+from execution.fault_points import fault_point
 from execution.models import Command, Run
 from execution.traffic.messages import CONTROLS
 from registry import services as registry
@@ -155,8 +156,11 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
             return ()
         idless = [device for device in ready if device in facts and facts[device].knows_no_ids]
         told = {"ready": json.dumps(ready), "idless": json.dumps(idless)}
+        fault_point("before_claim")
         cursor.execute(_CLAIMS[connection.vendor], _parameters(now, limit) | told)
         rows = cursor.fetchall()
+    if rows:
+        fault_point("after_claim")
     ordered = sorted(rows, key=lambda row: row[:2])
     return tuple(_outgoing(facts.get(row[3]), late_at_s, _Claimed(*row[2:])) for row in ordered)
 

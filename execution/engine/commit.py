@@ -12,12 +12,13 @@ from uuid import UUID
 from django.conf import settings
 from django.db import transaction
 
-from execution import database, mailbox
+from execution import database
 from execution.engine import lease as leases
 from execution.engine.inbox import mark_taken
 from execution.engine.lease import Lease
 from execution.engine.rows import insert_all, update_all
 from execution.engine.turn import ByHand, Turn
+from execution.fault_points import fault_point
 from execution.floor.fold import FloorWork
 from execution.floor_protocol import to_json
 from execution.machine import machine
@@ -67,8 +68,8 @@ def commit(turn: Turn, lease: Lease) -> bool:
             _write_floor(turn, lease)
         _write_runs(turn)
         _write_rest(turn)
-        mailbox.crash_point("turn_before_commit")
-    mailbox.crash_point("turn_after_commit")
+        fault_point("before_commit")
+    fault_point("after_commit")
     _tell(turn)
     _remember(turn, is_beat=is_floor)
     return turn.is_change

@@ -23,6 +23,7 @@ from execution.engine.lease import Lease, LeaseLost
 from execution.engine.memory import SiteMemory, read_site
 from execution.engine.poison import set_row_aside
 from execution.engine.turn import Turn
+from execution.fault_points import fault_point
 from execution.models import InboxEvent
 from registry import services as registry
 
@@ -123,9 +124,9 @@ def _own(slug: str, lease: Lease, stay_s: float, linger_s: float) -> bool:
     try:
         with keeper.keeping(lease):
             has_more = _stay(slug, lease, stay_s, linger_s)
-        mailbox.crash_point("before_hand_over")
+        fault_point("before_hand_over")
         leases.release(lease)
-        mailbox.crash_point("after_hand_over")
+        fault_point("after_hand_over")
     except LeaseLost:
         log.warning("Another process carries out the runs of %s.", slug)
         _forget(slug)

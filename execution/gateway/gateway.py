@@ -19,7 +19,7 @@ from typing import Any
 from django.db import DatabaseError, InterfaceError, connection
 
 from execution.commands.claim import OutgoingCommand, claim_commands, mark_commands_sent, release_commands
-from execution.fault_points import freeze_point
+from execution.fault_points import fault_point
 from execution.gateway.dashboards import Dashboards
 from execution.gateway.ingest import ENROLMENT, Ingester
 from execution.gateway.queue import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket, with_others
@@ -189,7 +189,6 @@ class Gateway:
             self._stops.publish()
         commands = claim_commands(limit=CLAIM_LIMIT)
         self._outage.end()
-        freeze_point("gateway_after_claim", armed=bool(commands))
         self._publish(commands)
         return len(commands) == CLAIM_LIMIT
 
@@ -201,10 +200,14 @@ class Gateway:
             if command.is_late:
                 late.append(command)
             else:
+                fault_point("before_publish")
                 self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)
+                fault_point("after_publish")
                 sent.append(command.id)
         if sent:
+            fault_point("before_mark")
             mark_commands_sent(ids=sent)
+            fault_point("after_mark")
             registry.count(name="mqtt_messages_out", labels=("command",), by=len(sent))
         if late:
             count = release_commands(commands=late)

@@ -14,6 +14,7 @@ from django.db import DatabaseError, InterfaceError, OperationalError, connectio
 
 from execution import database, mailbox
 from execution.commands import outbox
+from execution.fault_points import fault_point
 from execution.gateway.queue import Entry
 from registry import services as registry
 from registry.services import Outage
@@ -163,9 +164,11 @@ class Ingester:
             registry.enrol_device(site=site, device_id=device, payload=message.payload, at=at)
         elif kind == "ack":
             ack = messages.parse_ack(message.payload)
+            fault_point("before_answer")
             outbox.record_ack(
                 device=device, command_id=ack.command, status=ack.status, why=ack.why, result=ack.result, at=at
             )
+            fault_point("after_answer")
         elif kind == "map" and message.payload:
             registry.ingest_map_part(device_id=device, payload=message.payload, at=at)
         elif message.payload:  # an empty one only takes a retained message away

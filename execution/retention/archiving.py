@@ -27,7 +27,7 @@ from execution.archive.history_file import (
     write_section,
 )
 from execution.archive.rows import AT_ONCE, lines_of_run, to_line
-from execution.mailbox import crash_point
+from execution.fault_points import fault_point
 from execution.models import Archive, Command, Rehearsal, Run
 from execution.retention.selection import old_rows
 
@@ -70,10 +70,10 @@ def archive_next(turn: Turn, kind: str, before: datetime) -> Archive | None:
         id=number, site_id=turn.site, kind=kind, file=f"{turn.slug}/{kind}/{day}-{number}.jsonl.gz", made_at=turn.now,
         count=len(ended), first_at=min(ended.values()), last_at=max(ended.values()),
     )  # fmt: skip
-    crash_point("archive-begun")
+    fault_point("archive_begun")
     try:
         written = _write_file(turn, archive, list(ended))
-        crash_point("archive-file")
+        fault_point("archive_file")
         _read_back(archive.file, written.values(), turn.go_on)
         _say_whole(archive, written)
     except (OSError, UnreadableHistory, Overtaken) as error:
@@ -83,7 +83,7 @@ def archive_next(turn: Turn, kind: str, before: datetime) -> Archive | None:
         if not is_mine:
             raise Overtaken from error
         raise
-    crash_point("archive-whole")
+    fault_point("archive_whole")
     return archive
 
 

@@ -10,7 +10,7 @@ from django.db import transaction
 from django.db.models import QuerySet
 
 from execution.archive.rows import PARTS
-from execution.mailbox import crash_point
+from execution.fault_points import fault_point
 from execution.models import Archive, Command, Rehearsal, Run
 
 ROWS_AT_ONCE = 500
@@ -30,7 +30,7 @@ def prune(archive: Archive, ids: list[str], breathe: Breathe, now: datetime) -> 
     """
     slices = 0
     for _ in _prune(archive, ids):
-        crash_point("archive-slice")
+        fault_point("archive_slice")
         slices += 1
         breathe()
     whole = Archive.objects.filter(pk=archive.pk, state=Archive.State.WHOLE)

@@ -12,6 +12,7 @@ from celery import Celery
 
 from bench.hall import SITE, fill_hall
 from execution.engine import drive
+from execution.fault_points import DIES_WITH, OWNER_POINTS
 from execution.mailbox import DRIVE_SITE
 from execution.models import Command, InboxEvent, SiteLease
 from tests.integration.execution.engine.hall import answer_open, heating, row, start, told
@@ -77,11 +78,12 @@ def test_a_frozen_owner_is_replaced_and_what_it_decides_when_it_thaws_changes_no
     assert Counter(command.step for command in told(run)) == {"s0": 1, "s1": 1, "s2": 1}
 
 
-@pytest.mark.parametrize("point", ["turn_before_commit", "turn_after_commit", "before_hand_over", "after_hand_over"])
-def test_an_owner_that_is_killed_at_a_named_point_loses_and_repeats_nothing(owners, point):
+@pytest.mark.parametrize("point", OWNER_POINTS)
+def test_an_owner_that_is_killed_at_a_named_point_loses_and_repeats_nothing(owners, point, tmp_path):
     run = start(heating(2))
-    dead = owners(*OWNER, "1", "0", VIPO_CRASH_AT=point)
-    assert dead.wait(60) == 137
+    (tmp_path / point).write_text("kill")
+    dead = owners(*OWNER, "1", "0", VIPO_FAULTS=str(tmp_path))
+    assert dead.wait(60) == DIES_WITH
     expire()
     for count in (1, 2):
         drive.forget_all()

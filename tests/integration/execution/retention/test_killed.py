@@ -15,6 +15,7 @@ from django.db import connection
 from django.utils import timezone
 
 from execution import services
+from execution.fault_points import ARCHIVE_POINTS, DIES_WITH
 from execution.lease import HeldLease
 from execution.models import Archive, Command, Lease, Run, RunEvent
 from execution.retention import pruning
@@ -23,15 +24,16 @@ from execution.views import event_to_json, whole_run_to_json
 from tests.integration.execution.retention.histories import NOW, archive, make_command, make_run
 
 pytestmark = [pytest.mark.django_db(transaction=True), pytest.mark.usefixtures("hall", "folder")]
-MOMENTS = ("archive-begun", "archive-file", "archive-whole", "archive-slice")
 
 
-def archive_in_a_process(moment: str = "") -> int:
+def archive_in_a_process(faults: Path, moment: str = "") -> int:
     """Archive in a process of its own, which dies at the moment; return its exit code."""
     connection.close()
+    if moment:
+        (faults / moment).write_text("kill")
     child = os.fork()
     if child == 0:
-        os.environ["VIPO_CRASH_AT"] = moment
+        os.environ["VIPO_FAULTS"] = str(faults)
         try:
             archive()
         finally:
@@ -54,10 +56,11 @@ def count_in_files(folder: Path) -> dict[str, int]:
     return found
 
 
-@pytest.mark.parametrize("moment", MOMENTS)
+@pytest.mark.parametrize("moment", ARCHIVE_POINTS)
 def test_a_kill_at_this_moment_loses_nothing_and_doubles_nothing(
-    moment: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+    moment: str, folder: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    faults = tmp_path_factory.mktemp("faults")
     monkeypatch.setattr(pruning, "ROWS_AT_ONCE", 3)
     monkeypatch.setattr(pruning, "SUMMARIES_AT_ONCE", 1)
     runs = [make_run(number, 31, events=4) for number in range(1, 4)]
@@ -65,10 +68,10 @@ def test_a_kill_at_this_moment_loses_nothing_and_doubles_nothing(
     ids = {str(key) for key in (*Command.objects.values_list("pk", flat=True), *(run.pk for run in runs))}
     before = [told(run) for run in runs]
     for _ in range(2):
-        assert archive_in_a_process(moment) == 137
+        assert archive_in_a_process(faults, moment) == DIES_WITH
         assert [told(run) for run in runs] == before
         Lease.objects.all().delete()
-    assert archive_in_a_process() == 0
+    assert archive_in_a_process(faults) == 0
     assert [told(run) for run in runs] == before
     assert count_in_files(folder) == dict.fromkeys(ids, 1)
     assert (RunEvent.objects.count(), Command.objects.count()) == (0, 0)

@@ -31,7 +31,7 @@ from vipo_site.settings import postgres
 
 pytestmark = pytest.mark.servers
 WORD = "the server's word"
-POINT = "gateway_after_claim"
+POINT = "after_claim"
 CLAIM_IS_OVER_S = 2.5
 
 
@@ -46,7 +46,7 @@ class Gateway:
             "VIPO_MQTT_TLS": "0",
             "VIPO_MQTT_PASSWORD": WORD,
             "VIPO_GATEWAY": name,
-            "VIPO_FREEZE_IN": str(self.freezing),
+            "VIPO_FAULTS": str(self.freezing),
             "VIPO_LOG": "INFO",
         }
         with self.log.open("wb") as out:
@@ -54,7 +54,7 @@ class Gateway:
             self.process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=out, stderr=out)
 
     def freeze_after_claim(self) -> None:
-        (self.freezing / POINT).touch()
+        (self.freezing / POINT).write_text("freeze")
 
     def is_frozen(self) -> bool:
         stat = Path(f"/proc/{self.process.pid}/stat").read_text()
