@@ -23,6 +23,7 @@ class DeadLetterShape(Schema):
     site: str
     run: str | None
     run_number: int | None
+    run_status: Literal["pending", "running", "paused", "finished", "failed", "cancelled"] | None
     event: Annotated[Any, Unchecked(dict[str, Any])]
     error: str
     at: str
@@ -76,6 +77,7 @@ def _to_json(letter: services.DeadLetterView) -> dict[str, Any]:
         "site": letter.site,
         "run": str(letter.run) if letter.run else None,
         "run_number": letter.run_number,
+        "run_status": letter.run_status,
         "event": letter.event,
         "error": letter.error,
         "at": letter.at.isoformat(),

@@ -805,7 +805,7 @@ export interface paths {
         };
         /**
          * List Findings
-         * @description Return what is wrong with VIPO's processes now: what stops work, and for admins also which process it is.
+         * @description Return what is wrong now: what stops work, for admins also which process it is and what waits for them.
          */
         get: operations["list_findings"];
         put?: never;
@@ -2333,6 +2333,7 @@ export interface components {
             id: number;
             run: string | null;
             run_number: number | null;
+            run_status: ("pending" | "running" | "paused" | "finished" | "failed" | "cancelled") | null;
             settled_at: string | null;
             settled_by: string;
             site: string;
@@ -2551,13 +2552,13 @@ export interface components {
             field: string;
             message: string;
         };
-        /** @description Something that is wrong with VIPO's own processes now; `text` is the English sentence of code and `args`. */
+        /** @description Something that is wrong with VIPO itself now; `text` is the English sentence of code and `args`. */
         FindingShape: {
             args: {
                 [key: string]: unknown;
             };
             /** @enum {string} */
-            code: "no_gateway" | "no_worker" | "no_ticker" | "process_silent" | "clock_apart" | "archive_failed";
+            code: "no_gateway" | "no_worker" | "no_ticker" | "process_silent" | "clock_apart" | "archive_failed" | "set_aside";
             /** @enum {string} */
             severity: "warning" | "error";
             text: string;
