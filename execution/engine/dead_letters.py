@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Any
+from typing import Any, Literal
 from uuid import UUID, uuid4
 
 from django.db import transaction
@@ -22,13 +22,17 @@ NOTHING_TO_TELL = frozenset({"start", "step", "plan", "facts", "unreadable"})
 
 @dataclass(frozen=True, slots=True)
 class DeadLetterView:
-    """Something that was set aside: `run` is the one that it was for, if any; `state` is open, retried or dropped."""
+    """Something that was set aside: `run` is the one that it concerns, if any; `target` says who was to take it in.
+
+    `state` is open, retried or dropped.
+    """
 
     id: int
     site: str
     run: UUID | None
     run_number: int | None
     run_status: str | None
+    target: Literal["run", "floor"]
     event: Mapping[str, Any]
     error: str
     at: datetime
@@ -107,6 +111,7 @@ def _events(event: Mapping[str, Any]) -> list[Mapping[str, Any]]:
 def _view(row: DeadLetter) -> DeadLetterView:
     run = row.run
     return DeadLetterView(
-        row.id, row.site.slug, row.run_id, run.number if run else None, run.status if run else None, row.event,
-        row.error, row.at, row.state, row.settled_by, row.settled_at,
+        row.id, row.site.slug, row.run_id, run.number if run else None, run.status if run else None,
+        "run" if row.target.startswith("run:") else "floor", row.event, row.error, row.at, row.state, row.settled_by,
+        row.settled_at,
     )  # fmt: skip

@@ -2323,7 +2323,7 @@ export interface components {
             interval?: string | null;
             path?: string | null;
         };
-        /** @description Something that could not be taken in: for which run, what it says, and how it failed. */
+        /** @description Something that `target` could not take in: which run it concerns, what it says, and how it failed. */
         DeadLetterShape: {
             at: string;
             error: string;
@@ -2339,6 +2339,8 @@ export interface components {
             site: string;
             /** @enum {string} */
             state: "open" | "retried" | "dropped";
+            /** @enum {string} */
+            target: "run" | "floor";
         };
         /** @description Which are asked for: all of the site, or those in one `state`. */
         DeadLettersAsked: {

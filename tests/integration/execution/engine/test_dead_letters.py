@@ -39,6 +39,7 @@ def test_an_event_that_nobody_can_read_is_set_aside_and_another_run_goes_on():
     drive.advance_site(SITE)
     (letter,) = services.list_dead_letters(site=SITE)
     assert (str(letter.run), letter.event, letter.state) == (bad, {"type": "nonsense", "x": 1}, "open")
+    assert (letter.target, letter.run_status) == ("run", "paused")
     assert letter.error.startswith("UnreadableMessage: There is no message of type 'nonsense'.")
     assert (row(bad).status, row(good).status, len(told(good))) == ("paused", "running", 2)
     assert services.get_run(run_id=bad).run.cause["code"] == "set_aside"
@@ -101,6 +102,7 @@ def test_a_floor_that_cannot_be_read_holds_only_those_who_need_it():
         (needs, "run_paused"),
     ]
     assert "format 99" in letter.error
+    assert letter.target == "floor"
     FloorState.objects.update(state=None)
     drive.forget_all()
     services.retry_dead_letter(letter_id=letter.id, by="Ada")
