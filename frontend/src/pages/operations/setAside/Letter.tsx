@@ -71,7 +71,6 @@ export function Letter({ letter, now, retries, onRetry, onDrop, afterwards }: Le
       <div className={styles.body}>
         <p className={pages.strong}>{what}</p>
         <Facts letter={letter} now={now} />
-        <Why letter={letter} />
       </div>
       <div className={styles.buttons}>
         {isOver(letter) ? null : (
@@ -97,6 +96,7 @@ export function Letter({ letter, now, retries, onRetry, onDrop, afterwards }: Le
           {t("operations.setAside.drop")}
         </Button>
       </div>
+      <Why letter={letter} />
     </li>
   );
 }
