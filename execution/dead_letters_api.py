@@ -17,12 +17,14 @@ LetterState = Literal["open", "retried", "dropped"]
 
 
 class DeadLetterShape(Schema):
-    """Something that could not be taken in: for which run, what it says, and how it failed."""
+    """Something that `target` could not take in: which run it concerns, what it says, and how it failed."""
 
     id: int
     site: str
     run: str | None
     run_number: int | None
+    run_status: Literal["pending", "running", "paused", "finished", "failed", "cancelled"] | None
+    target: Literal["run", "floor"]
     event: Annotated[Any, Unchecked(dict[str, Any])]
     error: str
     at: str
@@ -76,6 +78,8 @@ def _to_json(letter: services.DeadLetterView) -> dict[str, Any]:
         "site": letter.site,
         "run": str(letter.run) if letter.run else None,
         "run_number": letter.run_number,
+        "run_status": letter.run_status,
+        "target": letter.target,
         "event": letter.event,
         "error": letter.error,
         "at": letter.at.isoformat(),

@@ -28,6 +28,7 @@ from execution.floor.map_change import change_map
 from execution.floor.routes_for_drawing import plan_routes
 from execution.floor.stop_publisher import close_publisher, open_publisher
 from execution.floor.stops import StopView, follow_stops, get_stop, is_stopped, list_stops, press_stop, reset_stop
+from execution.operations.findings import find_trouble_of_sites
 from execution.operations.overview import Overview, QueueView, list_leases, read_overview, read_task_queues
 from execution.rehearsals.rehearsals import (
     cancel_rehearsal,
@@ -103,6 +104,7 @@ __all__ = [
     "drop_dead_letter",
     "expire_calls",
     "find_action",
+    "find_trouble_of_sites",
     "follow_stops",
     "get_call",
     "get_rehearsal",

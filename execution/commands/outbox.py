@@ -5,6 +5,7 @@ A device that answers as docs/protocol.md says is judged by its answers alone, o
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping
 from datetime import datetime, timedelta
 from uuid import UUID
@@ -19,8 +20,10 @@ from execution.models import Command
 from execution.reasons import SENTENCES
 from execution.traffic.messages import CONTROLS, CommandAnswered
 from registry import services as registry
+from vipo_device.kit.log_ids import LogId, bind_ids
 from vipo_device.protocol.description import Scalar
 
+log = logging.getLogger(__name__)
 CONTROL_LIMIT_S = 60.0
 STATUS = {
     "ACCEPTED": Command.Status.ACCEPTED,
@@ -64,12 +67,20 @@ def record_ack(
         else:
             row.send_after = at + timedelta(seconds=LAST_RETRY_S)
         row.save(update_fields=["status", "why", "sent_at", "ended_at", "send_after", "result"])
-        registry.count(name="command_answers", labels=(row.status,))
+        _note_answer(row)
         if status == "DONE" and row.piece:
             _close_pieces_before(row, at)
         if status in FINAL and row.method not in CONTROLS:
             _pass_on(row, status, why, result)
     return True
+
+
+def _note_answer(row: Command) -> None:
+    registry.count(name="command_answers", labels=(row.status,))
+    if row.status in (Command.Status.FAILED, Command.Status.REJECTED):
+        ids: dict[LogId, object] = {"site": row.site.slug, "run": row.run, "step": row.step, "command": row.id}
+        with bind_ids(ids | {"device": row.device}):
+            log.info("%s did not do %s (%s): %s", row.device, row.method, row.status, row.why or "it says no more")
 
 
 def record_done_flag(*, device: str, done: bool, at: datetime) -> bool:

@@ -15,8 +15,10 @@ from execution.reasons import SENTENCES
 from execution.runs.journal import Journal, describe
 from execution.traffic import messages as m
 from execution.traffic.floor_state import FloorState, FloorTask
+from vipo_device.kit.log_ids import LogId
 
 MOST_CHARACTERS = 300
+LONGEST_ID = 80
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +35,15 @@ def words_of(error: BaseException) -> str:
     """Return an error as people read it."""
     cause = error.__cause__ or error
     return f"{type(cause).__name__}: {cause}"[:MOST_CHARACTERS]
+
+
+def log_ids_of(event: Mapping[str, Any], run: str) -> dict[LogId, object]:
+    """Return what a line about something that was set aside belongs to, as far as the message says it."""
+    order = event.get("order")
+    said = {"step": order.get("step") if isinstance(order, Mapping) else None, **event}
+    names: tuple[LogId, ...] = ("step", "command", "device")
+    told = {name: said.get(name) for name in names}
+    return {"run": run, **{name: value[:LONGEST_ID] for name, value in told.items() if isinstance(value, str)}}
 
 
 def pause_for(error: str) -> PauseAsked:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Any
+from typing import Any, Literal
 from uuid import UUID, uuid4
 
 from django.db import transaction
@@ -22,12 +22,17 @@ NOTHING_TO_TELL = frozenset({"start", "step", "plan", "facts", "unreadable"})
 
 @dataclass(frozen=True, slots=True)
 class DeadLetterView:
-    """Something that was set aside: `run` is the one that it was for, if any; `state` is open, retried or dropped."""
+    """Something that was set aside: `run` is the one that it concerns, if any; `target` says who was to take it in.
+
+    `state` is open, retried or dropped.
+    """
 
     id: int
     site: str
     run: UUID | None
     run_number: int | None
+    run_status: str | None
+    target: Literal["run", "floor"]
     event: Mapping[str, Any]
     error: str
     at: datetime
@@ -61,7 +66,8 @@ def retry_dead_letter(*, letter_id: int, by: str) -> DeadLetterView:
     with transaction.atomic():
         row = _settle(letter_id, DeadLetter.State.RETRIED, by)
         if row.run is not None and row.run.status not in Run.OPEN:
-            raise NotPossibleNow(f"Run {row.run.number} is over ({row.run.status}); there is nothing to try again.")
+            why = f"Run {row.run.number} is over ({row.run.status}); there is nothing to try again."
+            raise NotPossibleNow(why, {"why": "run_over", "run": row.run.number})
         messages = [(row.target, event) for event in _events(row.event)]
         if row.run is not None:
             messages.append((mailbox.run_target(row.run.id), to_json(ResumeAsked(by))))
@@ -90,7 +96,8 @@ def _settle(letter_id: int, state: DeadLetter.State, by: str) -> DeadLetter:
     is_mine = still_open.update(state=state, settled_by=by[:120], settled_at=now)
     row = DeadLetter.objects.select_related("site", "run").get(id=letter_id)
     if not is_mine:
-        raise NotPossibleNow(f"{row.settled_by} has {row.state} it already.")
+        facts = {"why": f"settled_{row.state}", "by": row.settled_by}
+        raise NotPossibleNow(f"{row.settled_by} has {row.state} it already.", facts)
     return row
 
 
@@ -102,7 +109,9 @@ def _events(event: Mapping[str, Any]) -> list[Mapping[str, Any]]:
 
 
 def _view(row: DeadLetter) -> DeadLetterView:
+    run = row.run
     return DeadLetterView(
-        row.id, row.site.slug, row.run_id, row.run.number if row.run else None, row.event, row.error, row.at,
-        row.state, row.settled_by, row.settled_at,
+        row.id, row.site.slug, row.run_id, run.number if run else None, run.status if run else None,
+        "run" if row.target.startswith("run:") else "floor", row.event, row.error, row.at, row.state, row.settled_by,
+        row.settled_at,
     )  # fmt: skip

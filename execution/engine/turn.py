@@ -11,6 +11,7 @@ from typing import Any
 from execution.engine.aside import (
     SetAside,
     cancel_by_hand,
+    log_ids_of,
     pause_by_hand,
     pause_for,
     run_of,
@@ -41,6 +42,7 @@ from execution.runs.reading_grace import AT_MOST, is_early
 from execution.traffic import messages as m
 from execution.traffic.floor_state import FloorState
 from registry import services as registry
+from vipo_device.kit.log_ids import bind_ids
 
 log = logging.getLogger(__name__)
 MOST_ROUNDS = 20
@@ -187,7 +189,8 @@ class Turn:
             try:
                 new, told = fold(work, reading, messages, self.now, names)
             except CannotTakeIn as bad:
-                log.exception("Run %s cannot take something in.", work.id)
+                with bind_ids({"run": work.id}):
+                    log.exception("Run %s cannot take something in.", work.id)
                 error = words_of(bad)
                 if bad.index is not None and messages[bad.index] != pause_for(error):
                     self._note_dead(run_target(work.id), to_json(messages[bad.index]), error, work.id)
@@ -333,6 +336,8 @@ class Turn:
             self._post(run, Mail(pause_for(error), self.now))
 
     def _note_dead(self, target: str, event: dict[str, Any], error: str, run: str) -> None:
+        with bind_ids(log_ids_of(event, run)):
+            log.warning("Something was set aside for an admin: %s", error)
         self.dead.append(
             SetAside(target, event, error, run if run in self.site.runs or run in self.site.broken else "")
         )

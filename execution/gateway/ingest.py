@@ -18,7 +18,7 @@ from execution.fault_points import fault_point
 from execution.gateway.queue import Entry
 from registry import services as registry
 from registry.services import Outage
-from vipo_device.kit.log_ids import bind_ids
+from vipo_device.kit.log_ids import add_ids, bind_ids
 from vipo_device.protocol import messages
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.mqtt_client import Message
@@ -164,6 +164,7 @@ class Ingester:
             registry.enrol_device(site=site, device_id=device, payload=message.payload, at=at)
         elif kind == "ack":
             ack = messages.parse_ack(message.payload)
+            add_ids({"command": ack.command})
             fault_point("before_answer")
             outbox.record_ack(
                 device=device, command_id=ack.command, status=ack.status, why=ack.why, result=ack.result, at=at

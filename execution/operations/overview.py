@@ -14,7 +14,7 @@ from django.db.models.functions import Now
 from django.db.models.query import QuerySet
 from kombu.exceptions import ChannelError, OperationalError
 
-from execution.models import Command, InboxEvent, Lease, Rehearsal, Run, SiteLease
+from execution.models import Command, DeadLetter, InboxEvent, Lease, Rehearsal, Run, SiteLease
 
 log = logging.getLogger(__name__)
 OVERDUE_AFTER = timedelta(seconds=10)
@@ -80,6 +80,7 @@ def read_overview(*, site: str = "", now: datetime) -> Overview:
         _queue("under_way", commands, ("accepted", "running")),
         _queue("rehearsals", rehearsals, ("queued",)),
         _queue("rehearsing", rehearsals, ("running",)),
+        QueueView("set_aside", *_waiting_for_admins(here)),
     )
     return Overview(now, queues, _counts(runs, Run.OPEN), _counts(commands, Command.OPEN))
 
@@ -104,6 +105,14 @@ def _waiting_in_inboxes(site: str) -> tuple[int, datetime | None]:
     if site:
         waiting = waiting.filter(site=site)
     found = waiting.aggregate(count=Count("id"), oldest=Min("created_at"))
+    return found["count"], found["oldest"]
+
+
+def _waiting_for_admins(here: Mapping[str, str]) -> tuple[int, datetime | None]:
+    """Return how much is set aside that nobody has retried or dropped, and since when the first of it."""
+    found = DeadLetter.objects.filter(state=DeadLetter.State.OPEN, **here).aggregate(
+        count=Count("id"), oldest=Min("at")
+    )
     return found["count"], found["oldest"]
 
 

@@ -9,8 +9,8 @@ from django.http import HttpRequest
 from ninja import Router
 
 from execution.operations import overview
+from execution.operations.findings import find_trouble_at
 from execution.operations.shapes import FindingShape, OperationsShape, ProcessesShape
-from execution.retention.periods import get_keeping
 from registry import services as registry
 from registry.services import require
 
@@ -35,11 +35,9 @@ def show_operations(request: HttpRequest, site: str) -> dict[str, Any]:
 
 @router.get("/sites/{slug:site}/findings", response=list[FindingShape])
 def list_findings(request: HttpRequest, site: str) -> list[dict[str, Any]]:
-    """Return what is wrong with VIPO's processes now: what stops work, and for admins also which process it is."""
+    """Return what is wrong now: what stops work, for admins also which process it is and what waits for them."""
     access = require(request.user, site, "operator")
-    found = registry.find_trouble(processes=registry.list_processes())
-    if why := get_keeping(site=site).trouble:
-        found = (*found, registry.Finding("archive_failed", "warning", {"why": why}))
+    found = find_trouble_at(site=site)
     told = [finding for finding in found if access.allows("admin") or not finding.args]
     return [{"code": each.code, "severity": each.severity, "text": each.text, "args": dict(each.args)} for each in told]
 

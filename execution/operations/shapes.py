@@ -10,9 +10,11 @@ from registry.shapes import Unchecked
 
 
 class FindingShape(Schema):
-    """Something that is wrong with VIPO's own processes now; `text` is the English sentence of code and `args`."""
+    """Something that is wrong with VIPO itself now; `text` is the English sentence of code and `args`."""
 
-    code: Literal["no_gateway", "no_worker", "no_ticker", "process_silent", "clock_apart", "archive_failed"]
+    code: Literal[
+        "no_gateway", "no_worker", "no_ticker", "process_silent", "clock_apart", "archive_failed", "set_aside"
+    ]
     severity: Literal["warning", "error"]
     text: str
     args: Annotated[Any, Unchecked(dict[str, Any])]

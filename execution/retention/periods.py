@@ -62,6 +62,11 @@ def set_keeping(*, site: str, chosen: dict[str, int | None]) -> KeepingView:
     return get_keeping(site=site)
 
 
+def count_in_trouble() -> int:
+    """Return at how many sites histories could not be archived the last time."""
+    return Keeping.objects.exclude(trouble="").count()
+
+
 def note_trouble(*, site: str, text: str, at: datetime) -> None:
     """Write down why a site's histories could not be archived; an empty text says that they could."""
     if text:

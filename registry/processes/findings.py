@@ -18,7 +18,9 @@ NEEDED = ("gateway", "worker", "ticker")
 START_GRACE = timedelta(minutes=1)
 """So long after a clean end, or the start of the first process, another may come: an update takes its time."""
 CLOCKS_APART_S = 2.0
-FindingCode = Literal["no_gateway", "no_worker", "no_ticker", "process_silent", "clock_apart", "archive_failed"]
+FindingCode = Literal[
+    "no_gateway", "no_worker", "no_ticker", "process_silent", "clock_apart", "archive_failed", "set_aside"
+]
 _NONE: Mapping[str, FindingCode] = {"gateway": "no_gateway", "worker": "no_worker", "ticker": "no_ticker"}
 TEXTS: Mapping[FindingCode, str] = {
     "no_gateway": "No gateway works: commands and what devices say wait.",
@@ -26,6 +28,7 @@ TEXTS: Mapping[FindingCode, str] = {
     "no_ticker": "No ticker works: timers do not fire, and what was lost is not found.",
     "process_silent": "A process has fallen silent: {kind} {name}.",
     "archive_failed": "Old histories cannot be archived, and stay in the database: {why}",
+    "set_aside": "What could not be taken in was set aside and waits for an admin: {count}.",
     "clock_apart": "The clock of {kind} {name} is {seconds} s apart from the database's.",
 }
 

@@ -88,8 +88,11 @@ def _of_processes(processes: Sequence[registry.ProcessView]) -> Iterator[Metric]
         ages.add_metric(labels, age_s)
     for whose, seconds in apart.items():
         clocks.add_metric(whose, seconds)
-    found = GaugeMetricFamily("vipo_findings", "What is wrong with processes, by code", labels=["code", "severity"])
-    codes = [(finding.code, finding.severity) for finding in registry.find_trouble(processes=processes)]
+    found = GaugeMetricFamily(
+        "vipo_findings", "What is wrong with processes or sites, by code", labels=["code", "severity"]
+    )
+    wrong = (*registry.find_trouble(processes=processes), *execution.find_trouble_of_sites())
+    codes = [(finding.code, finding.severity) for finding in wrong]
     for code in sorted(set(codes)):
         found.add_metric(code, codes.count(code))
     yield from (ages, clocks, found)

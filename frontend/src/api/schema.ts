@@ -805,7 +805,7 @@ export interface paths {
         };
         /**
          * List Findings
-         * @description Return what is wrong with VIPO's processes now: what stops work, and for admins also which process it is.
+         * @description Return what is wrong now: what stops work, for admins also which process it is and what waits for them.
          */
         get: operations["list_findings"];
         put?: never;
@@ -2323,7 +2323,7 @@ export interface components {
             interval?: string | null;
             path?: string | null;
         };
-        /** @description Something that could not be taken in: for which run, what it says, and how it failed. */
+        /** @description Something that `target` could not take in: which run it concerns, what it says, and how it failed. */
         DeadLetterShape: {
             at: string;
             error: string;
@@ -2333,11 +2333,14 @@ export interface components {
             id: number;
             run: string | null;
             run_number: number | null;
+            run_status: ("pending" | "running" | "paused" | "finished" | "failed" | "cancelled") | null;
             settled_at: string | null;
             settled_by: string;
             site: string;
             /** @enum {string} */
             state: "open" | "retried" | "dropped";
+            /** @enum {string} */
+            target: "run" | "floor";
         };
         /** @description Which are asked for: all of the site, or those in one `state`. */
         DeadLettersAsked: {
@@ -2551,13 +2554,13 @@ export interface components {
             field: string;
             message: string;
         };
-        /** @description Something that is wrong with VIPO's own processes now; `text` is the English sentence of code and `args`. */
+        /** @description Something that is wrong with VIPO itself now; `text` is the English sentence of code and `args`. */
         FindingShape: {
             args: {
                 [key: string]: unknown;
             };
             /** @enum {string} */
-            code: "no_gateway" | "no_worker" | "no_ticker" | "process_silent" | "clock_apart" | "archive_failed";
+            code: "no_gateway" | "no_worker" | "no_ticker" | "process_silent" | "clock_apart" | "archive_failed" | "set_aside";
             /** @enum {string} */
             severity: "warning" | "error";
             text: string;

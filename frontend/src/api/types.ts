@@ -61,6 +61,7 @@ export type Queue = Schemas["QueueShape"];
 export type Processes = Schemas["ProcessesShape"];
 export type VipoProcess = Schemas["ProcessShape"];
 export type Lease = Schemas["LeaseShape"];
+export type DeadLetter = Schemas["DeadLetterShape"];
 export type AlertSeverity = Alert["severity"];
 
 export type Program = Schemas["ProgramShape"];

@@ -1,14 +1,16 @@
 """The order in which commands leave, also when a gateway dies between claiming and sending."""
 
+import logging
 from datetime import UTC, datetime, timedelta
 from uuid import UUID, uuid4
 
 from execution import services
 from execution.models import Command, SiteStop
 from registry.models import Site
+from vipo_device.kit.log_ids import bound_ids
 
 
-def add(site, position, device="robot01", method="move", *, piece=True):
+def add(site, position, device="robot01", method="move", *, piece=True, **more):
     now = datetime.now(UTC) - timedelta(seconds=1)
     row = Command.objects.create(
         id=uuid4(),
@@ -19,6 +21,7 @@ def add(site, position, device="robot01", method="move", *, piece=True):
         piece=piece,
         send_after=now,
         created_at=now,
+        **more,
     )
     return str(row.id)
 
@@ -120,3 +123,24 @@ def test_who_does_not_answer_is_asked_again_after_2_4_8_and_then_every_15_second
     Command.objects.update(send_after=begun, tries=0)
     assert claimed() == [command]
     assert int((Command.objects.get().send_after - begun).total_seconds()) == 15
+
+
+def test_what_a_device_fails_at_is_a_line_of_the_log_with_run_step_and_command(db):
+    site = Site.objects.create(name="Hall", slug="hall")
+    run = uuid4()
+    done, failed = (add(site, place, "oven", "heat", piece=False, run=run, step=f"s{place}") for place in (1, 2))
+    lines, handler = [], logging.Handler()
+    handler.emit = lambda record: lines.append((record.getMessage(), dict(bound_ids())))
+    log = logging.getLogger("execution.commands.outbox")
+    log.addHandler(handler)
+    log.setLevel(logging.INFO)
+    try:
+        for command, status in ((done, "DONE"), (failed, "FAILED")):
+            claimed()
+            assert answer("oven", command, status)
+    finally:
+        log.removeHandler(handler)
+        log.setLevel(logging.NOTSET)
+    ids = {"site": "hall", "run": str(run), "step": "s2", "command": failed, "device": "oven"}
+    assert lines == [("oven did not do heat (failed): it says no more", ids)]
+    assert dict(bound_ids()) == {}

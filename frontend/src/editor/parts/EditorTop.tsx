@@ -176,13 +176,19 @@ function Problems() {
       {errors.length > 0 ? (
         <button type="button" className={classes.problems} data-tone="error" onClick={toFirst}>
           <CircleAlert size={14} aria-hidden="true" />
-          {t("errors", { count: errors.length })}
+          <span className={classes.words}>{t("errors", { count: errors.length })}</span>
+          <span className={classes.figure} aria-hidden="true">
+            {errors.length}
+          </span>
         </button>
       ) : null}
       {warnings > 0 ? (
         <button type="button" className={classes.problems} data-tone="warn" onClick={toFirst}>
           <TriangleAlert size={14} aria-hidden="true" />
-          {t("warnings", { count: warnings })}
+          <span className={classes.words}>{t("warnings", { count: warnings })}</span>
+          <span className={classes.figure} aria-hidden="true">
+            {warnings}
+          </span>
         </button>
       ) : null}
     </>
@@ -209,12 +215,14 @@ function SimulateButton() {
   return (
     <Button
       variant="default"
+      className={classes.sign}
+      title={t("simulate")}
       leftSection={<Box size={16} aria-hidden="true" />}
       loading={rehearse.isPending}
       disabled={!canRun}
       onClick={() => rehearse.mutate()}
     >
-      {t("simulate")}
+      <span className={classes.words}>{t("simulate")}</span>
     </Button>
   );
 }

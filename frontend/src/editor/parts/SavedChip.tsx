@@ -18,7 +18,9 @@ export function SavedChip() {
     <Chip tone={state === "refused" ? "error" : away ? "note" : "plain"}>
       {away ? <CloudOff size={14} aria-hidden="true" /> : <Cloud size={14} aria-hidden="true" />}
       {/* For the first moment nothing is said: “Saved” would not be true yet, and another word would flicker. */}
-      <span className={isFresh(saving) ? classes.unsaid : undefined}>{savedWords(saving, t)}</span>
+      <span className={away ? undefined : classes.words}>
+        <span className={isFresh(saving) ? classes.unsaid : undefined}>{savedWords(saving, t)}</span>
+      </span>
       {/* Who listens hears when the connection goes and comes, not each change that is counted or saved. */}
       <span className="visually-hidden" role="status">
         {t(`saved.heard.${state}`)}

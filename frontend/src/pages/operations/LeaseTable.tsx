@@ -4,7 +4,7 @@ import { useTranslation } from "react-i18next";
 import type { Lease } from "@/api/types";
 import { formatSpan } from "@/i18n/format";
 import pages from "../pages.module.css";
-import { Section } from "./Section";
+import { TableSection } from "../section/Section";
 import styles from "./operations.module.css";
 
 const COLUMNS = ["job", "holder", "held"];
@@ -19,7 +19,7 @@ function jobWords(job: string, t: TFunction): string {
 export function LeaseTable({ leases }: { leases: readonly Lease[] }) {
   const { t } = useTranslation();
   return (
-    <Section title={t("operations.leases")} columns={COLUMNS}>
+    <TableSection catalogue="operations" title={t("operations.leases")} columns={COLUMNS}>
       {leases.map((lease) => (
         <tr key={lease.job}>
           <td className={pages.strong}>{jobWords(lease.job, t)}</td>
@@ -27,6 +27,6 @@ export function LeaseTable({ leases }: { leases: readonly Lease[] }) {
           <td className={pages.nowrap}>{lease.held_s > 0 ? formatSpan(lease.held_s) : t("operations.leaseFree")}</td>
         </tr>
       ))}
-    </Section>
+    </TableSection>
   );
 }

@@ -20,6 +20,7 @@ import { LeaseTable } from "./LeaseTable";
 import { OverdueTable } from "./OverdueTable";
 import { ProcessTable } from "./ProcessTable";
 import { QueueTable } from "./QueueTable";
+import { SetAside } from "./setAside/SetAside";
 import { Waiting } from "./Waiting";
 import styles from "./operations.module.css";
 
@@ -106,6 +107,7 @@ function OperationsOfSite({ slug }: { slug: string }) {
         {!problem && role !== "viewer" && operations.isPending ? <TableSkeleton /> : null}
         <Age at={operations.dataUpdatedAt} />
         {found?.length ? <FindingList findings={found} /> : null}
+        {role === "admin" ? <SetAside slug={slug} /> : null}
         {operations.data ? <Waiting slug={slug} operations={operations.data} /> : null}
         {operations.data ? <OverdueTable slug={slug} operations={operations.data} /> : null}
         {processes.data ? <ProcessTable processes={processes.data.processes} /> : null}

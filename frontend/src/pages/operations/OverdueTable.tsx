@@ -6,7 +6,7 @@ import type { Operations, OverdueCommand } from "@/api/types";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatSpan } from "@/i18n/format";
 import pages from "../pages.module.css";
-import { Section } from "./Section";
+import { TableSection } from "../section/Section";
 
 const COLUMNS = ["device", "method", "run", "status", "tries", "waits"];
 
@@ -46,7 +46,8 @@ export function OverdueTable({ slug, operations }: { slug: string; operations: O
   const names = new Map(devices.map((device) => [device.id, device.name]));
   const { overdue, overdue_count: count } = operations;
   return (
-    <Section
+    <TableSection
+      catalogue="operations"
       title={t("operations.overdue")}
       count={count}
       remark={count > overdue.length ? t("operations.overdueSome", { count: overdue.length }) : undefined}
@@ -57,6 +58,6 @@ export function OverdueTable({ slug, operations }: { slug: string; operations: O
       {overdue.map((command) => (
         <Row key={command.id} slug={slug} command={command} name={names.get(command.device) ?? command.device} />
       ))}
-    </Section>
+    </TableSection>
   );
 }

@@ -6,7 +6,7 @@ import type { StatusName } from "@/design/StatusGlyph";
 import { useNow } from "@/design/useNow";
 import { formatAgo, formatMoment, formatNumber, formatSpan, withUnit } from "@/i18n/format";
 import pages from "../pages.module.css";
-import { Section } from "./Section";
+import { TableSection } from "../section/Section";
 import styles from "./operations.module.css";
 
 const COLUMNS = ["process", "state", "activity", "beat", "clock", "since", "version"];
@@ -56,10 +56,16 @@ export function ProcessTable({ processes }: { processes: readonly VipoProcess[] 
   const { t } = useTranslation();
   const now = useNow(15_000);
   return (
-    <Section title={t("operations.processes")} count={processes.length} columns={COLUMNS} optional={OPTIONAL}>
+    <TableSection
+      catalogue="operations"
+      title={t("operations.processes")}
+      count={processes.length}
+      columns={COLUMNS}
+      optional={OPTIONAL}
+    >
       {processes.map((process) => (
         <Row key={process.id} process={process} now={now} />
       ))}
-    </Section>
+    </TableSection>
   );
 }

@@ -3,14 +3,14 @@ import { useTranslation } from "react-i18next";
 import type { Queue } from "@/api/types";
 import { formatNumber, formatSpan } from "@/i18n/format";
 import pages from "../pages.module.css";
-import { Section } from "./Section";
+import { TableSection } from "../section/Section";
 
 const COLUMNS = ["queue", "waiting", "oldest"];
 
 export function QueueTable({ queues }: { queues: readonly Queue[] }) {
   const { t } = useTranslation();
   return (
-    <Section title={t("operations.everywhere")} columns={COLUMNS}>
+    <TableSection catalogue="operations" title={t("operations.everywhere")} columns={COLUMNS}>
       {queues.map((queue) => {
         const [kind, name] = queue.name.split(":");
         return (
@@ -21,6 +21,6 @@ export function QueueTable({ queues }: { queues: readonly Queue[] }) {
           </tr>
         );
       })}
-    </Section>
+    </TableSection>
   );
 }

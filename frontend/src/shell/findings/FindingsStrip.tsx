@@ -4,7 +4,7 @@ import { useTranslation } from "react-i18next";
 import { Link, useLocation } from "react-router-dom";
 import { useFindings, useSite } from "@/api/queries";
 import styles from "../shell.module.css";
-import { findingWords, gravest, seesOperations } from "./findings";
+import { findingWords, gravest, pageOf, seesOperations } from "./findings";
 
 export function FindingsStrip({ slug }: { slug: string }) {
   const { t } = useTranslation();
@@ -22,7 +22,7 @@ export function FindingsStrip({ slug }: { slug: string }) {
             {findingWords(first)}
             {others.length > 0 ? ` ${t("operations.more", { count: others.length })}` : ""}
           </span>
-          <Link to={page} className={styles.stripLink}>
+          <Link to={pageOf(first, slug)} className={styles.stripLink}>
             {t("operations.look")}
           </Link>
         </>

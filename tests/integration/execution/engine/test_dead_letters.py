@@ -1,5 +1,7 @@
 """What raises is set aside with its error; its run is paused with the reason, and the others go on."""
 
+import logging
+
 import pytest
 
 from bench.hall import SITE, fill_hall
@@ -9,6 +11,7 @@ from execution.errors import NotFound, NotPossibleNow
 from execution.models import DeadLetter, FloorState, InboxEvent, Run
 from registry import services as registry
 from tests.integration.execution.engine.hall import WAITS, answer_open, heating, row, start, told
+from vipo_device.kit.log_ids import bound_ids
 
 pytestmark = pytest.mark.django_db(transaction=True)
 NOW = "2026-01-01T00:00Z"
@@ -39,6 +42,7 @@ def test_an_event_that_nobody_can_read_is_set_aside_and_another_run_goes_on():
     drive.advance_site(SITE)
     (letter,) = services.list_dead_letters(site=SITE)
     assert (str(letter.run), letter.event, letter.state) == (bad, {"type": "nonsense", "x": 1}, "open")
+    assert (letter.target, letter.run_status) == ("run", "paused")
     assert letter.error.startswith("UnreadableMessage: There is no message of type 'nonsense'.")
     assert (row(bad).status, row(good).status, len(told(good))) == ("paused", "running", 2)
     assert services.get_run(run_id=bad).run.cause["code"] == "set_aside"
@@ -101,6 +105,7 @@ def test_a_floor_that_cannot_be_read_holds_only_those_who_need_it():
         (needs, "run_paused"),
     ]
     assert "format 99" in letter.error
+    assert letter.target == "floor"
     FloorState.objects.update(state=None)
     drive.forget_all()
     services.retry_dead_letter(letter_id=letter.id, by="Ada")
@@ -148,3 +153,21 @@ def test_people_who_watch_the_site_are_told(monkeypatch):
     drive.advance_site(SITE)
     (notice,) = [each for each in heard if each["type"] == "notice"]
     assert (notice["code"], notice["run"], notice["level"]) == ("set_aside", run, "warning")
+
+
+def test_a_line_of_the_log_says_which_step_of_which_run_was_set_aside():
+    run = start(heating(1))
+    drive.advance_site(SITE)
+    lines, handler = [], logging.Handler()
+    handler.emit = lambda record: lines.append((record.levelname, record.getMessage(), dict(bound_ids())))
+    log = logging.getLogger("execution.engine.turn")
+    log.addHandler(handler)
+    try:
+        hostile = {"type": "answer", "device": "d" * 500, "method": "heat", "step": "s0", "status": "ODD", "why": ""}
+        put(f"run:{run}", hostile)
+        drive.advance_site(SITE)
+    finally:
+        log.removeHandler(handler)
+    (said,) = [line for line in lines if line[0] == "WARNING"]
+    assert said[1] == "Something was set aside for an admin: KeyError: 'ODD'"
+    assert said[2] == {"run": run, "step": "s0", "device": "d" * 80}

@@ -14,10 +14,10 @@ from django.test.utils import CaptureQueriesContext
 from django.utils import timezone
 
 from execution import services
-from execution.models import Command, InboxEvent, Lease, Rehearsal, Run
+from execution.models import Command, DeadLetter, InboxEvent, Lease, Rehearsal, Run
 from registry import services as registry
 from registry.models import Heartbeat, Site
-from tests.kit.sign_in import signed_in
+from tests.kit.sign_in import add_person, signed_in
 
 pytestmark = pytest.mark.django_db
 
@@ -110,6 +110,68 @@ def test_operators_are_told_what_stops_work_and_admins_which_process_it_is(hall:
     Heartbeat.objects.filter(kind="gateway").delete()
     make_process("gateway")
     assert ask(signed_in("operator"), "findings") == []
+
+
+def test_what_was_set_aside_waits_for_admins_until_it_is_retried_or_dropped(other: str) -> None:
+    letters = [set_aside(site, error) for site, error in (("hall", "one"), ("hall", "two"), (other, "three"))]
+    operator, admin = signed_in("operator"), signed_in("admin")
+    assert waiting(ask(operator, "operations")) == {"set_aside": 2}
+    assert waiting(ask(admin, "processes")) == {"set_aside": 3}
+    assert ask(operator, "findings") == []
+    assert ask(admin, "findings") == [
+        {"code": "set_aside", "severity": "error", "args": {"count": 2},
+         "text": "What could not be taken in was set aside and waits for an admin: 2."},
+    ]  # fmt: skip
+    for letter in letters:
+        services.drop_dead_letter(letter_id=letter, by="Ada")
+    assert waiting(ask(operator, "operations")) == {}
+    assert ask(admin, "findings") == []
+
+
+def set_aside(site: str, error: str, run: Run | None = None) -> int:
+    at, place = timezone.now(), Site.objects.get(slug=site)
+    event = {"type": "run_over", "run": "r"}
+    return DeadLetter.objects.create(site=place, run=run, target=f"site:{site}", event=event, error=error, at=at).pk
+
+
+def post(client: Client, letter: int, what: str) -> tuple[int, Any]:
+    answer = client.post(f"/api/dead-letters/{letter}/{what}", content_type="application/json")
+    return answer.status_code, answer.json()
+
+
+def test_of_two_admins_the_second_is_told_what_the_first_has_done(hall: str) -> None:
+    letter = set_aside(hall, "Broken.", make_run(hall, number=7, status="paused"))
+    add_person("other")
+    registry.set_member(site=hall, email="other@vipo.example", role="admin")
+    first, second = signed_in("admin"), signed_in("other")
+    status, told = post(first, letter, "drop")
+    assert (status, told["state"], told["run_number"], told["run_status"]) == (200, "dropped", 7, "paused")
+    for what in ("retry", "drop"):
+        status, told = post(second, letter, what)
+        assert (status, told["code"], told["args"]["why"]) == (409, "not_possible_now", "settled_dropped")
+        assert told["detail"] == "Admin Person has dropped it already."
+    assert InboxEvent.objects.count() == 0
+
+
+def test_what_belongs_to_a_run_that_is_over_is_dropped_and_not_retried(hall: str) -> None:
+    letter = set_aside(hall, "Broken.", make_run(hall, number=8, status="failed"))
+    admin = signed_in("admin")
+    status, told = post(admin, letter, "retry")
+    assert (status, told["args"]) == (409, {"why": "run_over", "run": 8})
+    (listed,) = ask(admin, "dead-letters?state=open")
+    assert (listed["state"], listed["run_status"], listed["settled_by"]) == ("open", "failed", "")
+    assert post(admin, letter, "drop")[0] == 200
+
+
+def test_strangers_and_operators_cannot_tell_what_was_set_aside(other: str) -> None:
+    letter = set_aside(other, "Broken.")
+    stranger = post(signed_in("admin"), letter, "retry")
+    nothing = post(signed_in("admin"), letter + 1, "retry")
+    assert stranger == nothing
+    assert stranger[0] == 404
+    mine = set_aside("hall", "Broken.")
+    assert [post(signed_in("operator"), mine, what)[0] for what in ("retry", "drop")] == [403, 403]
+    assert DeadLetter.objects.filter(state="open").count() == 2
 
 
 def test_an_admin_sees_each_process_and_who_leads(hall: str) -> None:

@@ -14,8 +14,9 @@ from django.utils import timezone
 from prometheus_client.parser import text_string_to_metric_families
 
 from execution.gateway.gateway import KINDS, REASONS, _count
+from execution.models import DeadLetter, Keeping
 from registry import services
-from registry.models import Heartbeat
+from registry.models import Heartbeat, Site
 from registry.processes import counters
 from registry.processes.counters import BOUNDS_S, MOST_SERIES, OTHER, Counters
 from tests.kit.sign_in import signed_in
@@ -77,6 +78,24 @@ def test_a_silent_process_and_what_is_missing_are_told() -> None:
     assert found["vipo_queue_length"][(("queue", "inbox"),)] == 0
     assert found["vipo_queue_length"][(("queue", "tasks:runs"),)] >= 0
     assert set(found["vipo_runs_open"]) == {(("state", each),) for each in ("pending", "running", "paused")}
+
+
+def test_what_is_wrong_with_sites_and_waits_for_admins_is_told_without_their_names() -> None:
+    for number, (errors, trouble) in enumerate([(2, ""), (1, "No space left"), (0, "No such folder")]):
+        slug = f"site-{number}"
+        services.create_site(name=slug, slug=slug)
+        place = Site.objects.get(slug=slug)
+        Keeping.objects.create(site=place, trouble=trouble)
+        for _ in range(errors):
+            at = timezone.now() - timedelta(seconds=30)
+            DeadLetter.objects.create(site=place, target=f"site:{slug}", event={}, error="Broken.", at=at)
+    found = read()
+    assert found["vipo_queue_length"][(("queue", "set_aside"),)] == 3
+    assert 29 < found["vipo_queue_oldest_seconds"][(("queue", "set_aside"),)] < 40
+    assert found["vipo_findings"] == {
+        (("code", "archive_failed"), ("severity", "warning")): 2,
+        (("code", "set_aside"), ("severity", "error")): 2,
+    }
 
 
 def test_a_hostile_name_stays_one_label_and_what_another_version_told_is_left_out() -> None:
@@ -163,4 +182,4 @@ def test_five_hundred_processes_and_a_hundred_sites_cost_no_question_more() -> N
         services.create_site(name=f"Site {number}", slug=f"site-{number}")
     for number in range(500):
         make_process("worker", f"w{number}", tasks=[[["t", "SUCCESS"], number]])
-    assert questions() == few <= 8
+    assert questions() == few <= 9
