@@ -92,12 +92,12 @@ def _drain(broker: socket.socket) -> None:
         return
 
 
-def _text(value: str) -> bytes:
+def text(value: str) -> bytes:
     data = value.encode()
     return struct.pack("!H", len(data)) + data
 
 
-def _packet(kind: int, body: bytes) -> bytes:
+def packet(kind: int, body: bytes) -> bytes:
     length, head = len(body), bytearray([kind])
     while True:
         head.append(length % 128 | (0x80 if length > 127 else 0))
@@ -107,8 +107,8 @@ def _packet(kind: int, body: bytes) -> bytes:
 
 
 def _connect_packet(password: str) -> bytes:
-    return _packet(0x10, _text("MQTT") + b"\x04\xc2\x00\x00" + _text("bench-sender") + _text(USER) + _text(password))
+    return packet(0x10, text("MQTT") + b"\x04\xc2\x00\x00" + text("bench-sender") + text(USER) + text(password))
 
 
 def _publish_packet(topic: str, payload: bytes, number: int) -> bytes:
-    return _packet(0x32, _text(topic) + struct.pack("!H", number) + payload)
+    return packet(0x32, text(topic) + struct.pack("!H", number) + payload)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime, timedelta
 from typing import Any
@@ -65,14 +65,51 @@ def _ask() -> datetime:
     return said
 
 
-@contextmanager
-def preparing_cursor() -> Iterator[Any]:
-    """Give a cursor for which PostgreSQL plans a statement once; planning often takes longer than what is planned."""
+def open_cursor() -> Any:
+    """Return a cursor for which PostgreSQL plans a statement once; planning often takes longer than what is planned."""
     if connection.vendor != "postgresql":
-        with connection.cursor() as cursor:
-            yield cursor
-        return
+        return connection.cursor()
     connection.ensure_connection()
     connection.connection.prepare_threshold = 0
-    with connection.wrap_database_errors, psycopg.Cursor(connection.connection) as prepared:
+    return psycopg.Cursor(connection.connection)
+
+
+@contextmanager
+def preparing_cursor() -> Iterator[Any]:
+    """Give a cursor as `open_cursor` returns it, for as long as the block takes."""
+    with connection.wrap_database_errors, open_cursor() as prepared:
         yield prepared
+
+
+class Batch:
+    """Statements of which none waits for what the one before has come to; each returns its cursor.
+
+    What a cursor says (`rowcount`, rows) may be asked behind the block of `sent_together`, when all have come back.
+    """
+
+    def ask(self, statement: str, told: Any) -> Any:
+        """Send one statement."""
+        cursor = open_cursor()
+        cursor.execute(statement, told)
+        return cursor
+
+    def ask_many(self, statement: str, rows: Sequence[Any]) -> Any:
+        """Send one statement for each of the rows; its `rowcount` is that of all of them."""
+        cursor = open_cursor()
+        cursor.executemany(statement, rows)
+        return cursor
+
+
+@contextmanager
+def sent_together() -> Iterator[Batch]:
+    """Give what statements are sent by in one exchange with PostgreSQL; SQLite is asked one after the other.
+
+    Inside a transaction that may be its first exchange, too. What one of them raises is raised at the end of the block,
+    and those behind it are not carried out.
+    """
+    if connection.vendor != "postgresql":
+        yield Batch()
+        return
+    connection.ensure_connection()
+    with connection.wrap_database_errors, connection.connection.pipeline():
+        yield Batch()

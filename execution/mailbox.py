@@ -6,6 +6,7 @@ one is found by the ticker's sweep.
 
 from __future__ import annotations
 
+import json
 import logging
 import time
 from collections.abc import Iterable, Sequence
@@ -13,7 +14,7 @@ from datetime import datetime
 from uuid import UUID
 
 from celery import current_app
-from django.db import transaction
+from django.db import connection, transaction
 from kombu.exceptions import OperationalError
 
 from execution import database
@@ -29,6 +30,10 @@ REQUEST_HEADER = "vipo_request"
 """Where a task's message carries the id of the HTTP request that it comes from, for the log."""
 ASK_AGAIN_S = 0.5
 """An owner stays for two seconds after its last work: whoever is asked for within half a second is still there."""
+_PUT = """
+INSERT INTO execution_inboxevent (site, target, key, payload, created_at) VALUES (%s, %s, %s, %s, %s)
+ON CONFLICT DO NOTHING
+"""
 _asked_at: dict[str, float] = {}
 
 
@@ -55,13 +60,17 @@ def post_to_floor(site: str, messages: Iterable[tuple[str, ToFloor]]) -> None:
 def post(site: str, messages: Sequence[tuple[str, str, ToFloor | ToRun]]) -> None:
     """Put messages, each with its inbox and its key, into the inboxes of a site, and hint."""
     if messages:
-        now = database.now()
-        rows = [
-            InboxEvent(site=site, target=target, key=key, payload=to_json(message), created_at=now)
-            for target, key, message in messages
-        ]
-        InboxEvent.objects.bulk_create(rows, ignore_conflicts=True)
+        with transaction.atomic(savepoint=False), database.sent_together() as batch:
+            put(batch, site, messages)
         hint(site)
+
+
+def put(batch: database.Batch, site: str, messages: Iterable[tuple[str, str, ToFloor | ToRun]]) -> None:
+    """Put messages into the inboxes of a site together with other statements; `hint` is left to whoever does it."""
+    now = connection.ops.adapt_datetimefield_value(database.now())
+    rows = [(site, target, key, json.dumps(to_json(message)), now) for target, key, message in messages]
+    if rows:
+        batch.ask_many(_PUT, rows)
 
 
 def find_told(key: str) -> ToFloor | None:

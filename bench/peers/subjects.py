@@ -1,4 +1,4 @@
-"""The others that get the same flow of states: a bare paho loop, and Node-RED."""
+"""The others that get the same flow of states, or carry the same steps out: a bare paho loop, and Node-RED."""
 
 from __future__ import annotations
 
@@ -54,21 +54,33 @@ def bare_loop(folder: Path, port: int, password: str) -> Iterator[Running]:
 
 
 @contextmanager
-def node_red(folder: Path, port: int, password: str) -> Iterator[Running]:
-    """Run Node-RED with a flow that reads the JSON, keeps it and passes it on to a WebSocket."""
+def node_red(folder: Path, port: int, password: str, flow: list[dict[str, object]] | None = None) -> Iterator[Running]:
+    """Run Node-RED with a flow, by default one that reads the JSON, keeps it and passes it on to a WebSocket.
+
+    Its sockets send at once, as those of ours do; by itself it leaves Nagle's algorithm on.
+    """
     running = Running("Node-RED", counter=folder / "seen", missing=what_is_missing("node-red"))
     if running.missing:
         yield running
         return
     running.version = json.loads((PEERS / "node_modules" / "node-red" / "package.json").read_text())["version"]
-    (folder / "flows.json").write_text(json.dumps(_flow(folder / "seen", port)))
+    (folder / "flows.json").write_text(json.dumps(flow or _flow(folder / "seen", port)))
     (folder / "flows_cred.json").write_text(json.dumps({"broker": {"user": "server", "password": password}}))
     (folder / "settings.js").write_text(
         f"module.exports = {{ uiHost: '127.0.0.1', uiPort: {free_port()}, credentialSecret: false,"
         " httpAdminRoot: false, flowFile: 'flows.json', logging: { console: { level: 'warn' } } };"
     )
     script = PEERS / "node_modules" / "node-red" / "red.js"
-    command = ["node", str(script), "--userDir", str(folder), "--settings", str(folder / "settings.js")]
+    command = [
+        "node",
+        "--require",
+        str(PEERS / "send_at_once.cjs"),
+        str(script),
+        "--userDir",
+        str(folder),
+        "--settings",
+        str(folder / "settings.js"),
+    ]
     with _process(command, running) as started:
         yield started
 
@@ -98,6 +110,29 @@ def _process(command: list[str], running: Running) -> Iterator[Running]:
             yield running
         finally:
             process.kill()
+
+
+def steps_flow(counter: Path, port: int, topics: str, steps: int) -> list[dict[str, object]]:
+    """Return a flow that answers each answer of a device with its next command, `steps` times; it keeps nothing."""
+    next_one = (
+        "const d = msg.topic.split('/')[3]; const t = context.get('t') || {}; const n = t[d] || 0;"
+        f" if (n >= {steps}) return null; t[d] = n + 1; context.set('t', t);"
+        f" return {{ topic: '{topics}/' + d + '/down/heat',"
+        " payload: { id: RED.util.generateId(), v: { value: 1 } } };"
+    )
+    tab, broker, *_, tick, count, write = _flow(counter, port)
+    return [
+        tab, broker, tick, count, write,
+        {
+            "id": "s0", "z": "tab", "type": "mqtt in", "topic": f"{topics}/+/up/ack", "qos": "1", "datatype": "json",
+            "broker": "broker", "inputs": 0, "wires": [["s1"]],
+        },
+        {"id": "s1", "z": "tab", "type": "function", "func": next_one, "outputs": 1, "wires": [["s2"]]},
+        {
+            "id": "s2", "z": "tab", "type": "mqtt out", "topic": "", "qos": "1", "retain": "false", "broker": "broker",
+            "wires": [],
+        },
+    ]  # fmt: skip
 
 
 def _flow(counter: Path, port: int) -> list[dict[str, object]]:

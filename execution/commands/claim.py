@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from functools import reduce
 from typing import Any, NamedTuple
 from uuid import UUID
 
-from django.db import connection
+from django.db import connection, transaction
 
 from execution import database
 from execution.clock import steady_s
@@ -86,7 +86,7 @@ FROM taken <hasty> WHERE id = taken_id
 RETURNING site_id, position, id, device, method, arguments, ttl_s, tries,
     (SELECT fence FROM execution_sitestop AS latch WHERE latch.site_id = execution_command.site_id)
 """  # noqa: S608 - made of this product's own constants only
-_MARK = "UPDATE execution_command SET status = 'sent', sent_at = %s WHERE status = 'pending' AND id IN (<ids>)"
+_MARK = "UPDATE execution_command SET status = 'sent', sent_at = %s WHERE status = 'pending' AND id = %s"
 _HASTE = """, haste AS MATERIALIZED (
     SELECT set_config('synchronous_commit', 'off', true) WHERE NOT EXISTS (
         SELECT 1 FROM execution_command JOIN taken ON id = taken_id WHERE device IN (SELECT device FROM idless)
@@ -207,10 +207,15 @@ def release_commands(*, commands: Iterable[OutgoingCommand]) -> int:
 
 
 def mark_commands_sent(*, ids: Iterable[str]) -> None:
-    """Say that these commands have gone out."""
-    keys = [UUID(key).hex if connection.vendor == "sqlite" else UUID(key) for key in ids]
-    sent_at = connection.ops.adapt_datetimefield_value(database.now())
-    if not keys:  # PostgreSQL knows no empty list
-        return
-    with connection.cursor() as cursor:
-        cursor.execute(_MARK.replace("<ids>", ", ".join(["%s"] * len(keys))), [sent_at, *keys])
+    """Say that these commands have gone out just now."""
+    now = database.now()
+    mark_sent(dict.fromkeys(ids, now))
+
+
+def mark_sent(sent: Mapping[str, datetime]) -> None:
+    """Say when these commands have gone out; those that were answered since stay as they are."""
+    when, is_sqlite = connection.ops.adapt_datetimefield_value, connection.vendor == "sqlite"
+    # in the order in which answers lock them, too
+    keys = sorted((UUID(key), at) for key, at in sent.items())
+    with transaction.atomic(), database.sent_together() as batch:
+        batch.ask_many(_MARK, [(when(at), key.hex if is_sqlite else key) for key, at in keys])

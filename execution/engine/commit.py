@@ -10,13 +10,13 @@ from typing import Any
 from uuid import UUID
 
 from django.conf import settings
-from django.db import transaction
+from django.db import IntegrityError, transaction
 
 from execution import database
 from execution.engine import lease as leases
 from execution.engine.inbox import mark_taken
 from execution.engine.lease import Lease
-from execution.engine.rows import insert_all, update_all
+from execution.engine.rows import Guarded, insert_all, update_all
 from execution.engine.turn import ByHand, Turn
 from execution.fault_points import fault_point
 from execution.floor.fold import FloorWork
@@ -37,7 +37,7 @@ FLOOR_BEAT_S = 2.0
 _FLOOR = """
 UPDATE execution_floorstate
 SET state = %(state)s, active = %(active)s, epoch = epoch + 1, commands = commands + %(more)s
-WHERE id = %(id)s AND epoch = %(epoch)s RETURNING commands
+WHERE id = %(id)s AND epoch = %(epoch)s
 """
 
 
@@ -59,20 +59,43 @@ def commit(turn: Turn, lease: Lease) -> bool:
     """
     is_beat = _is_beat_due(turn)
     if not turn.is_change and not is_beat:
-        _remember(turn, is_beat=False)
+        _remember(turn, is_floor=False)
         return False
     is_floor = turn.has_new_floor or is_beat
     with transaction.atomic():
-        leases.hold(lease)
-        if is_floor:
-            _write_floor(turn, lease)
-        _write_runs(turn)
-        _write_rest(turn)
+        _write(turn, lease, is_floor=is_floor)
+        _write_rest(turn, is_floor=is_floor)
         fault_point("before_commit")
     fault_point("after_commit")
     _tell(turn)
-    _remember(turn, is_beat=is_floor)
+    _remember(turn, is_floor=is_floor)
     return turn.is_change
+
+
+def _write(turn: Turn, lease: Lease, *, is_floor: bool) -> None:
+    """Write what nearly every turn has, in one exchange with the database; raises LeaseLost or Outdated.
+
+    What is guarded by an epoch comes first: where a later row does not fit, it is known whether that is why.
+    """
+    held, guarded = None, []
+    try:
+        with database.sent_together() as batch:
+            held = leases.ask_to_hold(batch, lease)
+            guarded += [_write_floor(batch, turn)] if is_floor else []
+            guarded += _write_states(batch, _changed(turn))
+            _insert_rows(batch, turn, lease, is_floor=is_floor)
+            mark_taken(batch, turn.taken, turn.now)
+    except IntegrityError:
+        if held is not None:
+            _check(held, guarded)
+        raise
+    _check(held, guarded)
+
+
+def _check(held: Any, guarded: Sequence[Guarded]) -> None:
+    leases.check_held(held)
+    if not all(each.is_whole for each in guarded):
+        raise Outdated("Somebody else has changed the floor or a run.")
 
 
 def _is_beat_due(turn: Turn) -> bool:
@@ -80,7 +103,7 @@ def _is_beat_due(turn: Turn) -> bool:
     return is_late and turn.floor is not None and turn.floor is not turn.site.floor and turn.floor.is_active
 
 
-def _write_floor(turn: Turn, lease: Lease) -> None:
+def _write_floor(batch: database.Batch, turn: Turn) -> Guarded:
     work, row = turn.floor, turn.site.floor_row
     assert work is not None
     told = {
@@ -90,12 +113,13 @@ def _write_floor(turn: Turn, lease: Lease) -> None:
         "id": row.pk,
         "epoch": row.epoch,
     }
-    with database.preparing_cursor() as cursor:
-        cursor.execute(_FLOOR, told)
-        found = cursor.fetchone()
-    if found is None:
-        raise Outdated("Somebody else has changed the floor.")
-    insert_all(Command, _command_rows(turn, work, lease, found[0] - len(work.commands)))
+    return Guarded(1, batch.ask(_FLOOR, told))
+
+
+def _give_up(turn: Turn) -> None:
+    """Close the commands that the floor does not wait for any more, and say which doors need people."""
+    work = turn.floor
+    assert work is not None
     given_up = set(turn.site.floor.state.sent if turn.site.floor else ()) - set(work.state.sent) - work.answered
     if given_up:
         still_open = Command.objects.filter(id__in=given_up, status__in=Command.OPEN)
@@ -133,31 +157,24 @@ def _changed(turn: Turn) -> list[RunWork]:
     return [work for work in turn.runs.values() if work.is_changed]
 
 
-def _write_runs(turn: Turn) -> None:
+def _insert_rows(batch: database.Batch, turn: Turn, lease: Lease, *, is_floor: bool) -> None:
+    """Write commands, and lines, inputs and timers of runs."""
+    if is_floor and turn.floor is not None:
+        # the row that is known counts the commands as long as its epoch is that of the database
+        insert_all(batch, Command, _command_rows(turn, turn.floor, lease, turn.site.floor_row.commands))
     changed = _changed(turn)
-    _write_states(changed)
-    for hand in turn.by_hand.values():
-        Run.objects.filter(id=hand.row.id).update(
-            status=hand.row.status, reason=hand.row.reason, ended_at=hand.row.ended_at, next_seq=hand.row.next_seq,
-            watches=hand.row.watches,
-        )  # fmt: skip
     written: list[RunWork | ByHand] = [*changed, *turn.by_hand.values()]
-    insert_all(RunEvent, (line for work in written for line in work.lines))
+    insert_all(batch, RunEvent, (line for work in written for line in work.lines))
     inputs = (
         RunInput(run_id=work.row.id, seq=work.row.inputs_kept, at=turn.now, taken=work.inputs)
         for work in changed
         if work.inputs
     )
-    insert_all(RunInput, inputs)
-    insert_all(Timer, _timers(changed, turn.now))
-    for work in changed:
-        if work.dropped_timers:
-            Timer.objects.filter(run=work.row, timer__in=work.dropped_timers).delete()
-        for action in work.asked:
-            _ask(work.row, action, turn.now)
+    insert_all(batch, RunInput, inputs)
+    insert_all(batch, Timer, _timers(changed, turn.now))
 
 
-def _write_states(changed: Sequence[RunWork]) -> None:
+def _write_states(batch: database.Batch, changed: Sequence[RunWork]) -> list[Guarded]:
     """Write the rows of runs; the state of one that has not begun stays nothing."""
     for work in changed:
         work.row.reason = work.row.reason[:500]
@@ -166,11 +183,10 @@ def _write_states(changed: Sequence[RunWork]) -> None:
             work.row.state = machine.to_json(work.state)
     begun = [(work.row, work.row.epoch) for work in changed if work.state is not None]
     others = [(work.row, work.row.epoch) for work in changed if work.state is None]
-    is_written = update_all(Run, ("state", *WRITTEN), begun) and update_all(Run, WRITTEN, others)
+    written = [update_all(batch, Run, ("state", *WRITTEN), begun), update_all(batch, Run, WRITTEN, others)]
     for row, _ in begun:
         row.__dict__.pop("state", None)
-    if not is_written:
-        raise Outdated("Somebody else has changed a run.")
+    return written
 
 
 def _timers(changed: Iterable[RunWork], now: datetime) -> Iterator[Timer]:
@@ -186,7 +202,25 @@ def _ask(run: Run, action: r.AskPeople | r.CancelQuestion, now: datetime) -> Non
         questions.withdraw(run, action.question)
 
 
-def _write_rest(turn: Turn) -> None:
+def _write_rest(turn: Turn, *, is_floor: bool) -> None:
+    """Write what few turns have."""
+    if is_floor:
+        _give_up(turn)
+    for hand in turn.by_hand.values():
+        Run.objects.filter(id=hand.row.id).update(
+            status=hand.row.status, reason=hand.row.reason, ended_at=hand.row.ended_at, next_seq=hand.row.next_seq,
+            watches=hand.row.watches,
+        )  # fmt: skip
+    for work in _changed(turn):
+        if work.dropped_timers:
+            Timer.objects.filter(run=work.row, timer__in=work.dropped_timers).delete()
+        for action in work.asked:
+            _ask(work.row, action, turn.now)
+    _keep(turn)
+
+
+def _keep(turn: Turn) -> None:
+    """Keep what nobody has taken in yet, and what was set aside."""
     epoch, slug = turn.site.floor_row.epoch, turn.site.slug
     InboxEvent.objects.bulk_create(
         (
@@ -204,7 +238,6 @@ def _write_rest(turn: Turn) -> None:
         )
         for each in turn.dead
     )  # fmt: skip
-    mark_taken(turn.taken, turn.now)
 
 
 def _tell(turn: Turn) -> None:
@@ -228,13 +261,15 @@ def _dead_notice(run: str, error: str) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _remember(turn: Turn, *, is_beat: bool) -> None:
+def _remember(turn: Turn, *, is_floor: bool) -> None:
     """Bring the memory of the site to what was written."""
     site = turn.site
+    commands = len(turn.floor.commands) if turn.floor is not None else 0
     if turn.floor is not None:
         site.floor = turn.floor.settled()
-    if is_beat:
+    if is_floor:
         site.floor_row.epoch += 1
+        site.floor_row.commands += commands
         site.floor_written_at = time.monotonic()
     for key, work in turn.runs.items():
         if work.is_changed:

@@ -32,6 +32,7 @@ LINGER_S = 2.0
 STAY_S = 60.0
 LOOK_EVERY_S, LOOK_AT_ONCE_S = 0.5, 0.1
 """Devices are looked at twice a second, and at most ten times when they say that something is new."""
+AGAIN_S = 0.05
 SITES_REMEMBERED = 16
 FROZEN_AFTER = "3s"
 """PostgreSQL ends a transaction of an owner in which nothing is asked for so long: the next owner waits for no row."""
@@ -152,6 +153,8 @@ def _stay(slug: str, lease: Lease, stay_s: float, linger_s: float) -> bool:
         keeper.note_turn(lease)
         if _turn(slug, lease, look=look):
             busy_at = time.monotonic()
+            # whoever posts something calls, also during the turn; one look more is for a call that was lost
+            registry.wait_wake(mailbox.site_target(slug), 0 if memory.has_more else AGAIN_S)
             continue
         memory = _memory(slug, lease)
         if not memory.is_watching and memory.wakes_at is None and time.monotonic() - busy_at >= linger_s:
@@ -187,6 +190,7 @@ def _turn(slug: str, lease: Lease, *, look: bool) -> bool:
     try:
         turn.work_out()
         moved = commit(turn, lease)
+        memory.has_more = turn.has_more or len(news.rows) >= memory.most_at_once
     except LeaseLost:
         raise
     except Outdated as error:

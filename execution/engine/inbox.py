@@ -75,13 +75,12 @@ def read_news(site: int, slug: str, last_number: int, limit: int = MOST_AT_ONCE)
     return News(_time(now), None if epoch is None else int(epoch), runs, rows)
 
 
-def mark_taken(ids: Sequence[int], now: datetime) -> None:
+def mark_taken(batch: database.Batch, ids: Sequence[int], now: datetime) -> None:
     """Say that these messages are taken in; they are kept a while, so that a repetition is known as one."""
     if not ids:
         return
     given: Any = list(ids) if connection.vendor == "postgresql" else json.dumps(list(ids))
-    with database.preparing_cursor() as cursor:
-        cursor.execute(_TAKE[connection.vendor], {"now": connection.ops.adapt_datetimefield_value(now), "ids": given})
+    batch.ask(_TAKE[connection.vendor], {"now": connection.ops.adapt_datetimefield_value(now), "ids": given})
 
 
 def _value(said: Any) -> Any:

@@ -51,7 +51,7 @@ class SiteMemory:
     """A site in memory: its open runs, its floor, its layout. `broken` says of runs why they cannot be read.
 
     `floor` is None where the floor's state cannot be read; `floor_error` says why. `wakes_at` (monotonic seconds) is
-    when something is to be looked at again that was held back.
+    when something is to be looked at again that was held back. `has_more` says that the last turn has left something.
     """
 
     slug: str
@@ -65,6 +65,7 @@ class SiteMemory:
     last_number: int = 0
     most_at_once: int = MOST_AT_ONCE
     wakes_at: float | None = None
+    has_more: bool = False
     floor_written_at: float = 0.0
     _plans: dict[str, _Known] = field(default_factory=dict)
     _layout: Layout | None = None

@@ -6,6 +6,7 @@ from datetime import datetime
 
 from django.db import transaction
 
+from execution import database
 from execution.engine import lease as leases
 from execution.engine.aside import pause_by_hand, words_of
 from execution.engine.inbox import Row, mark_taken
@@ -26,4 +27,5 @@ def set_row_aside(row: Row, lease: Lease, now: datetime, error: Exception) -> No
         if run is not None and journal is not None:
             RunEvent.objects.bulk_create(journal.close())
             run.save(update_fields=["status", "reason", "next_seq", "steps", "roles"])
-        mark_taken([row.id], now)
+        with database.sent_together() as batch:
+            mark_taken(batch, [row.id], now)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -13,27 +14,34 @@ from execution import database
 Fields = tuple["models.Field[Any, Any]", ...]
 
 
-def insert_all(model: type[models.Model], rows: Iterable[models.Model]) -> None:
+def insert_all(batch: database.Batch, model: type[models.Model], rows: Iterable[models.Model]) -> None:
     """Insert new rows; those that have no key of their own are given one by the database and do not learn it."""
     fields, statement = _insert(model)
     values = [[_stored(field, row) for field in fields] for row in rows]
     if values:
-        with database.preparing_cursor() as cursor:
-            cursor.executemany(statement, values)
+        batch.ask_many(statement, values)
 
 
-def update_all(model: type[models.Model], names: Sequence[str], rows: Iterable[tuple[models.Model, int]]) -> bool:
-    """Write these columns of rows and count their `epoch` up, each from the epoch that it is said to have.
+@dataclass(frozen=True, slots=True)
+class Guarded:
+    """Rows that are written each from an epoch: how many there are, and the cursor that knows how many were."""
 
-    False when one of them has another epoch; what was written then is to be rolled back.
-    """
+    count: int
+    answer: Any = None
+
+    @property
+    def is_whole(self) -> bool:
+        """Tell, behind its batch, whether all of them had that epoch; if not, all is to be rolled back."""
+        return not self.count or bool(self.answer.rowcount == self.count)
+
+
+def update_all(
+    batch: database.Batch, model: type[models.Model], names: Sequence[str], rows: Iterable[tuple[models.Model, int]]
+) -> Guarded:
+    """Write these columns of rows and count their `epoch` up, each from the epoch that it is said to have."""
     fields, statement = _update(model, tuple(names))
     values = [[*(_stored(field, row) for field in fields), _stored(_key(model), row), epoch] for row, epoch in rows]
-    if not values:
-        return True
-    with database.preparing_cursor() as cursor:
-        cursor.executemany(statement, values)
-        return bool(cursor.rowcount == len(values))
+    return Guarded(len(values), batch.ask_many(statement, values)) if values else Guarded(0)
 
 
 def _stored(field: models.Field[Any, Any], row: models.Model) -> Any:

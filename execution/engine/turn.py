@@ -78,6 +78,7 @@ class Turn:
         self.kept: list[tuple[str, ToFloor | ToRun]] = []
         self.dead: list[SetAside] = []
         self.floor_inputs: list[dict[str, Any]] = []
+        self.has_more = False
         self._look, self._floor_was_told = look, False
         self._for_runs: dict[str, list[Mail]] = {}
         self._for_floor: list[ToFloor] = []
@@ -147,6 +148,7 @@ class Turn:
 
     def _keep_rest(self) -> None:
         """Keep what nobody has taken in yet for the next turn."""
+        self.has_more = True
         for run, mails in self._for_runs.items():
             self.kept += [(run_target(run), mail.message) for mail in mails]
         self.kept += [(site_target(self.site.slug), message) for message in self._for_floor]

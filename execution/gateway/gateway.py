@@ -18,7 +18,9 @@ from typing import Any
 
 from django.db import DatabaseError, InterfaceError, connection
 
-from execution.commands.claim import OutgoingCommand, claim_commands, mark_commands_sent, release_commands
+from execution import database
+from execution.clock import steady_s
+from execution.commands.claim import OutgoingCommand, claim_commands, mark_sent, release_commands
 from execution.fault_points import fault_point
 from execution.gateway.dashboards import Dashboards
 from execution.gateway.ingest import ENROLMENT, Ingester
@@ -40,6 +42,7 @@ SERVER_STATUS = "vipo/v1/srv/status"
 WAKE_CHANNEL, STOPS_CHANNEL = "gateway", "stops"
 POLL_S = 0.1
 CLAIM_LIMIT = 100
+MARK_AFTER_S = 0.1
 MOST_AT_ONCE = 200
 COUNT_EVERY_S = 2.0
 TOO_MANY = "too many messages"
@@ -67,6 +70,8 @@ class Gateway:
         self._greeting_due = threading.Event()
         self._stops = Stops(self._client)
         self._counted_at = 0.0
+        self._unmarked: dict[str, datetime] = {}
+        self._unmarked_since_s = 0.0
 
     def run_forever(self, stopping: threading.Event) -> None:
         """Serve until `stopping` is set."""
@@ -190,6 +195,7 @@ class Gateway:
         commands = claim_commands(limit=CLAIM_LIMIT)
         self._outage.end()
         self._publish(commands)
+        self._mark()
         return len(commands) == CLAIM_LIMIT
 
     def _publish(self, commands: Sequence[OutgoingCommand]) -> None:
@@ -205,15 +211,23 @@ class Gateway:
                 fault_point("after_publish")
                 sent.append(command.id)
         if sent:
-            fault_point("before_mark")
-            mark_commands_sent(ids=sent)
-            fault_point("after_mark")
+            now = database.now()
+            self._unmarked_since_s = self._unmarked_since_s if self._unmarked else steady_s()
+            self._unmarked |= dict.fromkeys(sent, now)
             registry.count(name="mqtt_messages_out", labels=("command",), by=len(sent))
         if late:
             count = release_commands(commands=late)
             log.warning(
                 "%d commands were claimed too long ago to be sent; %d of them are free again.", len(late), count
             )
+
+    def _mark(self) -> None:
+        """Say what has gone out, once for all that went out in a moment: what is answered by then needs no word."""
+        if self._unmarked and steady_s() - self._unmarked_since_s >= MARK_AFTER_S:
+            fault_point("before_mark")
+            mark_sent(self._unmarked)
+            fault_point("after_mark")
+            self._unmarked = {}
 
     def _greet(self) -> None:
         """Announce the server, upon which devices describe themselves anew; repeat the stops."""

@@ -50,11 +50,13 @@ class Ingester:
 
     def _ingest_round(self, entries: list[Entry], stopping: threading.Event) -> None:
         """Take in at most one message of each device: answers first, since runs wait for them."""
+        answers = [e for e in entries if e.kind == "ack"]
+        self._take_or_handle(self._take_answers, answers, stopping)
         states = [e for e in entries if e.kind == "state" and e.message.payload and not e.outdated]
         said = [e for e in entries if e.kind == "desc" and e.message.payload]
         unchanged = {id(entry) for entry in self._take_unchanged(said)}
         changed = [entry for entry in said if id(entry) not in unchanged]
-        together = {id(entry) for entry in (*states, *said)}
+        together = {id(entry) for entry in (*answers, *states, *said)}
         for entry in entries:
             if id(entry) not in together:
                 self._handle(entry, stopping)
@@ -85,6 +87,28 @@ class Ingester:
         for entry in unchanged:
             entry.message.acknowledge()
         return unchanged
+
+    def _take_answers(self, entries: list[Entry]) -> bool:
+        """Take in answers of different devices in one transaction; False when that did not work."""
+        at = database.now()
+        return self._take_together(entries, "ack", lambda: self._ingest_answers(entries, at), at)
+
+    def _ingest_answers(self, entries: list[Entry], at: datetime) -> list[VipoError | None]:
+        """Return of each answer why it could not be read, None where it could."""
+        outcomes: list[VipoError | None] = []
+        answers = []
+        for entry in entries:
+            try:
+                ack = messages.parse_ack(entry.message.payload)
+            except VipoError as error:
+                outcomes.append(error)
+            else:
+                outcomes.append(None)
+                answers.append(outbox.Answer(entry.device, ack.command, ack.status, ack.why, ack.result))
+        fault_point("before_answer")
+        outbox.record_acks(answers=answers, at=at)
+        fault_point("after_answer")
+        return outcomes
 
     def _take_states(self, entries: list[Entry]) -> bool:
         """Take in states of different devices with one question and one write; False when that did not work."""

@@ -143,7 +143,11 @@ class MemoryLive:
 
 
 class RedisLive:
-    """Between processes, over Redis pub/sub; one listening thread, started at the first need."""
+    """Between processes, over Redis pub/sub.
+
+    One thread listens for news and one for hints, each from the first need on: who waits for hints alone, as workers
+    do, does not take in what every browser is told, and no hint stands behind it.
+    """
 
     def __init__(self, url: str) -> None:
         self._redis: Any = Redis(
@@ -151,8 +155,8 @@ class RedisLive:
         )
         self._here = MemoryLive()
         self._lock = threading.Lock()
-        self._thread: threading.Thread | None = None
-        self._ready = threading.Event()
+        self._threads: dict[str, threading.Thread] = {}
+        self._ready = {_LIVE: threading.Event(), _WAKE: threading.Event()}
         self._closed = threading.Event()
         self._missed: set[str] = set()
         self._outage = Outage("Redis", "There is no live news, and what waits is found a little later.")
@@ -184,7 +188,7 @@ class RedisLive:
     def listen(self, callback: Listener) -> Callable[[], None]:
         """See Live."""
         stop = self._here.listen(callback)
-        self._start()
+        self._start(_LIVE)
         return stop
 
     def wake(self, channel: str) -> None:
@@ -199,14 +203,14 @@ class RedisLive:
 
     def wait_wake(self, channel: str, timeout_s: float) -> bool:
         """See Live."""
-        self._start()
+        self._start(_WAKE)
         return self._here.wait_wake(channel, timeout_s)
 
     def close(self) -> None:
-        """End the listening thread and the connections."""
+        """End the listening threads and the connections."""
         self._closed.set()
-        if self._thread:
-            self._thread.join(5)
+        for thread in self._threads.values():
+            thread.join(5)
         self._here.close()
         self._redis.close()
 
@@ -218,34 +222,35 @@ class RedisLive:
         self._rests_until = time.monotonic() + REST_S
         self._outage.begin(error)
 
-    def _start(self) -> None:
+    def _start(self, what: str) -> None:
         """Begin to listen at the first need; only the first caller waits, and not for ever, until Redis has heard."""
         with self._lock:
-            if self._thread is None:
-                self._thread = threading.Thread(target=self._hear, name="vipo-live", daemon=True)
-                self._thread.start()
-                self._ready.wait(5)
+            if what not in self._threads:
+                name = f"vipo-{what.strip(':').rpartition(':')[2]}"
+                self._threads[what] = threading.Thread(target=self._hear, args=(what,), name=name, daemon=True)
+                self._threads[what].start()
+                self._ready[what].wait(5)
 
-    def _hear(self) -> None:
+    def _hear(self, what: str) -> None:
         """Listen until closed; after each gap tell every watcher to fetch the state anew."""
         connected_before = False
         while not self._closed.is_set():
             try:
                 with self._redis.pubsub(ignore_subscribe_messages=False) as channel:
-                    channel.psubscribe(_LIVE + "*", _WAKE + "*")
-                    self._hear_from(channel, say_hello=connected_before)
+                    channel.psubscribe(what + "*")
+                    self._hear_from(channel, what, say_hello=connected_before and what == _LIVE)
             except RedisError as error:
                 self._outage.begin(error)
                 self._closed.wait(REST_S)
             connected_before = True
 
-    def _hear_from(self, channel: Any, *, say_hello: bool) -> None:
+    def _hear_from(self, channel: Any, what: str, *, say_hello: bool) -> None:
         while not self._closed.is_set():
             message = channel.get_message(timeout=0.2)
             if message is None:
                 continue
             if message["type"] == "psubscribe":
-                self._ready.set()
+                self._ready[what].set()
                 self._outage.end()
                 if say_hello:
                     self._here.deliver(EVERY_SITE, json.dumps({"type": "hello"}))

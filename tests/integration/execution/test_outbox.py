@@ -5,7 +5,8 @@ from datetime import UTC, datetime, timedelta
 from uuid import UUID, uuid4
 
 from execution import services
-from execution.models import Command, SiteStop
+from execution.commands.outbox import Answer, record_acks
+from execution.models import Command, InboxEvent, SiteStop
 from registry.models import Site
 from vipo_device.kit.log_ids import bound_ids
 
@@ -144,3 +145,33 @@ def test_what_a_device_fails_at_is_a_line_of_the_log_with_run_step_and_command(d
     ids = {"site": "hall", "run": str(run), "step": "s2", "command": failed, "device": "oven"}
     assert lines == [("oven did not do heat (failed): it says no more", ids)]
     assert dict(bound_ids()) == {}
+
+
+def said(device, command, status="DONE"):
+    return Answer(device, command, status, "", {})
+
+
+def test_answers_of_many_devices_are_one_transaction_and_each_counts_once(db, django_assert_max_num_queries):
+    site = Site.objects.create(name="Hall", slug="hall")
+    ids = [add(site, position, f"oven{position}", "heat", piece=False) for position in range(50)]
+    answers = [said(f"oven{position}", command) for position, command in enumerate(ids)]
+    now = datetime.now(UTC)
+    with django_assert_max_num_queries(6):
+        assert record_acks(answers=answers, at=now) == [True] * 50
+    assert set(Command.objects.values_list("status", "ended_at")) == {("done", now)}
+    assert sorted(InboxEvent.objects.values_list("key", flat=True)) == sorted(f"answer:{command}" for command in ids)
+    assert record_acks(answers=answers, at=now) == [False] * 50
+    assert InboxEvent.objects.count() == 50
+
+
+def test_a_device_that_answers_for_another_in_the_same_moment_changes_nothing(db):
+    site = Site.objects.create(name="Hall", slug="hall")
+    mine, other = add(site, 1, "oven", "heat", piece=False), add(site, 2, "mixer", "mix", piece=False)
+    answers = [
+        said("oven", mine), said("mixer", mine, "FAILED"), said("mixer", other, "ACCEPTED"), said("press", "nonsense"),
+        said("press", str(uuid4())), said("mixer", other, "DANCING"),
+    ]  # fmt: skip
+    now = datetime.now(UTC)
+    assert record_acks(answers=answers, at=now) == [True, False, True, False, False, False]
+    assert dict(Command.objects.values_list("id", "status")) == {UUID(mine): "done", UUID(other): "accepted"}
+    assert record_acks(answers=[said("press", "nonsense")], at=now) == [False]

@@ -63,7 +63,7 @@ def test_a_run_goes_from_answer_to_next_command_in_one_turn_and_to_its_end():
 
 
 def test_a_turn_asks_the_database_for_little_and_one_that_changes_nothing_writes_nothing(monkeypatch):
-    monkeypatch.setattr(database, "preparing_cursor", connection.cursor)  # Django hears of its own cursors alone
+    monkeypatch.setattr(database, "open_cursor", connection.cursor)  # Django hears of its own cursors alone
     run = start(heating(4))
     drive.advance_site(SITE)
     held = lease.take(site_id())
