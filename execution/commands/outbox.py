@@ -21,6 +21,7 @@ from django.utils.dateparse import parse_datetime
 
 from execution import database, mailbox
 from execution.commands.claim import FIRST_RETRY_S, LAST_RETRY_S, NEVER_AGAIN_S, UNANSWERED
+from execution.fault_points import fault_point
 from execution.floor_protocol import CommandEnded, ToFloor, ToRun
 from execution.models import Command
 from execution.reasons import SENTENCES
@@ -106,12 +107,14 @@ def record_acks(*, answers: Sequence[Answer], at: datetime, durable: bool = Fals
             asked[number].append(answer)
     if not asked:
         return [False] * len(answers)
+    fault_point("before_answer")
     with transaction.atomic():
         heard = [(row, said) for row in _lock(list(asked), durable=durable) if (said := _own(row, asked[row.id]))]
         if heard:
             _write(heard, at)
         for row, said in heard:
             _follow(row, said, at)
+    fault_point("after_answer")
     taken = {id(said) for _, said in heard}
     return [id(answer) in taken for answer in answers]
 

@@ -14,7 +14,6 @@ from django.db import DatabaseError, InterfaceError, OperationalError, connectio
 
 from execution import database, mailbox
 from execution.commands import outbox
-from execution.fault_points import fault_point
 from execution.gateway.queue import Entry
 from registry import services as registry
 from registry.services import Outage
@@ -105,9 +104,7 @@ class Ingester:
             else:
                 outcomes.append(None)
                 answers.append(outbox.Answer(entry.device, ack.command, ack.status, ack.why, ack.result))
-        fault_point("before_answer")
         outbox.record_acks(answers=answers, at=at)
-        fault_point("after_answer")
         return outcomes
 
     def _take_states(self, entries: list[Entry]) -> bool:
@@ -189,11 +186,9 @@ class Ingester:
         elif kind == "ack":
             ack = messages.parse_ack(message.payload)
             add_ids({"command": ack.command})
-            fault_point("before_answer")
             outbox.record_ack(
                 device=device, command_id=ack.command, status=ack.status, why=ack.why, result=ack.result, at=at
             )
-            fault_point("after_answer")
         elif kind == "map" and message.payload:
             registry.ingest_map_part(device_id=device, payload=message.payload, at=at)
         elif message.payload:  # an empty one only takes a retained message away
