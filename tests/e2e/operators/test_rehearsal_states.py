@@ -1,4 +1,4 @@
-"""What a rehearsal shows before there is a recording: its place, how far it is, that it was cancelled, that it is full."""
+"""What a rehearsal shows before there is a recording: its place, its course, that it was cancelled or refused."""
 
 from __future__ import annotations
 
