@@ -42,8 +42,10 @@ class SignIn(Protocol):
 
 @pytest.fixture(scope="package")
 def demo(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Demo]:
-    with running_demo(tmp_path_factory.mktemp("demo") / "state") as running:
-        yield running
+    with pytest.MonkeyPatch.context() as surroundings:
+        surroundings.setenv("VIPO_REHEARSALS_AT_ONCE", "2")  # on whatever machine: more wait
+        with running_demo(tmp_path_factory.mktemp("demo") / "state") as running:
+            yield running
 
 
 @pytest.fixture(scope="package")
