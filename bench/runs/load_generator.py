@@ -38,10 +38,10 @@ from execution.models import Run  # noqa: E402
 from vipo_device.protocol.mqtt_client import MqttClient  # noqa: E402
 
 DEVICES, ROBOTS = 104, 2
-ONE_RUN_STEPS, MANY_RUNS, MANY_STEPS = 100, 100, 20
+ONE_RUN_STEPS, MANY_RUNS, MANY_STEPS = 200, 100, 20
 LOOP, NODE_RED = "a bare loop", "Node-RED"
-EARS, PRESSES, BESIDE, PRESSES_BESIDE = 100, 20, 40, 5
-STATE_EVERY_S = 3.0
+EARS, PRESSES, BESIDE, PRESSES_BESIDE = 100, 10, 40, 5
+STATE_EVERY_S, IDLE_S = 3.0, 5.0
 LIMIT_S = 400.0
 
 
@@ -154,17 +154,17 @@ def watch(devices: Devices, pids: Mapping[str, int], runs: list[str], steps: int
     before, wrote, began, earlier = cpu(pids), commits(), time.perf_counter(), devices.done
     while time.perf_counter() - began < LIMIT_S and devices.done < steps:
         time.sleep(0.02)
-    took = time.perf_counter() - began
+    took, after = time.perf_counter() - began, cpu(pids)
     while time.perf_counter() - began < LIMIT_S and Run.objects.filter(id__in=runs).exclude(status="finished").exists():
         time.sleep(0.2)
     time.sleep(1.5)  # what PostgreSQL counts it says a second later
-    used = {name: (after - before[name]) * 1000 / max(devices.done - earlier, 1) for name, after in cpu(pids).items()}
+    counted = max(steps - earlier, 1)
+    used = {name: (seconds - before[name]) * 1000 / counted for name, seconds in after.items()}
     over = Run.objects.filter(id__in=runs, status="finished").count()
     if over < len(runs) or devices.done != steps:
         print(list(Run.objects.filter(id__in=runs).values("status", "reason")[:3]), devices.done, file=sys.stderr)
         raise RuntimeError("Not every run has ended well, or a command was told twice under another id.")
     cost = {f"{name}_ms": round(used[name], 2) for name in used}
-    counted = steps - earlier
     rates = {"rate": counted / took, "commits": (commits() - wrote) / counted}
     return {"delays": sorted(devices.delays), "cost": cost, **rates}
 
@@ -211,6 +211,10 @@ def measure_runs(pids: Mapping[str, int]) -> Iterator[dict[str, object]]:
     devices = Devices()
     time.sleep(2)
     watch(devices, pids, [start(machines()[0], 20)], 20)
+    before = cpu(pids)
+    time.sleep(IDLE_S)
+    idle = {f"{name}_ms": round((seconds - before[name]) * 1000 / IDLE_S, 1) for name, seconds in cpu(pids).items()}
+    yield figure("no run, 35 states a second", sum(idle.values()), "ms of processor time a second", **idle)
     for runs, steps in ((1, ONE_RUN_STEPS), (MANY_RUNS, MANY_STEPS)):
         who = "one run" if runs == 1 else f"{runs} runs of one site"
         devices.forget()

@@ -248,9 +248,8 @@ def _tell(turn: Turn) -> None:
     for work in written:
         messages += shown(work.row, work.lines)
     messages += [_dead_notice(each.run, each.error) for each in turn.dead]
-    if turn.floor is not None and turn.floor.commands:
-        registry.wake("gateway")
-    registry.publish_all([(slug, message) for message in messages])
+    wakes = ("gateway",) if turn.floor is not None and turn.floor.commands else ()
+    registry.publish_all([(slug, message) for message in messages], wakes)
 
 
 def _dead_notice(run: str, error: str) -> dict[str, Any]:

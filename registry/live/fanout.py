@@ -62,8 +62,8 @@ class Live(Protocol):
     def publish(self, site_slug: str, message: Message) -> None:
         """Send a JSON-able message to all who watch the site."""
 
-    def publish_all(self, messages: Sequence[tuple[str, Message]]) -> None:
-        """Send several messages, each to its site, in their order."""
+    def publish_all(self, messages: Sequence[tuple[str, Message]], wakes: Sequence[str] = ()) -> None:
+        """Give hints on channels, then send several messages, each to its site, in their order."""
 
     def listen(self, callback: Listener) -> Callable[[], None]:
         """Call `callback(site_slug, message)` for each message of every site, on a foreign thread; returns the end.
@@ -95,8 +95,10 @@ class MemoryLive:
         """Send a message; it is passed through JSON so that both implementations hand out the same."""
         self.deliver(site_slug, json.dumps(message))
 
-    def publish_all(self, messages: Sequence[tuple[str, Message]]) -> None:
+    def publish_all(self, messages: Sequence[tuple[str, Message]], wakes: Sequence[str] = ()) -> None:
         """See Live."""
+        for channel in wakes:
+            self.wake(channel)
         for slug, message in messages:
             self.publish(slug, message)
 
@@ -166,14 +168,16 @@ class RedisLive:
         """Send a message; while Redis is away it is dropped, and healed by a `hello` later."""
         self.publish_all([(site_slug, message)])
 
-    def publish_all(self, messages: Sequence[tuple[str, Message]]) -> None:
-        """Send several messages in one exchange with Redis."""
+    def publish_all(self, messages: Sequence[tuple[str, Message]], wakes: Sequence[str] = ()) -> None:
+        """Give hints and send several messages in one exchange with Redis."""
         texts = [(slug, json.dumps(message)) for slug, message in messages]
         if self._rests():
             self._missed |= {slug for slug, _ in texts}
             return
         try:
             with self._redis.pipeline(transaction=False) as pipe:
+                for channel in wakes:
+                    pipe.publish(_WAKE + channel, "")
                 for missed in (again := list(self._missed)):
                     pipe.publish(_LIVE + missed, json.dumps({"type": "hello", "site": missed}))
                 for slug, text in texts:
@@ -281,10 +285,10 @@ def publish(site_slug: str, message: Message) -> None:
     live().publish(site_slug, message)
 
 
-def publish_all(messages: Sequence[tuple[str, Message]]) -> None:
-    """Send several JSON-able messages, each to its site; call it after the transaction."""
-    if messages:
-        live().publish_all(messages)
+def publish_all(messages: Sequence[tuple[str, Message]], wakes: Sequence[str] = ()) -> None:
+    """Give hints, then send several JSON-able messages, each to its site; call it after the transaction."""
+    if messages or wakes:
+        live().publish_all(messages, wakes)
 
 
 def listen(callback: Listener) -> Callable[[], None]:

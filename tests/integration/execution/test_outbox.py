@@ -5,6 +5,7 @@ from datetime import UTC, datetime, timedelta
 from uuid import UUID, uuid4
 
 from execution import services
+from execution.commands.claim import mark_sent
 from execution.commands.outbox import Answer, record_acks
 from execution.models import Command, InboxEvent, SiteStop
 from registry.models import Site
@@ -175,3 +176,17 @@ def test_a_device_that_answers_for_another_in_the_same_moment_changes_nothing(db
     assert record_acks(answers=answers, at=now) == [True, False, True, False, False, False]
     assert dict(Command.objects.values_list("id", "status")) == {UUID(mine): "done", UUID(other): "accepted"}
     assert record_acks(answers=[said("press", "nonsense")], at=now) == [False]
+
+
+def test_what_is_answered_before_it_is_marked_as_sent_knows_when_it_went_out_and_the_mark_comes_too_late(db):
+    site = Site.objects.create(name="Hall", slug="hall")
+    quick, slow = add(site, 1, "oven", "heat", piece=False), add(site, 2, "mixer", "mix", piece=False)
+    before = datetime.now(UTC)
+    assert claimed() == [quick, slow]
+    later = datetime.now(UTC) + timedelta(seconds=1)
+    assert record_acks(answers=[said("oven", quick)], at=later) == [True]
+    sent_at = Command.objects.get(id=quick).sent_at
+    assert before - timedelta(seconds=0.1) <= sent_at < later
+    mark_sent(dict.fromkeys([quick, slow], later))
+    rows = {str(row.id): (row.status, row.sent_at) for row in Command.objects.all()}
+    assert rows == {quick: ("done", sent_at), slow: ("sent", later)}

@@ -146,7 +146,7 @@ def test_what_was_set_aside_is_dropped_and_its_run_stays_as_it_is():
 
 def test_people_who_watch_the_site_are_told(monkeypatch):
     heard = []
-    monkeypatch.setattr(registry, "publish_all", lambda messages: heard.extend(each for _, each in messages))
+    monkeypatch.setattr(registry, "publish_all", lambda messages, wakes=(): heard.extend(each for _, each in messages))
     run = start(heating(1))
     drive.advance_site(SITE)
     put(f"run:{run}", {"type": "nonsense"})

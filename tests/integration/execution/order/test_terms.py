@@ -47,7 +47,9 @@ def codes(run):
 def said(monkeypatch):
     """What browsers are told, as it goes to the sockets."""
     told = []
-    monkeypatch.setattr(registry, "publish_all", lambda messages: told.extend(message for _, message in messages))
+    monkeypatch.setattr(
+        registry, "publish_all", lambda messages, wakes=(): told.extend(message for _, message in messages)
+    )
     return told
 
 
