@@ -62,13 +62,23 @@ class Plant:
         return told | (shifted(self.folder, CLOCKS_S[name]) if name in CLOCKS_S else {})
 
     def start(self, name: str) -> None:
+        if name in self.processes:
+            _close(self.processes[name])
+        if name == "devices":
+            self.processes[name] = self.processes.pop("spare", None) or self._begin(name)
+            self.tell(name, "go")
+            self.processes["spare"] = self._begin(name)
+            return
+        self.processes[name] = self._begin(name)
+        if name == "load" and self.wanted:
+            self.allow(self.wanted)
+
+    def _begin(self, name: str) -> subprocess.Popen[bytes]:
         with (self.folder / f"{name}.log").open("ab") as out:
-            self.processes[name] = subprocess.Popen(
+            return subprocess.Popen(
                 [sys.executable, *self.parts[name]], cwd=ROOT, env=self.environment(name), stdin=subprocess.PIPE,
                 stdout=out, stderr=out,
             )  # fmt: skip
-        if name == "load" and self.wanted:
-            self.allow(self.wanted)
 
     def supervise(self) -> None:
         """Start again what has ended, but for the load that is through."""
@@ -175,3 +185,11 @@ def _end(plant: Plant) -> None:
         process.kill()
     for process in plant.processes.values():
         process.wait()
+        _close(process)
+
+
+def _close(process: subprocess.Popen[bytes]) -> None:
+    """Close the way to a process that has ended; what was not read by then is nobody's."""
+    assert process.stdin is not None
+    with suppress(BrokenPipeError):
+        process.stdin.close()
