@@ -162,11 +162,10 @@ def running_plant(folder: Path, game: Game) -> Iterator[Plant]:
         )
         told = json.dumps(asdict(game))
         load = ["-m", f"{HERE}.load", told]
-        for command in (["manage.py", "migrate", "-v0", "--skip-checks"], [*load, "fill"]):
-            done = subprocess.run(
-                [sys.executable, *command], cwd=ROOT, env=plant.environment("setup"), capture_output=True, text=True
-            )
-            assert done.returncode == 0, done.stderr
+        done = subprocess.run(
+            [sys.executable, *load, "fill"], cwd=ROOT, env=plant.environment("setup"), capture_output=True, text=True
+        )
+        assert done.returncode == 0, done.stderr
         plant.parts = {
             "devices": ["-m", f"{HERE}.devices", str(plant.mosquitto.device_port), str(plant.log), told],
             **{name: [*WORKER, "-n", f"{name}@%h"] for name in ("worker-1", "worker-2")},
