@@ -27,6 +27,7 @@ from tests.integration.breaking.chaos.faults import AT_RANDOM, NAMED, choose  # 
 from tests.integration.breaking.chaos.game import play  # noqa: E402
 from tests.integration.breaking.chaos.hall import STEPS_MOST, Game  # noqa: E402
 
+MOST_SHOWN, RUNS_A_FAULT = 20, 8
 FAULTS = len(NAMED) + len(AT_RANDOM)
 
 
@@ -37,7 +38,7 @@ def main() -> int:
     is_well = True
     for seed in told.seed:
         game = Game(told.runs, told.sites, told.commands, seed)
-        faults = list(choose(seed, told.faults))
+        faults = list(choose(seed, told.faults or max(FAULTS, told.runs // RUNS_A_FAULT)))
         with tempfile.TemporaryDirectory(prefix="vipo-chaos-") as name:
             folder = Path(name)
             folder.chmod(0o755)
@@ -45,6 +46,8 @@ def main() -> int:
         is_well &= not verdict.wrong
         sys.stderr.write(verdict.story)
         shown = {key: value for key, value in asdict(verdict).items() if key != "story"}
+        if len(verdict.wrong) > MOST_SHOWN:
+            shown["wrong"] = [*verdict.wrong[:MOST_SHOWN], f"and {len(verdict.wrong) - MOST_SHOWN} more"]
         _say(asdict(game) | {"of": game.runs * game.commands} | shown)
     return 0 if is_well else 1
 
@@ -55,7 +58,7 @@ def _read_arguments() -> argparse.Namespace:
     parser.add_argument("--sites", type=int, default=3)
     parser.add_argument("--commands", type=int, default=5, help=f"of each run, fewer than {STEPS_MOST}")
     parser.add_argument("--seed", type=int, nargs="+", default=[1, 2, 3], help="one game for each")
-    parser.add_argument("--faults", type=int, default=FAULTS, help=f"how many; {FAULTS} are each point and kind once")
+    parser.add_argument("--faults", type=int, help=f"how many; at least {FAULTS}, each once, and one for 8 runs")
     parser.add_argument("--limit", type=float, default=3600.0, help="seconds for a game; then it is said to be stuck")
     return parser.parse_args()
 

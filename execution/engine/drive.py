@@ -34,8 +34,9 @@ LOOK_EVERY_S, LOOK_AT_ONCE_S = 0.5, 0.1
 """Devices are looked at twice a second, and at most ten times when they say that something is new."""
 AGAIN_S = 0.05
 SITES_REMEMBERED = 16
-FROZEN_AFTER = "3s"
-"""PostgreSQL ends a transaction of an owner in which nothing is asked for so long: the next owner waits for no row."""
+FROZEN_AFTER, SESSION_ENDED = "3s", "25P03"
+"""PostgreSQL ends a transaction of an owner in which nothing is asked for so long, and says so by this code: the next
+owner waits for no row."""
 
 _memories: OrderedDict[str, SiteMemory] = OrderedDict()
 _driven: set[str] = set()
@@ -199,7 +200,10 @@ def _turn(slug: str, lease: Lease, *, look: bool) -> bool:
         return True
     except (OperationalError, InterfaceError):
         raise
-    except Exception as error:  # noqa: BLE001 - one thing that cannot be written must not stop its site
+    except Exception as error:  # one thing that cannot be written must not stop its site
+        if getattr(error.__cause__, "sqlstate", None) == SESSION_ENDED:
+            # It was frozen in its transaction. Nothing is wrong with what was to be written: it is not set aside.
+            raise OperationalError(f"The database has ended the session: {error}") from error
         return _take_apart(slug, turn, lease, error)
     memory.most_at_once = MOST_AT_ONCE
     return moved

@@ -1,7 +1,8 @@
 """All ovens of a game in one process: each with a connection of its own, all with one log of what they did.
 
-Arguments: the broker's port, the log, and the game as JSON. A line `cut DEVICE SECONDS` on the standard input ends a
-connection without a goodbye. The log is also what an oven knows after it was killed: which commands it has begun.
+Arguments: the broker's port, the log, and the game as JSON. It begins when the standard input says `go`, since a busy
+machine takes longer to start a process than a device may be away. A line `cut DEVICE SECONDS` ends a connection without
+a goodbye. The log is also what an oven knows after it was killed: which commands it has begun.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from tests.integration.breaking.chaos.hall import PASSWORD, Game, describe
 from vipo_device.descriptions.reader import write_description
 from vipo_device.kit.connection import CommandReceived, DeviceConnection, IntroductionDue, broker_client
 from vipo_device.protocol.description import DeviceState
-from vipo_device.protocol.messages import AckMessage, DeviceCommand
+from vipo_device.protocol.messages import CONTROLS, AckMessage, DeviceCommand
 from vipo_device.protocol.mqtt_client import MqttClient, Will
 
 REMEMBERED = 16
@@ -126,6 +127,9 @@ class Oven:
                 self._take(event.command)
 
     def _take(self, command: DeviceCommand) -> None:
+        if command.method in CONTROLS:  # nothing of a game asks for one, unless it is lost already
+            self._answer(command.id, "REJECTED")
+            return
         if (known := self._known.get(command.id)) is not None:
             self._answer(command.id, known)
             return
@@ -165,6 +169,7 @@ class Oven:
 
 
 def main() -> None:
+    sys.stdin.readline()
     port, log, clock = int(sys.argv[1]), Log(Path(sys.argv[2])), Clock()
     game = Game(**json.loads(sys.argv[3]))
     ovens = {name: Oven(name, log, clock, game.seed) for name in game.all_devices}

@@ -17,7 +17,7 @@ from tests.integration.breaking.chaos.plant import Plant
 
 PAST_LEASE_S = 7.0
 LOOK_EVERY_S = 0.05
-PATIENCE_S = 120.0
+PATIENCE_S = 240.0
 OUT_S = (0.0, 2.0)
 CUT_S = (1.0, 5.0)
 

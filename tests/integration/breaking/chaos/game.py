@@ -105,6 +105,10 @@ class _Course:
         waiting = set(self._open())
         self._wait(f"work at {sorted(waiting)} after {fault.kind}", lambda: not (waiting & self._silent_since(healed)))
         done = len([line for line in plant.read_log() if line["is"] == "end"])
+        if bad := [
+            f"run {run} has {status}" for run, status in plant.statuses().items() if status.startswith("failed")
+        ]:
+            raise Stuck(f"After {fault.kind}: {'; '.join(bad[:3])}")
         ended = time.monotonic()
         return {"kind": fault.kind, "at": at, "until": ended, "took_s": round(ended - at, 1), "done": done,
                 "runs": plant.wanted}  # fmt: skip
@@ -118,8 +122,8 @@ class _Course:
         pause(plant, SETTLE_S)
 
     def _left(self) -> int:
-        ended = sum(line["is"] == "end" for line in self._plant.read_log())
-        return self._plant.game.runs * self._plant.game.commands - ended
+        ended = [line for line in self._plant.read_log() if line["is"] == "end"]
+        return self._plant.game.runs * self._plant.game.commands - len(ended)
 
     def _is_less(self, before: int) -> bool:
         return self._left() < before

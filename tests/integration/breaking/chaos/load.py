@@ -1,4 +1,4 @@
-"""Starts the runs of a game as a web process does; arguments: the game as JSON, and `fill` to make the sites.
+"""Starts the runs of a game as a web process does; arguments: the game as JSON, and `fill` to make tables and sites.
 
 It starts as many as the standard input has named last, at most `MOST_OPEN` at once, and none twice, also after it was
 killed.
@@ -16,6 +16,7 @@ import django
 
 django.setup()
 
+from django.core.management import call_command  # noqa: E402
 from django.db import DatabaseError, InterfaceError, connection  # noqa: E402
 
 from editor.language import plan_to_json  # noqa: E402
@@ -35,6 +36,7 @@ MOST_OPEN = 60
 
 
 def fill(game: Game) -> None:
+    call_command("migrate", verbosity=0, skip_checks=True)
     for slug in game.slugs:
         registry.create_site(name=slug, slug=slug)
         registry.save_map(site=slug, grid=Grid(120, 60, 0.1, 0.0, 0.0, bytes(120 * 60)))

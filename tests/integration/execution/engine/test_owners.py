@@ -6,15 +6,17 @@ import subprocess
 import sys
 import time
 from collections import Counter
+from pathlib import Path
 
 import pytest
 from celery import Celery
+from django.db import connection
 
 from bench.hall import SITE, fill_hall
 from execution.engine import drive
 from execution.fault_points import DIES_WITH, OWNER_POINTS
 from execution.mailbox import DRIVE_SITE
-from execution.models import Command, InboxEvent, SiteLease
+from execution.models import Command, DeadLetter, InboxEvent, SiteLease
 from tests.integration.execution.engine.hall import answer_open, heating, row, start, told
 from tests.kit.databases import on_database
 from tests.kit.files import ROOT
@@ -53,6 +55,16 @@ def expire():
     SiteLease.objects.update(expires_at="2026-01-01T00:00Z")
 
 
+def sessions():
+    with connection.cursor() as cursor:
+        cursor.execute("SELECT state FROM pg_stat_activity WHERE datname = current_database()")
+        return {state for (state,) in cursor.fetchall()}
+
+
+def is_frozen(process):
+    return Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()[0] == "T"
+
+
 def wait_told(run, count):
     wait_for(f"command {count}", lambda: len(told(run)) >= count)
 
@@ -76,6 +88,22 @@ def test_a_frozen_owner_is_replaced_and_what_it_decides_when_it_thaws_changes_no
         assert drive.advance_site(SITE)
     assert row(run).status == "finished"
     assert Counter(command.step for command in told(run)) == {"s0": 1, "s1": 1, "s2": 1}
+
+
+def test_an_owner_that_was_frozen_until_its_session_was_ended_sets_nothing_aside(owners, tmp_path):
+    run = start(heating(2))
+    frozen = owners(*OWNER, "60", "3", VIPO_FAULTS=str(tmp_path))
+    wait_told(run, 1)
+    (tmp_path / "before_commit").write_text("freeze")
+    answer_open(run)
+    wait_for("the frozen transaction", lambda: is_frozen(frozen) and "idle in transaction" in sessions())
+    wait_for("the end of its session", lambda: "idle in transaction" not in sessions())
+    frozen.send_signal(signal.SIGCONT)
+    assert frozen.communicate(timeout=60)[0] == b"False\n"
+    expire()
+    assert drive.advance_site(SITE)
+    assert [command.step for command in told(run)] == ["s0", "s1"]
+    assert DeadLetter.objects.count() == 0
 
 
 @pytest.mark.parametrize("point", OWNER_POINTS)
