@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from execution.archive.history_file import Header, Row, UnreadableHistory, read_sections
+from execution.engine.replayed import replay_runs
 from vipo_device.protocol.faults import printable
 from vipo_site.cli.program_file import UnreadableFile
-from vipo_site.cli.terminal import CLEAN, write
+from vipo_site.cli.terminal import CLEAN, FAULTY, write
 
 WHAT = "Show the runs, rehearsals or calls that a file of the archive holds."
 MOST_CHARACTERS = 500
@@ -23,24 +24,28 @@ def add_history_arguments(sub: argparse.ArgumentParser) -> None:
     sub.add_argument("file", type=Path, help="a file of the archive folder: ….jsonl.gz")
     sub.add_argument("--id", default="", help="only the run or rehearsal with this id")
     sub.add_argument("--json", action="store_true", help="write JSON lines for machines, each with all that is kept")
+    sub.add_argument(
+        "--replay", action="store_true", help="carry its runs out again, and say which end in another state"
+    )
     sub.set_defaults(run=show_history)
 
 
 def show_history(options: argparse.Namespace) -> int:
-    """Print the file, line by line as it is read; return 0.
+    """Print the file, line by line as it is read; return 0, or 1 where a run that is replayed ends in another state.
 
     Raises:
         UnreadableFile: it is no archive, or not a whole one; what was printed until then stands in it.
     """
     path: Path = options.file
-    found = 0
+    found, is_same = 0, True
     try:
         if not stat.S_ISREG(path.stat().st_mode):
             raise UnreadableFile(f"{path} is not a file.")
         with path.open("rb") as file:
-            for line in _lines(file, options):
+            for line, is_as_kept in _replayed(file, options) if options.replay else _shown(file, options):
                 write(line)
                 found += 1
+                is_same = is_same and is_as_kept
     except UnreadableHistory as error:
         raise UnreadableFile(f"{path}: {error}") from error
     except FileNotFoundError as error:
@@ -49,7 +54,20 @@ def show_history(options: argparse.Namespace) -> int:
         raise UnreadableFile(f"{path}: A line of the file does not have what it should have: {error}.") from error
     if options.id and not found:
         raise UnreadableFile(f"{path} holds nothing with the id {options.id[:64]}.")
-    return CLEAN
+    return CLEAN if is_same else FAULTY
+
+
+def _replayed(file: Any, options: argparse.Namespace) -> Iterator[tuple[str, bool]]:
+    for run in replay_runs(file):
+        if not options.id or run.header.id == options.id:
+            named = f"Run {run.row['number']} of “{run.row['program_name']}” at {run.header.site} ({run.header.id})"
+            ends = "ends as it was kept" if run.is_same else "ends in another state than the one that was kept"
+            told = f"{len(run.decisions)} inputs, {ends}" if run.is_known else "its inputs were not kept"
+            yield printable(f"{named}: {told}")[:MOST_CHARACTERS], run.is_same or not run.is_known
+
+
+def _shown(file: Any, options: argparse.Namespace) -> Iterator[tuple[str, bool]]:
+    return ((line, True) for line in _lines(file, options))
 
 
 def _lines(file: Any, options: argparse.Namespace) -> Iterator[str]:
