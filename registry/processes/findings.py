@@ -71,8 +71,16 @@ def _is_missed(kind: str, processes: Sequence[ProcessView]) -> bool:
 
 def _find_silent(processes: Sequence[ProcessView]) -> Iterator[Finding]:
     for process in processes:
-        if process.state == "silent":
+        if process.state == "silent" and not _is_replaced(process, processes):
             yield Finding("process_silent", "warning", _named(process) | {"seconds": round(process.age_s)})
+
+
+def _is_replaced(silent: ProcessView, processes: Sequence[ProcessView]) -> bool:
+    """Tell whether one of its name has begun since its last beat: who was killed and started again is not missed."""
+    return any(
+        (other.kind, other.name, other.state) == (silent.kind, silent.name, "beats") and other.since > silent.at
+        for other in processes
+    )
 
 
 def _find_apart(processes: Sequence[ProcessView]) -> Iterator[Finding]:

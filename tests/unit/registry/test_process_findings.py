@@ -66,3 +66,12 @@ def test_clocks_that_are_more_than_two_seconds_apart_are_an_error_either_way():
         assert found(*ALL, odd) == [("clock_apart", "error")]
     assert found(*ALL, process("worker", clock_apart_s=-1.9)) == []
     assert found(*ALL, process("worker", seen_s=20, clock_apart_s=60.0)) == [("process_silent", "warning")]
+
+
+def test_who_was_killed_and_has_begun_again_under_its_name_is_not_missed():
+    killed = process("worker", seen_s=20)
+    assert found(*ALL, killed) == [("process_silent", "warning")]
+    again = process("worker", since_s=18)
+    assert found(*ALL, killed, again) == []
+    assert found(*ALL, killed, process("worker", since_s=18, seen_s=12)) == [("process_silent", "warning")] * 2
+    assert found(*ALL, killed, process("worker", "worker-m2", since_s=18)) == [("process_silent", "warning")]
