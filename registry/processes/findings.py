@@ -76,10 +76,12 @@ def _find_silent(processes: Sequence[ProcessView]) -> Iterator[Finding]:
 
 
 def _is_replaced(silent: ProcessView, processes: Sequence[ProcessView]) -> bool:
-    """Tell whether one of its name has begun since its last beat: who was killed and started again is not missed."""
+    """Tell whether one of its name has begun since its last beat: who was killed and started again is not missed.
+
+    Where that one is silent, too, it is missed in its place.
+    """
     return any(
-        (other.kind, other.name, other.state) == (silent.kind, silent.name, "beats") and other.since > silent.at
-        for other in processes
+        (other.kind, other.name) == (silent.kind, silent.name) and other.since > silent.at for other in processes
     )
 
 
