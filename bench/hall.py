@@ -16,7 +16,7 @@ from django.db import connection
 from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant, Operation, PlaceRef, Reading
 from editor.language.plan.instructions import Call, End, Instruction, Plan, WaitUntil
-from execution import services
+from execution import database, services
 from execution.engine.drive import advance_site
 from execution.models import Command
 from registry import services as registry
@@ -116,7 +116,7 @@ def _say(temperature: int) -> None:
 def _answer(run: UUID) -> None:
     """Let the machine answer that it is done, and say its state after it."""
     command = Command.objects.get(run=run)
-    services.mark_commands_sent(ids=[str(command.id)])
+    services.mark_sent(sent={str(command.id): database.now()})
     at = datetime.now(UTC)
     services.record_ack(device=OVEN, command_id=str(command.id), status="DONE", why="", result={}, at=at)
     _say(21)

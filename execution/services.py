@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from execution.commands.claim import OutgoingCommand, claim_commands, mark_commands_sent, release_commands
+from execution.commands.claim import OutgoingCommand, claim_commands, mark_sent, release_commands
 from execution.commands.invocations import action_to_json, find_action, invoke_action
 from execution.commands.manual_calls import call_method, cancel_call, expire_calls, get_call
 from execution.commands.outbox import record_ack, resend_commands
@@ -121,7 +121,7 @@ __all__ = [
     "list_questions",
     "list_runs",
     "list_stops",
-    "mark_commands_sent",
+    "mark_sent",
     "open_publisher",
     "pause_run",
     "plan_routes",

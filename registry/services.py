@@ -116,6 +116,7 @@ from registry.people.tokens import (
     prune_tokens,
 )
 from registry.people.watch import Seat, watch_of_this_loop
+from registry.processes.children import sigint_blocked
 from registry.processes.counters import BOUNDS_S, MEASURES, Measure, count, counters_to_json, time_spent, watch_amount
 from registry.processes.findings import Finding, find_trouble
 from registry.processes.heart import Heart
@@ -310,6 +311,7 @@ __all__ = [
     "set_site_quota",
     "set_site_stop",
     "show_enrolment_key",
+    "sigint_blocked",
     "site_to_json",
     "take_part",
     "time_spent",

@@ -10,7 +10,6 @@ from __future__ import annotations
 import os
 import queue
 import resource
-import signal
 import sys
 import threading
 import traceback
@@ -79,7 +78,6 @@ def _answer(bench: Workbench, job: Job | DocumentTask[Any]) -> Any:
 
 def main() -> None:
     """Work until the parent ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the parent, and that this process
     resource.setrlimit(resource.RLIMIT_AS, (MOST_ADDRESS_BYTES, resource.getrlimit(resource.RLIMIT_AS)[1]))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     writes = os.fdopen(os.dup(1), "wb")

@@ -17,6 +17,7 @@ from typing import Any
 from editor.compiling.feeding import Feeding, Wanted
 from editor.compiling.frames import HEAD, decode_body, encode_frame
 from editor.compiling.workbench import DocumentTask, Fault, Found
+from registry.services import sigint_blocked
 
 log = logging.getLogger(__name__)
 ROOT = Path(__file__).resolve().parents[2]
@@ -80,10 +81,11 @@ class Lane:
 
     async def _start(self) -> Process:
         self._fed = Feeding()
-        process = await asyncio.create_subprocess_exec(
-            *(sys.executable, "-m", "editor.compiling.child_process"),
-            stdin=PIPE, stdout=PIPE, cwd=ROOT, limit=2**20, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
-        )  # fmt: skip
+        with sigint_blocked():
+            process = await asyncio.create_subprocess_exec(
+                *(sys.executable, "-m", "editor.compiling.child_process"),
+                stdin=PIPE, stdout=PIPE, cwd=ROOT, limit=2**20, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+            )  # fmt: skip
         self._process = process
         await _hear_ready(process)
         return process

@@ -137,7 +137,7 @@ class OutgoingCommand:
 def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
     """Return commands that are due to be sent, in their order; nobody else is given them for a while.
 
-    One whose sending is not confirmed by `mark_commands_sent`, or that no device answers, is given out again. What
+    One whose sending is not confirmed by `mark_sent`, or that no device answers, is given out again. What
     is meant for a device that does not take part is kept back. While a site is stopped only pause, resume and
     cancel go out, and after that what belongs to a run once a person has resumed it. A piece of path waits until the
     robot has accepted the piece before it: with a gateway that died in between, it would otherwise cut the corner
@@ -206,13 +206,7 @@ def release_commands(*, commands: Iterable[OutgoingCommand]) -> int:
     return count
 
 
-def mark_commands_sent(*, ids: Iterable[str]) -> None:
-    """Say that these commands have gone out just now."""
-    now = database.now()
-    mark_sent(dict.fromkeys(ids, now))
-
-
-def mark_sent(sent: Mapping[str, datetime]) -> None:
+def mark_sent(*, sent: Mapping[str, datetime]) -> None:
     """Say when these commands have gone out; those that were answered since stay as they are."""
     when, is_sqlite = connection.ops.adapt_datetimefield_value, connection.vendor == "sqlite"
     # in the order in which answers lock them, too

@@ -184,6 +184,7 @@ class Gateway:
                 busy = not stopping.wait(1.0)
             if not busy:
                 registry.wait_wake(WAKE_CHANNEL, POLL_S)
+        self._mark_last()
         connection.close()
 
     def _send_once(self) -> bool:
@@ -225,9 +226,17 @@ class Gateway:
         """Say what has gone out, once for all that went out in a moment: what is answered by then needs no word."""
         if self._unmarked and steady_s() - self._unmarked_since_s >= MARK_AFTER_S:
             fault_point("before_mark")
-            mark_sent(self._unmarked)
+            mark_sent(sent=self._unmarked)
             fault_point("after_mark")
             self._unmarked = {}
+
+    def _mark_last(self) -> None:
+        """Say what has gone out before this gateway ends; without that it is only asked for once more."""
+        try:
+            if self._unmarked:
+                mark_sent(sent=self._unmarked)
+        except (DatabaseError, InterfaceError) as error:
+            log.warning("%d commands stay unmarked: %s", len(self._unmarked), error)
 
     def _greet(self) -> None:
         """Announce the server, upon which devices describe themselves anew; repeat the stops."""

@@ -14,6 +14,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
+from registry.services import sigint_blocked
+
 ROOT = Path(__file__).resolve().parents[2]
 MOST_BYTES = 1024 * 1024
 
@@ -27,9 +29,10 @@ class RunningChild:
             file.write(json.dumps(job).encode())
             file.seek(0)
             command = [sys.executable, "-m", "execution.rehearsals.child_process"]
-            self._process = subprocess.Popen(  # noqa: S603 - our own module, with our own interpreter
-                command, stdin=file, stdout=subprocess.PIPE, cwd=ROOT, bufsize=0
-            )
+            with sigint_blocked():
+                self._process = subprocess.Popen(  # noqa: S603 - our own module, with our own interpreter
+                    command, stdin=file, stdout=subprocess.PIPE, cwd=ROOT, bufsize=0
+                )
         assert self._process.stdout is not None
         self._pipe = self._process.stdout.fileno()
         self._selector = selectors.DefaultSelector()

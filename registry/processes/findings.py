@@ -81,7 +81,8 @@ def _is_replaced(silent: ProcessView, processes: Sequence[ProcessView]) -> bool:
     Where that one is silent, too, it is missed in its place.
     """
     return any(
-        (other.kind, other.name) == (silent.kind, silent.name) and other.since > silent.at for other in processes
+        other is not silent and (other.kind, other.name) == (silent.kind, silent.name) and other.since > silent.at
+        for other in processes
     )
 
 

@@ -16,6 +16,7 @@ from registry.bounds.places import Claim, Places
 from registry.devices.queries import list_devices
 from registry.devices.views import DeviceView
 from registry.errors import RegistryError
+from registry.processes.children import sigint_blocked
 from vipo_device.protocol.description import description_to_json
 
 CPU_S = 5
@@ -86,14 +87,16 @@ def _run(job: bytes) -> tuple[int, bytes]:
     """Run the engine on a job; return its exit code and what it said. It is gone when this returns."""
     command = [sys.executable, "-m", "registry.sparql.engine"]
     environment = {"PYTHONPATH": str(settings.BASE_DIR), "PYTHONUTF8": "1"}
-    with subprocess.Popen(  # noqa: S603 - our own module; the query goes to its standard input
-        command,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        env=environment,
-        cwd=settings.BASE_DIR,
-    ) as process:
+    with sigint_blocked():
+        engine = subprocess.Popen(  # noqa: S603 - our own module; the query goes to its standard input
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env=environment,
+            cwd=settings.BASE_DIR,
+        )
+    with engine as process:
         try:
             output, _ = process.communicate(job, timeout=WALL_S)
         except subprocess.TimeoutExpired:

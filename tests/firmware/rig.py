@@ -26,7 +26,7 @@ SPEED = 60  # a minute of mixing takes a second
 ACCOUNTS = {"server": "secret", DEVICE: "mixer's word"}
 LIMIT_S = PATIENCE_S
 # A kilobyte of a computer's heap holds half of what one of the chip's holds: its words are twice as long.
-HEAP_BYTES = 100 * 1024
+HEAP_BYTES = 112 * 1024
 HEAP = ("-X", f"heapsize={HEAP_BYTES}")
 IMPORTS = "import gc, os, sys, time; gc.collect(); before = gc.mem_alloc(); "
 MEASURE = IMPORTS + "import machine, network; gc.collect(); print(gc.mem_alloc() - before)"
@@ -172,7 +172,7 @@ def read_record(data: bytes) -> list[list[Any]]:
 
 @cache
 def heap_of_a_board(micropython: str) -> tuple[str, str]:
-    """Return the option for a heap of 100 kB, and what the stand-ins for `machine` and `network` take besides.
+    """Return the option for a heap of 112 kB, and what the stand-ins for `machine` and `network` take besides.
 
     On a board these two lie in the flash and take nothing of it.
     """

@@ -1,4 +1,4 @@
-"""main.py as on the board: the real MicroPython with 100 kB of heap, its hardware recorded, its display read."""
+"""main.py as on the board: the real MicroPython with 112 kB of heap, its hardware recorded, its display read."""
 
 from __future__ import annotations
 
@@ -220,3 +220,17 @@ def test_the_time_is_asked_for_until_it_comes(micropython: str, tmp_path: Path) 
             came.touch()
             Running(ear, bus, chip.process, tmp_path / "console").state(lambda _state: True)
             assert sum(entry[1] == "time" for entry in chip.record) == chip.console.count("no time from") + 1
+
+
+def test_a_board_whose_heap_stays_too_full_to_connect_starts_again(micropython: str, tmp_path: Path) -> None:
+    (tmp_path / "full.py").write_text(
+        "import vipo.mqtt as mqtt, vipo.chip as chip\n"
+        "async def full(client):\n    raise MemoryError\n"
+        "mqtt.open_stream, mqtt.LONGEST_BACK_OFF_S, chip.SHOWN_S = full, 0.01, 0\nchip.run()\n"
+    )
+    with running_bus("mosquitto", tmp_path) as bus:
+        flash(tmp_path, configuration(bus, tmp_path, pins=PINS))
+        with running_chip(micropython, tmp_path, {}, main=tmp_path / "full.py") as chip:
+            assert chip.process.wait(LIMIT_S) == 7
+            assert chip.record[-1][1] == "reset"
+            assert "|Fault" in chip.console

@@ -1,4 +1,4 @@
-"""What a board must bear: messages through a real broker that no server would send. It works on, in 100 kB."""
+"""What a board must bear: messages through a real broker that no server would send. It works on, in 112 kB."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def test_hostile_messages_harm_nothing(mixer: Running) -> None:
 def test_a_command_under_way_is_never_forgotten(slow_mixer: Running) -> None:
     slow_mixer.tell("mixPaint", "c1", time=30)
     slow_mixer.answer("c1", "RUNNING")
-    for number in range(300):  # more than a board of 100 kB has room for answers to
+    for number in range(300):  # more than a board of 112 kB has room for answers to
         slow_mixer.tell("mixPaint", f"other{number}", time=1)
     slow_mixer.answer("other299", "REJECTED")
     slow_mixer.ear.forget()

@@ -66,13 +66,16 @@ class Child:
         self.thread.start()
 
     def _watch(self) -> None:
+        from registry.services import sigint_blocked
+
         pause_s = 1.0
         command = self.find_command()
         while not self.stopping.is_set():
             started = time.monotonic()
             # The command is built from this module's own constants and paths.
             wrapped = [sys.executable, "-m", "vipo_site.demo.child", str(os.getpid()), *command]
-            self.process = subprocess.Popen(wrapped)  # noqa: S603
+            with sigint_blocked():
+                self.process = subprocess.Popen(wrapped)  # noqa: S603
             code = self.process.wait()
             if self.stopping.is_set():
                 return

@@ -1,8 +1,8 @@
 """Opening a connection to a broker, and being let in."""
 
-import asyncio
 import socket
 import sys
+from asyncio import open_connection  # loads the streams here, where the heap has no holes yet
 
 from vipo.packets import CONNACK, REFUSALS, WRONG_KEY, MqttFailure, Refused
 from vipo.portable import show_error
@@ -18,12 +18,12 @@ NODELAY = getattr(socket, "TCP_NODELAY", 1)
 async def open_stream(client):
     """Return (reader, writer) of a connection to a client's broker."""
     if client.tls is None:
-        reader, writer = await asyncio.open_connection(client.host, client.port)
+        reader, writer = await open_connection(client.host, client.port)
         if HAS_TO_ASK:
             send_at_once(writer.s)
         return reader, writer
     tls = AtOnce(client.tls) if HAS_TO_ASK else client.tls
-    return await asyncio.open_connection(client.host, client.port, ssl=tls, server_hostname=client.host)
+    return await open_connection(client.host, client.port, ssl=tls, server_hostname=client.host)
 
 
 def send_at_once(connection):

@@ -34,7 +34,7 @@ class Device:
             client.subscribe(topic)
 
     async def run(self):
-        """Serve for ever."""
+        """Serve for ever; what ends a part of it is raised."""
         self.panel.show("VIPO", "connecting")
         self.panel.light(lights.AMBER)
         tasks = [asyncio.create_task(self.client.run()), asyncio.create_task(self.panel.run())]
@@ -42,7 +42,10 @@ class Device:
         try:
             while True:
                 await asyncio.sleep(CHECK_EVERY_S / max(1.0, min(speed, 5.0)))
-                if self.feed and not any(task.done() for task in tasks):
+                for task in tasks:
+                    if task.done():
+                        await task  # raises what ended it
+                if self.feed:
                     self.feed()
                 if self.duties.work is None:
                     self.duties.driver.idle(seconds_since(last) * speed)

@@ -26,6 +26,7 @@ from vipo.portable import close_stream, seconds_since, ticks_ms
 ANSWER_TIMEOUT_S = 10
 MOST_UNANSWERED = 16
 LONGEST_BACK_OFF_S = 30
+MOST_STARVED = 5
 
 # A ValueError is a topic or an answer that cannot be read; a MemoryError lost a packet in the middle.
 FAILURES = (OSError, EOFError, ValueError, MemoryError, MqttFailure, asyncio.TimeoutError)
@@ -52,6 +53,7 @@ class Client:
         self._codes = b""
         self._broken = ""
         self._was_served = False
+        self._starved = 0
         self._heard = 0
         self._news, self._over, self._subscribed = asyncio.Event(), asyncio.Event(), asyncio.Event()
 
@@ -69,22 +71,26 @@ class Client:
         return len(self.outbox.queue)
 
     async def run(self):
-        """Connect, serve, and begin again when the connection ends."""
+        """Connect, serve, and begin again when the connection ends.
+
+        Raises MemoryError when the heap was too full several times in a row: only a restart makes one whole again.
+        """
         pause_s = self.first_back_off_s
         while True:
             self._was_served = False
             try:
                 await self._session()
             except FAILURES as error:
-                if isinstance(error, MemoryError):
-                    self.outbox.shorten()
+                self._make_room(error)
                 if isinstance(error, Refused) and self.on_refused:
                     self.on_refused()
                 if self.on_down:
                     self.on_down(str(error) or "no answer")
             # A broker that lets in and hangs up at once is asked ever more seldom, too.
             if self._was_served:
-                pause_s = self.first_back_off_s
+                pause_s, self._starved = self.first_back_off_s, 0
+            if self._starved >= MOST_STARVED:
+                raise MemoryError
             # Devices that lost their broker together do not come back all at once.
             await asyncio.sleep(pause_s * (0.75 + random.random() / 2))
             pause_s = min(pause_s * 2, LONGEST_BACK_OFF_S)
@@ -122,10 +128,14 @@ class Client:
             await part
         except FAILURES as error:
             self._broken = self._broken or str(error) or "no answer"
-            if isinstance(error, MemoryError):
-                self.outbox.shorten()
+            self._make_room(error)
         finally:
             self._over.set()
+
+    def _make_room(self, error):
+        if isinstance(error, MemoryError):
+            self._starved += 1
+            self.outbox.shorten()
 
     async def _write_loop(self, writer):
         if self.topics:

@@ -50,8 +50,8 @@ async def close_stream(writer):
     try:
         writer.close()
         await asyncio.wait_for(writer.wait_closed(), CLOSING_S)
-    except (OSError, EOFError, ValueError, asyncio.TimeoutError):
-        pass  # it is gone already
+    except (OSError, EOFError, ValueError, MemoryError, asyncio.TimeoutError):
+        pass  # it is gone already, or goes when it is collected
     gc.collect()
 
 

@@ -5,7 +5,7 @@ import time
 import machine
 from vipo import chip
 from vipo.configuration import BadConfiguration, read_configuration
-from vipo.portable import clock_is_set, forget, load
+from vipo.portable import forget, load
 
 CONFIGURATION = "config.json"
 NEEDED = ("host", "port", "id", "wifi_name")
@@ -30,15 +30,15 @@ def make_ready(configuration, board):
     forget("board")
     identity = identify(configuration, panel)
     forget("identity", "describe")
-    if not find_network(configuration, panel, board.pins):
+    if not join(configuration, panel, board.pins):
         return None
     forget("wifi", "button")
+    server = configuration.get("time_server")
+    look_for_time = find_time(server, configuration.get("ca"))
     device = make(configuration, panel, identity, board.output)
     forget("start", "certificate", "recall")
-    if configuration.get("ca") and not clock_is_set():
-        from vipo.wifi import look_for_time
-
-        look_for_time(device.client, configuration.get("time_server"))
+    if look_for_time:
+        look_for_time(device.client, server)
     device.feed = machine.WDT(timeout=WATCHDOG_MS).feed
     return device
 
@@ -50,10 +50,10 @@ def identify(configuration, panel):
     return make_identity(configuration, panel)
 
 
-def find_network(configuration, panel, pins):
-    """Join the Wi-Fi and set the clock; tell whether the Wi-Fi came."""
+def join(configuration, panel, pins):
+    """Join the Wi-Fi; tell whether it came."""
     from vipo.button import ask
-    from vipo.wifi import join_wifi, set_clock
+    from vipo.wifi import join_wifi
 
     name = configuration["wifi_name"]
     panel.show("Wi-Fi", name)
@@ -61,8 +61,17 @@ def find_network(configuration, panel, pins):
         panel.show("No Wi-Fi", name)
         time.sleep(chip.SHOWN_S)
         return False
-    set_clock(configuration.get("time_server"))
     return True
+
+
+def find_time(server, is_needed):
+    """Set the clock; return what asks for the time later where it did not come and is needed."""
+    from vipo.clock import look_for_time, set_clock
+
+    if not set_clock(server) and is_needed:
+        return look_for_time
+    forget("clock")
+    return None
 
 
 def make(configuration, panel, identity, output):

@@ -8,7 +8,7 @@ from uuid import uuid4
 import pytest
 
 from editor.language import plan_to_json
-from execution import services
+from execution import database, services
 from execution.engine.drive import advance_site
 from execution.models import Command, FloorState, InboxEvent, Run, Timer
 from execution.ticker.ticker import fire_timers
@@ -75,7 +75,7 @@ class Shop:
             if row.device not in self.offline:
                 for _ in range(self.deliveries):
                     self.world.command(row.device, row.method, row.arguments, outgoing.id)
-        services.mark_commands_sent(ids=[c.id for c in commands])
+        services.mark_sent(sent={c.id: database.now() for c in commands})
         return commands
 
     def pass_time(self, seconds):

@@ -136,6 +136,18 @@ def test_nothing_is_called_while_the_site_is_stopped_and_a_stop_ends_what_is_und
     assert state(made).status == "cancelled"
 
 
+def test_a_call_that_went_out_a_moment_ago_and_is_not_marked_yet_is_taken_back_at_the_device(factory):
+    made = call(time=2)
+    factory.work()
+    assert [outgoing.id for outgoing in services.claim_commands(limit=100)] == [str(made.id)]
+    assert Command.objects.get(id=made.id).status == "pending"
+    services.press_stop(site=SITE, by="Ada")
+    factory.work()
+    told = Command.objects.filter(method__in=["pause", "cancel"])
+    assert {(c.device, c.arguments["command"]) for c in told} == {("paintMixer01", str(made.id))}
+    assert not state(made).is_over
+
+
 def test_a_device_does_one_thing_at_a_time(factory):
     call(time=2)
     answer = ask(sign_in_member("operator", SITE))

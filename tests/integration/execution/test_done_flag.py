@@ -8,7 +8,7 @@ from uuid import uuid4
 
 import pytest
 
-from execution import services
+from execution import database, services
 from execution.gateway.ingest import Ingester
 from execution.gateway.queue import Entry
 from execution.models import Command
@@ -51,7 +51,7 @@ def send(method="mixPaint", position=1):
     row.site_id = Command._meta.get_field("site").related_model.objects.get(slug=site.site).pk
     row.save()
     (going,) = services.claim_commands(limit=10)
-    services.mark_commands_sent(ids=[going.id])
+    services.mark_sent(sent={going.id: database.now()})
     return row
 
 

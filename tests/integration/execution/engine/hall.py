@@ -7,7 +7,7 @@ from bench.hall import OVEN, SITE
 from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant, PlaceRef
 from editor.language.plan.instructions import Call, End, Instruction, Plan, Wait
-from execution import services
+from execution import database, services
 from execution.models import Command, Run
 
 WAITS = Plan((Instruction(Wait(Constant(3600)), "w", 1), Instruction(End())))
@@ -29,7 +29,7 @@ def told(run):
 
 
 def answer(command, status="DONE"):
-    services.mark_commands_sent(ids=[str(command.id)])
+    services.mark_sent(sent={str(command.id): database.now()})
     at = datetime.now(UTC)
     return services.record_ack(
         device=command.device, command_id=str(command.id), status=status, why="", result={}, at=at

@@ -92,7 +92,7 @@ def test_a_frozen_owner_is_replaced_and_what_it_decides_when_it_thaws_changes_no
 
 def test_an_owner_that_was_frozen_until_its_session_was_ended_sets_nothing_aside(owners, tmp_path):
     run = start(heating(2))
-    frozen = owners(*OWNER, "60", "3", VIPO_FAULTS=str(tmp_path))
+    frozen = owners(*OWNER, "60", "30", VIPO_FAULTS=str(tmp_path))
     wait_told(run, 1)
     (tmp_path / "before_commit").write_text("freeze")
     answer_open(run)
