@@ -187,6 +187,6 @@ def test_what_is_answered_before_it_is_marked_as_sent_knows_when_it_went_out_and
     assert record_acks(answers=[said("oven", quick)], at=later) == [True]
     sent_at = Command.objects.get(id=quick).sent_at
     assert before - timedelta(seconds=0.1) <= sent_at < later
-    mark_sent(dict.fromkeys([quick, slow], later))
+    mark_sent(sent=dict.fromkeys([quick, slow], later))
     rows = {str(row.id): (row.status, row.sent_at) for row in Command.objects.all()}
     assert rows == {quick: ("done", sent_at), slow: ("sent", later)}
