@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import json
+import re
+import subprocess
+
+import httpx
 import pytest
 from playwright.sync_api import Response
 
 from tests.e2e.conftest import SignIn
 from tests.e2e.screens import make_program, saved
+from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
 MOST_BYTES = 440_000
@@ -37,3 +43,32 @@ def test_a_program_opens_with_few_scripts_and_all_of_them_are_sent_compressed(si
         assert sum(size for name, size in bytes_of.items() if not name.startswith(WITHOUT)) <= MOST_BYTES
     finally:
         fresh.close()
+
+
+FETCHES = """
+const [address] = process.argv.slice(1);
+fetch(address, { headers: { "accept-encoding": "br" } }).then(async (answer) => {
+  process.stdout.write(JSON.stringify([answer.headers.get("content-encoding"), (await answer.text()).length]));
+});
+"""
+
+
+def test_whoever_asks_gets_a_script_as_they_can_read_it(demo: Demo) -> None:
+    """Python's and Node's own clients, and one that reads nothing compressed."""
+    page = httpx.get(demo.url, timeout=20).text
+    address = demo.url.rstrip("/") + re.findall(r'src="(/assets/[^"]+\.js)"', page)[0]
+
+    def get(accepted: str, **headers: str) -> httpx.Response:
+        return httpx.get(address, headers={"Accept-Encoding": accepted, **headers}, timeout=20)
+
+    plain = get("identity")
+    assert (plain.status_code, plain.headers.get("content-encoding")) == (200, None)
+    for accepted, wanted in {"gzip, deflate": "gzip", "gzip, deflate, br": "br", "deflate": None, "": None}.items():
+        answer = get(accepted)
+        assert answer.headers.get("content-encoding") == wanted, accepted
+        assert "accept-encoding" in answer.headers["vary"].lower()
+        assert "immutable" in answer.headers["cache-control"]
+        assert wanted == "br" or answer.content == plain.content
+        assert get(accepted, **{"If-None-Match": answer.headers["etag"]}).status_code == 304
+    node = subprocess.run(["node", "-e", FETCHES, address], capture_output=True, text=True, check=True, timeout=60)
+    assert json.loads(node.stdout) == ["br", len(plain.text)]
