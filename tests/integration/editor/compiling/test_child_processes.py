@@ -213,7 +213,8 @@ def _three_edits() -> list[bytes]:
 
 
 PARENT = """
-import asyncio, sys
+import asyncio, sys, django
+django.setup()
 from tests.integration.editor.compiling.test_child_processes import Edited
 from editor.compiling.compilers import Compilers
 async def main():
