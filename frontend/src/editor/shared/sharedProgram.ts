@@ -4,15 +4,13 @@ import * as Y from "yjs";
 import * as buffer from "lib0/buffer";
 import { api } from "@/api/client";
 import type { Edit } from "../edits/edits";
+import { FieldVisits } from "./fieldVisits";
 import { SavedChanges } from "./savedChanges";
 import { CompiledForm } from "./compiledForm";
 import { LocalCopy, TAKEN_OVER } from "./localCopy";
 import { writeEdit } from "./writer";
 import { changedBy, readDocument, rereadDocument, ROOTS } from "./snapshot";
 import type { ProgramDocument } from "@/program/document/document";
-
-/** Under this name an entry of the undo list keeps its edits. */
-const EDITS = "edits";
 
 export type Connection = "connecting" | "live" | "reconnecting" | "refused";
 
@@ -53,6 +51,7 @@ const START: Saving = {
 export class SharedProgram {
   readonly doc = new Y.Doc();
   readonly undo: Y.UndoManager;
+  readonly visits: FieldVisits;
   readonly provider: WebsocketProvider;
   #provider: WebsocketProvider | null = null;
   readonly compiled: CompiledForm;
@@ -83,6 +82,7 @@ export class SharedProgram {
       captureTimeout: 0,
       ignoreRemoteMapChanges: true,
     });
+    this.visits = new FieldVisits(this.undo);
     ROOTS.forEach((name, index) => roots[index]?.observeDeep((events) => this.#note(name, events)));
     this.doc.on("afterTransaction", () => this.#publish());
     this.doc.on("update", (_update, origin) => {
@@ -137,14 +137,11 @@ export class SharedProgram {
     return () => this.#savingListeners.delete(listener);
   };
 
-  /** One gesture: one transaction, one entry in the undo list. */
+  /** One gesture: one transaction, one entry in the undo list; a visit to a field has one for all its transactions. */
   apply(edits: readonly Edit[]): void {
     if (edits.length === 0) return;
-    this.undo.stopCapturing();
     for (const edit of edits) if ("id" in edit) this.#unsaved.add(edit.id);
-    applyEditsToDoc(this.doc, edits, this.#origin);
-    this.undo.stopCapturing();
-    this.undo.undoStack.at(-1)?.meta.set(EDITS, edits);
+    this.visits.capture(edits, () => applyEditsToDoc(this.doc, edits, this.#origin));
   }
 
   /** What the program itself puts right after a gesture: no entry of its own in the undo list. */
@@ -154,7 +151,7 @@ export class SharedProgram {
 
   /** What the gesture set that would be undone next. */
   lastEdits(): readonly Edit[] {
-    return (this.undo.undoStack.at(-1)?.meta.get(EDITS) as readonly Edit[] | undefined) ?? [];
+    return this.visits.lastEdits();
   }
 
   /** Wait until the database holds what is on this screen, also of others: before something is made of the program. */
