@@ -82,8 +82,9 @@ def test_a_step_that_somebody_holds_moves_on_the_others_screen(sign_in: SignIn) 
     expect(admin.get_by_role("img", name="Without a connection you cannot see who else is here")).to_have_count(0)
 
 
+@pytest.mark.parametrize("reloaded", [False, True], ids=["on the same page", "after a reload"])
 def test_a_move_made_offline_of_a_step_that_was_removed_is_told_and_brought_back(
-    sign_in: SignIn, faults: list[str]
+    sign_in: SignIn, faults: list[str], reloaded: bool
 ) -> None:
     author, admin = sign_in("author"), sign_in("admin")
     cut = [False]
@@ -97,11 +98,12 @@ def test_a_move_made_offline_of_a_step_that_was_removed_is_told_and_brought_back
             sockets.append(socket)
 
     author.route_web_socket(re.compile("/ws/program/"), route)
-    make_program(author, "Taken away")
+    name = f"Taken away {reloaded}"
+    make_program(author, name)
     draw(author, "n", 0.4, 0.4)
     author.keyboard.press("Escape")
     saved(author)
-    open_program(admin, "Taken away")
+    open_program(admin, name)
     expect(chip(admin, "1, Notify")).to_be_visible()
     cut[0] = True
     for each in sockets:
@@ -114,7 +116,14 @@ def test_a_move_made_offline_of_a_step_that_was_removed_is_told_and_brought_back
     author.mouse.move(x + 90, y + 50, steps=6)
     author.mouse.up()
     author.keyboard.press("Escape")
-    expect(author.get_by_role("banner").get_by_text("Offline: one change waits here")).to_be_visible()
+    waits = author.get_by_role("banner").get_by_text("Offline: one change waits here")
+    expect(waits).to_be_visible()
+    if reloaded:
+        author.reload()
+        expect(waits).to_be_visible()
+        expect(
+            the_map(author).get_by_role("group", name=re.compile("Notify"))
+        ).to_be_visible()  # its number is not known
     chip(admin, "1, Notify").click()
     admin.keyboard.press("Delete")
     saved(admin)

@@ -7,7 +7,7 @@ import type { Edit } from "../edits/edits";
 import { FieldVisits } from "./fieldVisits";
 import { SavedChanges } from "./savedChanges";
 import { CompiledForm } from "./compiledForm";
-import { LocalCopy, TAKEN_OVER } from "./localCopy";
+import { LocalCopy, TAKEN_OVER, type Waiting } from "./localCopy";
 import { writeEdit } from "./writer";
 import { changedBy, readDocument, rereadDocument, ROOTS } from "./snapshot";
 import type { ProgramDocument } from "@/program/document/document";
@@ -57,7 +57,7 @@ export class SharedProgram {
   readonly compiled: CompiledForm;
   readonly #copy: LocalCopy;
   readonly #saved = new SavedChanges(() => this.#showSaved());
-  /** Steps that edits changed which the server has not yet called saved. */
+  /** Steps that edits changed, of pages before, too, which the server has not yet called saved. */
   readonly #unsaved = new Set<string>();
   #earlier = 0;
   #keepings = 0;
@@ -187,19 +187,20 @@ export class SharedProgram {
     const late = new Promise<"late">((done) => setTimeout(() => done("late"), PATIENCE_MS));
     const earlier = await Promise.race([copy, late]);
     if (this.#closed) return;
-    if (earlier === "late") void copy.then((count) => this.#takeLate(count));
+    if (earlier === "late") void copy.then((waiting) => this.#takeLate(waiting));
     else this.#take(earlier);
     this.provider.connect();
   }
 
-  #take(earlier: number): void {
-    this.#earlier = earlier;
-    this.#saved.madeBefore(earlier);
+  #take(earlier: Waiting): void {
+    this.#earlier = earlier.count;
+    for (const id of earlier.steps) this.#unsaved.add(id);
+    this.#saved.madeBefore(earlier.count);
     this.#setSaving({ loaded: this.#saving.loaded || this.doc.store.clients.size > 0 });
   }
 
   /** A copy that comes after the connection: what waits in it goes with the first answer of a new one. */
-  #takeLate(earlier: number): void {
+  #takeLate(earlier: Waiting): void {
     if (this.#closed) return;
     const connected = this.#saving.connection !== "refused";
     if (connected) this.provider.disconnect();
@@ -237,7 +238,7 @@ export class SharedProgram {
     }
     this.#setSaving({ kept: false });
     const keeping = ++this.#keepings;
-    void this.#copy.keep(waiting - this.#earlier).then(
+    void this.#copy.keep({ count: waiting - this.#earlier, steps: [...this.#unsaved] }).then(
       () => keeping === this.#keepings && !this.#closed && this.#setSaving({ kept: true }),
       () => {}, // a browser that keeps nothing never says that it does
     );
