@@ -15,6 +15,7 @@ import { NotTaken } from "./parts/NotTaken";
 import { Unopened } from "./parts/Unopened";
 import { EmptyProgram, HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
 import { ToolRail } from "./parts/ToolRail";
+import { ROW_PX, useToolRows } from "./parts/toolRows";
 import { pasteIfScript } from "./script/pastedScript";
 import { useOpenProgram } from "./state/context";
 import { resetGestures } from "./state/gestures";
@@ -34,18 +35,23 @@ export function EditorWorkspace() {
   const resting = useUi((ui) => ui.gesture.tool === "select");
   // The program itself is shown beside a resting hand only: while something is drawn the map needs the room.
   const wanted = useUi((ui) => (small && !selected ? ui.programSheet : ui.inspector));
-  const { loaded } = useOpenProgram();
+  const { loaded, canEdit } = useOpenProgram();
+  const lifted = (useToolRows(canEdit) - 1) * ROW_PX;
   const inspector = loaded && wanted && (selected || resting);
   const insets = useMemo<Insets>(
     () =>
       small
-        ? { left: 40, right: 16, top: 36, bottom: drawerOpen ? 420 : 148 }
+        ? { left: 40, right: 16, top: 36, bottom: lifted + (drawerOpen ? 420 : 148) }
         : { left: 100, right: inspector ? 336 : 12, top: 34, bottom: drawerOpen ? 300 : 62 },
-    [small, inspector, drawerOpen],
+    [small, inspector, drawerOpen, lifted],
   );
   // The floor is fitted as if all panels were open: a selected step must not cover the machines.
   const fitInsets = useMemo<Insets>(() => (small ? insets : { ...FITTED }), [small, insets]);
-  const style = { "--free-right": `${insets.right}px`, "--free-bottom": `${insets.bottom}px` } as CSSProperties;
+  const style = {
+    "--free-right": `${insets.right}px`,
+    "--free-bottom": `${insets.bottom}px`,
+    "--over-rail": `${82 + lifted}px`,
+  } as CSSProperties;
   return (
     <div className={classes.screen}>
       <EditorTop />

@@ -82,8 +82,30 @@ def test_a_step_that_somebody_holds_moves_on_the_others_screen(sign_in: SignIn) 
     expect(admin.get_by_role("img", name="Without a connection you cannot see who else is here")).to_have_count(0)
 
 
+def test_a_branch_is_chosen_by_key_said_and_drawn_into(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "Branches by keys")
+    draw(page, "i", 0.3, 0.4)
+    expect(chip(page, "1, If")).to_be_visible()
+    goes = "The next step goes here: If 1, branch \u201c{}\u201d"
+    for key, word in (("b", "true"), ("b", "false"), ("b", "true"), ("Shift+B", "false")):
+        page.keyboard.press(key)
+        expect(page.get_by_text(goes.format(word))).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(page.get_by_text(goes.format("false"))).to_have_count(0)
+    for key in ("b", "b", "n", "Enter"):
+        page.keyboard.press(key)
+    expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Notify")
+    drawn = steps(page)
+    assert drawn["notify"]["place"][:2] == [drawn["if"]["id"], "else"]
+    page.keyboard.press("Escape")
+    page.keyboard.press("?")
+    expect(page.get_by_role("dialog")).to_contain_text("Draw into the next, previous branch of the selected step")
+
+
+@pytest.mark.parametrize("reloaded", [False, True], ids=["on the same page", "after a reload"])
 def test_a_move_made_offline_of_a_step_that_was_removed_is_told_and_brought_back(
-    sign_in: SignIn, faults: list[str]
+    sign_in: SignIn, faults: list[str], reloaded: bool
 ) -> None:
     author, admin = sign_in("author"), sign_in("admin")
     cut = [False]
@@ -97,11 +119,12 @@ def test_a_move_made_offline_of_a_step_that_was_removed_is_told_and_brought_back
             sockets.append(socket)
 
     author.route_web_socket(re.compile("/ws/program/"), route)
-    make_program(author, "Taken away")
+    name = f"Taken away {reloaded}"
+    make_program(author, name)
     draw(author, "n", 0.4, 0.4)
     author.keyboard.press("Escape")
     saved(author)
-    open_program(admin, "Taken away")
+    open_program(admin, name)
     expect(chip(admin, "1, Notify")).to_be_visible()
     cut[0] = True
     for each in sockets:
@@ -114,7 +137,14 @@ def test_a_move_made_offline_of_a_step_that_was_removed_is_told_and_brought_back
     author.mouse.move(x + 90, y + 50, steps=6)
     author.mouse.up()
     author.keyboard.press("Escape")
-    expect(author.get_by_role("banner").get_by_text("Offline: one change waits here")).to_be_visible()
+    waits = author.get_by_role("banner").get_by_text("Offline: one change waits here")
+    expect(waits).to_be_visible()
+    if reloaded:
+        author.reload()
+        expect(waits).to_be_visible()
+        expect(
+            the_map(author).get_by_role("group", name=re.compile("Notify"))
+        ).to_be_visible()  # its number is not known
     chip(admin, "1, Notify").click()
     admin.keyboard.press("Delete")
     saved(admin)

@@ -9,9 +9,11 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import ask, chip, saved, write_program
+from tests.e2e.screens import ask, chip, open_program, saved, write_program
+from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
+WAIT_S = 40.0
 
 EVERY_FIELD = """class Task(object):
     def new_task(self):
@@ -121,3 +123,28 @@ def test_escape_takes_a_fields_change_back_and_ctrl_z_undoes_the_drawing(sign_in
     page.keyboard.press("Control+z")
     expect(chip(page, "3, Wait")).to_be_visible()
     assert document(page)["steps"] == before["steps"]
+
+
+def test_a_value_that_is_typed_slowly_is_one_entry_to_undo_also_while_somebody_else_edits(sign_in: SignIn) -> None:
+    author, admin = sign_in("author"), sign_in("admin")
+    write_program(author, "Typed slowly", EVERY_FIELD)
+    saved(author)
+    open_program(admin, "Typed slowly")
+    chip(author, "3, Wait").click()
+    time = panel(author).get_by_label("Time", exact=True)
+    time.select_text()
+    author.keyboard.type("9")
+    wait_for("the first digit", lambda: params(author, "wait") == {"duration": 9}, WAIT_S)
+    chip(admin, "2, Notify").click()
+    panel(admin).get_by_label("Message", exact=True).fill("meanwhile")
+    admin.keyboard.press("Enter")
+    wait_for("the other's message", lambda: params(author, "notify")["message"] == "meanwhile", WAIT_S)
+    author.keyboard.type("0")
+    wait_for("the second digit", lambda: params(author, "wait") == {"duration": 90}, WAIT_S)
+    author.keyboard.press("Enter")
+    author.keyboard.press("Control+z")
+    wait_for("the value of before", lambda: params(author, "wait") == {"duration": 60}, WAIT_S)
+    assert params(author, "notify")["message"] == "meanwhile"
+    expect(time).to_have_value("60")
+    author.keyboard.press("Control+Shift+z")
+    wait_for("the whole value again", lambda: params(author, "wait") == {"duration": 90}, WAIT_S)

@@ -1,4 +1,4 @@
-"""The editor's bar on a small screen: whatever stands in it, Stop all is whole and nothing lies over it."""
+"""The editor's bars on a small screen: whatever they hold, Stop all and every tool is whole, nothing lies over it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import saved, violations, write_program
+from tests.e2e.screens import make_program, saved, violations, write_program
 
 pytestmark = pytest.mark.browser
 NEVER_OVER = """class Task(object):
@@ -44,3 +44,28 @@ def test_two_people_and_an_error_leave_stop_all_its_place_in_german(sign_in: Sig
     assert name is not None
     assert name["width"] >= 72
     assert violations(page) == []
+
+
+TOOLS = """(bar) => [...bar.querySelectorAll('button')].map((tool) => {
+    const { left, top, right, bottom } = tool.getBoundingClientRect();
+    const over = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
+    const inside = left >= 0 && top >= 0 && right <= innerWidth && bottom <= innerHeight;
+    return { name: tool.ariaLabel, whole: inside && tool.contains(over), wide: right - left, high: bottom - top };
+})"""
+
+
+@pytest.mark.parametrize(("width", "height"), [(820, 1180), (1003, 760), (1004, 760), (390, 844)])
+def test_every_tool_is_whole_on_a_small_screen_and_can_be_pressed(sign_in: SignIn, width: int, height: int) -> None:
+    page = sign_in("author", width=width, height=height)
+    make_program(page, f"Tools in {width} pixels")
+    bar = page.get_by_role("toolbar", name="Tools")
+    expect(bar.get_by_role("button", name="All constructs")).to_be_visible()
+    tools: list[dict[str, object]] = bar.evaluate(TOOLS)
+    assert len(tools) == 20
+    assert [each["name"] for each in tools if not each["whole"]] == []
+    assert {(each["wide"], each["high"]) for each in tools} == {(44, 44)}
+    zone = bar.get_by_role("button", name="Zone")
+    zone.click()
+    expect(zone).to_have_attribute("aria-pressed", "true")
+    bar.get_by_role("button", name="All constructs").click()
+    expect(page.get_by_role("listbox", name="All constructs")).to_be_visible()

@@ -5,6 +5,7 @@ import {
   type KeyboardEvent,
   type MouseEvent,
   type ReactNode,
+  useEffect,
   useRef,
   useState,
 } from "react";
@@ -15,13 +16,13 @@ import classes from "../panel.module.css";
 
 export function FormBody({ children }: { children: ReactNode }) {
   const [round, setRound] = useState(0);
-  const takeBack = useTakeBack();
+  const { takeBack, ...visit } = useVisit();
   const onKeyDown = (event: KeyboardEvent) => {
     if (!isField(event.target)) return;
     if (event.key === "Escape" && !isExpanded(event.target)) {
       event.preventDefault();
       event.stopPropagation();
-      takeBack.run();
+      takeBack();
       // What was written and not stored goes with the fields, before one of them could store it while it is left.
       flushSync(() => setRound(round + 1));
       focusMap();
@@ -36,26 +37,36 @@ export function FormBody({ children }: { children: ReactNode }) {
   };
   return (
     // eslint-disable-next-line jsx-a11y/no-static-element-interactions -- it hears what its fields hear
-    <div className={classes.body} data-form onKeyDown={onKeyDown} onClick={onClick} onFocus={takeBack.begin}>
+    <div className={classes.body} data-form onKeyDown={onKeyDown} onClick={onClick} {...visit}>
       <Fragment key={round}>{children}</Fragment>
     </div>
   );
 }
 
-/** Everything that a field has stored since it has the keyboard is undone. */
-function useTakeBack() {
+/** From where a field gets the keyboard to where it gives it up: one entry to undo, which Esc takes back. */
+function useVisit() {
   const { shared } = useOpenProgram();
   const begun = useRef<{ readonly field: EventTarget; readonly entries: number } | null>(null);
-  const begin = ({ target }: FocusEvent) => {
-    if (begun.current?.field !== target) begun.current = { field: target, entries: shared.undo.undoStack.length };
+  useEffect(() => () => shared.visits.end(), [shared]);
+  const onFocus = ({ target }: FocusEvent) => {
+    if (begun.current?.field === target) return;
+    begun.current = { field: target, entries: shared.undo.undoStack.length };
+    shared.visits.begin();
   };
-  const run = () => {
+  /** Whoever looks at another window is still in the field. */
+  const onBlur = () => {
+    if (!document.hasFocus()) return;
+    begun.current = null;
+    shared.visits.end();
+  };
+  const takeBack = () => {
     const entries = begun.current?.entries ?? Infinity;
     while (shared.undo.undoStack.length > entries) shared.undo.undo();
     begun.current = null;
+    shared.visits.end();
     shared.awareness.setLocalStateField("editing", null);
   };
-  return { begin, run };
+  return { onFocus, onBlur, takeBack };
 }
 
 function isField(target: EventTarget | null): target is HTMLInputElement | HTMLTextAreaElement {

@@ -10,6 +10,7 @@ const KEYS: readonly [string, string][] = [
   ["V · H", "select"],
   [".", "more"],
   ["Enter", "enter"],
+  ["B · Shift+B", "branch"],
   ["Ctrl+Z · Ctrl+Shift+Z", "undo"],
   ["Ctrl+C · X · V · D", "copy"],
   ["Ctrl+A", "all"],

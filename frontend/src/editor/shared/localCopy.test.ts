@@ -23,11 +23,11 @@ const counts = async () => (await listCopies()).map(({ person, waiting }) => [pe
 test("what a page counted waits in the next one, with what it drew, until that is settled", async () => {
   const first = await page("1");
   first.doc.getMap("steps").set("a", 1);
-  await first.copy.keep(2);
+  await first.copy.keep({ count: 2, steps: [] });
   expect(await counts()).toEqual([["1", 2]]);
   await first.copy.close();
   const second = await page("1");
-  expect(second.waiting).toBe(2);
+  expect(second.waiting.count).toBe(2);
   expect(second.doc.getMap("steps").get("a")).toBe(1);
   await second.copy.settle();
   expect(await counts()).toEqual([["1", 0]]);
@@ -35,10 +35,10 @@ test("what a page counted waits in the next one, with what it drew, until that i
 
 test("settling leaves what another page has made since, and its own count", async () => {
   const other = await page("1");
-  await other.copy.keep(1);
+  await other.copy.keep({ count: 1, steps: [] });
   await expect.poll(counts).toEqual([["1", 1]]);
   const mine = await page("1");
-  await Promise.all([mine.copy.keep(4), other.copy.keep(2)]);
+  await Promise.all([mine.copy.keep({ count: 4, steps: [] }), other.copy.keep({ count: 2, steps: [] })]);
   await expect.poll(counts).toEqual([["1", 6]]);
   await mine.copy.settle();
   expect(await counts()).toEqual([["1", 6]]);
@@ -47,7 +47,7 @@ test("settling leaves what another page has made since, and its own count", asyn
 test("another person sees nothing of a copy, and signing in removes it", async () => {
   const first = await page("1");
   first.doc.getMap("steps").set("a", 1);
-  await first.copy.keep(1);
+  await first.copy.keep({ count: 1, steps: [] });
   await expect.poll(counts).toEqual([["1", 1]]);
   const second = await page("2");
   expect(second.doc.getMap("steps").size).toBe(0);
@@ -57,7 +57,7 @@ test("another person sees nothing of a copy, and signing in removes it", async (
 
 test("a session that ended by itself leaves only what waits", async () => {
   const waits = await page("1", "p");
-  await waits.copy.keep(1);
+  await waits.copy.keep({ count: 1, steps: [] });
   await page("1", "q");
   await expect.poll(counts).toContainEqual(["1", 1]);
   await keepOnlyOf(null);
@@ -81,4 +81,37 @@ test("a copy that is discarded is gone from the browser", async () => {
   const { copy } = await page("1");
   await copy.remove();
   expect(await indexedDB.databases()).toEqual([]);
+});
+
+test("the steps of what waits are known to the next page, until that is settled", async () => {
+  const [first, beside] = [await page("1"), await page("1")];
+  await first.copy.keep({ count: 2, steps: ["a", "b"] });
+  await beside.copy.keep({ count: 1, steps: ["b", "c"] });
+  const next = await page("1");
+  expect(next.waiting.count).toBe(3);
+  expect([...next.waiting.steps].sort()).toEqual(["a", "b", "c"]);
+  await beside.copy.keep({ count: 0, steps: [] });
+  expect((await page("1")).waiting).toEqual({ count: 2, steps: ["a", "b"] });
+  expect(await counts()).toEqual([["1", 2]]);
+  await next.copy.settle();
+  expect((await page("1")).waiting).toEqual({ count: 0, steps: [] });
+});
+
+test("what is no list of steps is none", async () => {
+  const first = await page("1");
+  await first.copy.keep({ count: 1, steps: ["a"] });
+  const db = await new Promise<IDBDatabase>((done) => {
+    const asked = indexedDB.open(copyOf("1", "p"));
+    asked.onsuccess = () => done(asked.result);
+  });
+  for (const nonsense of ["[7, {}]", "{", 7n]) {
+    const store = db.transaction("custom", "readwrite").objectStore("custom");
+    const key = await new Promise<IDBValidKey | undefined>((done) => {
+      const asked = store.getAllKeys();
+      asked.onsuccess = () => done(asked.result.find((each) => typeof each === "string" && each.startsWith("steps-")));
+    });
+    await new Promise((done) => (store.put(nonsense, key).onsuccess = done));
+    expect((await page("1")).waiting).toEqual({ count: 1, steps: [] });
+  }
+  db.close();
 });

@@ -9,6 +9,17 @@ const UPDATES = "updates";
 /** What comes out of a copy of before, which belonged to nobody, is kept in this one, and no change of one's own. */
 export const TAKEN_OVER = Symbol("taken over");
 
+/** What pages before this one made and did not hear about. */
+export interface Waiting {
+  readonly count: number;
+  /** The steps that it concerns. */
+  readonly steps: readonly string[];
+}
+
+const NOTHING: Waiting = { count: 0, steps: [] };
+/** Before a page's name: the steps of its changes, as JSON beside their number. */
+const STEPS = "steps-";
+
 export class LocalCopy {
   /** Whose changes are not one's own: they are in the copy. */
   readonly origin: unknown;
@@ -26,26 +37,32 @@ export class LocalCopy {
     this.origin = this.#persistence;
   }
 
-  /** Read the copy into the document; returns how many changes of pages before wait in it. */
-  open(): Promise<number> {
-    return this.#read().catch(() => 0);
+  /** Read the copy into the document; returns which changes of pages before wait in it. */
+  open(): Promise<Waiting> {
+    return this.#read().catch(() => NOTHING);
   }
 
-  async #read(): Promise<number> {
+  async #read(): Promise<Waiting> {
     // Counted first: what another page adds between the two is not called saved too early.
     for (const [page, count] of await this.#counts()) this.#before.set(page, count);
+    const pages = [...this.#before.keys()];
+    const lists = await Promise.all(pages.map((page) => this.#persistence.get(STEPS + page)));
     await this.#persistence.whenSynced;
     await takeOver(this.program, this.doc);
-    return [...this.#before.values()].reduce((sum, count) => sum + count, 0);
+    const count = [...this.#before.values()].reduce((sum, each) => sum + each, 0);
+    return { count, steps: [...new Set(lists.flatMap(stepsOf))] };
   }
 
   /**
-   * Keep how many changes of this page wait; done when they are in the copy, and so is the number: a page that is closed
-   * before may take them along. Fails where the browser keeps nothing.
+   * Keep how many changes of this page wait, and of which steps; done when they are in the copy, and so is this: a page
+   * that is closed before may take them along. Fails where the browser keeps nothing.
    */
-  async keep(waiting: number): Promise<void> {
+  async keep({ count, steps }: Waiting): Promise<void> {
     const persistence = this.#persistence;
-    await (waiting > 0 ? persistence.set(this.#page, waiting) : persistence.del(this.#page));
+    if (count > 0) {
+      await persistence.set(STEPS + this.#page, JSON.stringify(steps));
+      await persistence.set(this.#page, count);
+    } else await this.#forget(this.#page);
     await persistence.whenSynced;
     const db = await persistence._db;
     // Has its turn when all that was to be written before has been.
@@ -58,7 +75,12 @@ export class LocalCopy {
     const before = this.#before;
     if (before.size === 0) return;
     this.#before = new Map();
-    for (const [page, count] of await this.#counts()) if (before.get(page) === count) await this.#persistence.del(page);
+    for (const [page, count] of await this.#counts()) if (before.get(page) === count) await this.#forget(page);
+  }
+
+  async #forget(page: string): Promise<void> {
+    await this.#persistence.del(page);
+    await this.#persistence.del(STEPS + page);
   }
 
   /** Remove the copy; the document itself stays as it is. */
@@ -75,7 +97,17 @@ export class LocalCopy {
     const db = await this.#persistence._db;
     const [store] = idb.transact(db, [COUNTS], "readonly");
     const kept: { k: unknown; v: unknown }[] = store ? await idb.getAllKeysValues(store) : [];
-    return kept.map(({ k, v }) => [String(k), Number(v)] as const);
+    return kept.flatMap(({ k, v }) => (typeof v === "number" ? [[String(k), v] as const] : []));
+  }
+}
+
+/** What a page wrote down; nothing of what a page of another version means by it. */
+function stepsOf(kept: unknown): string[] {
+  try {
+    const read: unknown = typeof kept === "string" ? JSON.parse(kept) : [];
+    return Array.isArray(read) ? read.filter((each) => typeof each === "string") : [];
+  } catch {
+    return [];
   }
 }
 

@@ -4,15 +4,13 @@ import * as Y from "yjs";
 import * as buffer from "lib0/buffer";
 import { api } from "@/api/client";
 import type { Edit } from "../edits/edits";
+import { FieldVisits } from "./fieldVisits";
 import { SavedChanges } from "./savedChanges";
 import { CompiledForm } from "./compiledForm";
-import { LocalCopy, TAKEN_OVER } from "./localCopy";
+import { LocalCopy, TAKEN_OVER, type Waiting } from "./localCopy";
 import { writeEdit } from "./writer";
 import { changedBy, readDocument, rereadDocument, ROOTS } from "./snapshot";
 import type { ProgramDocument } from "@/program/document/document";
-
-/** Under this name an entry of the undo list keeps its edits. */
-const EDITS = "edits";
 
 export type Connection = "connecting" | "live" | "reconnecting" | "refused";
 
@@ -53,12 +51,13 @@ const START: Saving = {
 export class SharedProgram {
   readonly doc = new Y.Doc();
   readonly undo: Y.UndoManager;
+  readonly visits: FieldVisits;
   readonly provider: WebsocketProvider;
   #provider: WebsocketProvider | null = null;
   readonly compiled: CompiledForm;
   readonly #copy: LocalCopy;
   readonly #saved = new SavedChanges(() => this.#showSaved());
-  /** Steps that edits changed which the server has not yet called saved. */
+  /** Steps that edits changed, of pages before, too, which the server has not yet called saved. */
   readonly #unsaved = new Set<string>();
   #earlier = 0;
   #keepings = 0;
@@ -83,6 +82,7 @@ export class SharedProgram {
       captureTimeout: 0,
       ignoreRemoteMapChanges: true,
     });
+    this.visits = new FieldVisits(this.undo);
     ROOTS.forEach((name, index) => roots[index]?.observeDeep((events) => this.#note(name, events)));
     this.doc.on("afterTransaction", () => this.#publish());
     this.doc.on("update", (_update, origin) => {
@@ -137,14 +137,11 @@ export class SharedProgram {
     return () => this.#savingListeners.delete(listener);
   };
 
-  /** One gesture: one transaction, one entry in the undo list. */
+  /** One gesture: one transaction, one entry in the undo list; a visit to a field has one for all its transactions. */
   apply(edits: readonly Edit[]): void {
     if (edits.length === 0) return;
-    this.undo.stopCapturing();
     for (const edit of edits) if ("id" in edit) this.#unsaved.add(edit.id);
-    applyEditsToDoc(this.doc, edits, this.#origin);
-    this.undo.stopCapturing();
-    this.undo.undoStack.at(-1)?.meta.set(EDITS, edits);
+    this.visits.capture(edits, () => applyEditsToDoc(this.doc, edits, this.#origin));
   }
 
   /** What the program itself puts right after a gesture: no entry of its own in the undo list. */
@@ -154,7 +151,7 @@ export class SharedProgram {
 
   /** What the gesture set that would be undone next. */
   lastEdits(): readonly Edit[] {
-    return (this.undo.undoStack.at(-1)?.meta.get(EDITS) as readonly Edit[] | undefined) ?? [];
+    return this.visits.lastEdits();
   }
 
   /** Wait until the database holds what is on this screen, also of others: before something is made of the program. */
@@ -190,19 +187,20 @@ export class SharedProgram {
     const late = new Promise<"late">((done) => setTimeout(() => done("late"), PATIENCE_MS));
     const earlier = await Promise.race([copy, late]);
     if (this.#closed) return;
-    if (earlier === "late") void copy.then((count) => this.#takeLate(count));
+    if (earlier === "late") void copy.then((waiting) => this.#takeLate(waiting));
     else this.#take(earlier);
     this.provider.connect();
   }
 
-  #take(earlier: number): void {
-    this.#earlier = earlier;
-    this.#saved.madeBefore(earlier);
+  #take(earlier: Waiting): void {
+    this.#earlier = earlier.count;
+    for (const id of earlier.steps) this.#unsaved.add(id);
+    this.#saved.madeBefore(earlier.count);
     this.#setSaving({ loaded: this.#saving.loaded || this.doc.store.clients.size > 0 });
   }
 
   /** A copy that comes after the connection: what waits in it goes with the first answer of a new one. */
-  #takeLate(earlier: number): void {
+  #takeLate(earlier: Waiting): void {
     if (this.#closed) return;
     const connected = this.#saving.connection !== "refused";
     if (connected) this.provider.disconnect();
@@ -240,7 +238,7 @@ export class SharedProgram {
     }
     this.#setSaving({ kept: false });
     const keeping = ++this.#keepings;
-    void this.#copy.keep(waiting - this.#earlier).then(
+    void this.#copy.keep({ count: waiting - this.#earlier, steps: [...this.#unsaved] }).then(
       () => keeping === this.#keepings && !this.#closed && this.#setSaving({ kept: true }),
       () => {}, // a browser that keeps nothing never says that it does
     );

@@ -8,6 +8,7 @@ import { useOpenProgram, type OpenProgram } from "./context";
 import { createOnFloor } from "./newStep";
 import { freeSpot } from "./freeSpot";
 import { isTyping, takesLetters } from "./focus";
+import { chooseNextBranch } from "./nextPlace";
 import { askOf, RESTING, stepBack, takeTool } from "./tool";
 import { say, select, showTab, useUi } from "./ui";
 
@@ -73,6 +74,9 @@ function plainKey(open: OpenProgram, event: KeyboardEvent): boolean {
     case "h":
       useUi.setState({ gesture: takeTool(RESTING, "pan", false) });
       return true;
+    case "b":
+    case "B":
+      return open.canEdit && chooseNextBranch(open, event.shiftKey ? -1 : 1);
     case "Escape":
       return escape();
     case "Delete":

@@ -127,7 +127,7 @@ function branchLink(input: LinkInput, into: BranchRef, first: string | null): Li
 }
 
 /** An empty branch is drawn while it is offered: a Try may catch nothing, or have nothing to do at last. */
-function offersBranch(document: ProgramDocument, { parent, branch }: BranchRef): boolean {
+export function offersBranch(document: ProgramDocument, { parent, branch }: BranchRef): boolean {
   const step = document.steps[parent];
   if (step?.kind !== "try") return true;
   return branch !== "finally" || step.params.finally === true;

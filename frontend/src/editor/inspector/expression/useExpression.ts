@@ -4,6 +4,7 @@ import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api, ApiProblem } from "@/api/client";
 import type { Value } from "@/program/document/document";
+import type { FieldVisit } from "../../shared/fieldVisits";
 import { useOpenProgram } from "../../state/context";
 import { readPlain, type Wanted, writePlain } from "./literal";
 
@@ -60,12 +61,13 @@ export function useExpression(inputs: ExpressionInputs): Expression {
 
 /** The line as it stands in the field; a value that comes from outside takes its place unless somebody types. */
 function useWritten({ value, onChange, step, wanted }: ExpressionInputs) {
-  const { program } = useOpenProgram();
+  const { program, shared } = useOpenProgram();
   const key = JSON.stringify(value ?? null);
   const plain = writePlain(value, wanted);
   const [written, setWritten] = useState<Written>({ text: plain ?? "", ...UNREAD });
   const turn = useRef(0);
   const typing = useRef(false);
+  const visit = useRef<FieldVisit | null>(null);
   const known = useRef(plain === null ? "" : key);
   const change = useLatest(onChange);
 
@@ -90,7 +92,7 @@ function useWritten({ value, onChange, step, wanted }: ExpressionInputs) {
     const nextKey = JSON.stringify(next);
     if (nextKey === known.current) return;
     known.current = nextKey;
-    change.current(next);
+    shared.visits.during(visit.current, () => change.current(next));
   };
   const store = async (text: string) => {
     const mine = ++turn.current;
@@ -105,6 +107,7 @@ function useWritten({ value, onChange, step, wanted }: ExpressionInputs) {
   const write = (text: string) => {
     turn.current += 1;
     typing.current = true;
+    visit.current = shared.visits.now;
     setWritten((before) => ({ ...before, text }));
   };
   /** An answer that still comes is about what is taken back. */
