@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
 import subprocess
@@ -14,14 +15,17 @@ from threading import Event
 from typing import Any
 
 import pytest
-from django.db import connection
+from asgiref.sync import sync_to_async
+from django.db import connection, transaction
 from pycrdt import Doc, Map
 from pytest_django import DjangoDbBlocker
 
 from editor.documents.shared_document import SharedDocument
-from editor.documents.store import Change, append_changes, compact_document, load_document
+from editor.documents.store import COMPACT_AFTER_ROWS, Change, append_changes, compact_document, load_document
 from editor.documents.tasks import Folded, Folding
 from editor.models import DocumentUpdate, Program, Snapshot
+from editor.rooms.hub import hub_of_this_loop
+from editor.rooms.member import Member, Person
 from editor.services import create_program
 from registry.services import create_site
 from tests.kit.databases import on_database
@@ -207,3 +211,25 @@ def test_while_rows_are_appended_and_folded_everybody_reads_all_that_was_stored(
     compact_document(program)
     assert SharedDocument(load_document(program).updates).to_json()["parameters"]["p59"] == 59
     assert Program.objects.get(pk=program).last_seq == Snapshot.objects.get().seq == 61
+
+
+def test_a_room_that_opens_with_many_rows_folds_them_and_holds_all(program: str) -> None:
+    drawing = Drawing()
+    with transaction.atomic():
+        drawing.store(program, COMPACT_AFTER_ROWS)
+    asyncio.run(_look_at(program))
+    assert (Snapshot.objects.get().seq, DocumentUpdate.objects.count()) == (COMPACT_AFTER_ROWS + 1, 0)
+    assert parameters(program) == COMPACT_AFTER_ROWS
+
+
+async def _look_at(program: str) -> None:
+    """Open a program's room as whoever may only look, draw nothing, and stay until there are no rows."""
+    hub = hub_of_this_loop()
+    try:
+        room = await hub.enter(program, Member(Person(1, "B", "B"), can_write=False, wake=lambda: None))
+        assert len(room.document.to_json()["parameters"]) == COMPACT_AFTER_ROWS
+        async with asyncio.timeout(60):
+            while await sync_to_async(DocumentUpdate.objects.count)():  # noqa: ASYNC110 - another thread's doing
+                await asyncio.sleep(0.05)
+    finally:
+        await hub.close()
