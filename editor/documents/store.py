@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from operator import itemgetter
@@ -157,17 +157,20 @@ def compact_document(program_id: str, fold: Callable[[Folding], Folded] = Foldin
     stored = load_document(program_id)
     if not stored.appended:
         return False
-    folded, authors = fold(Folding(stored.updates, stored.appended)), authors_of(Program(pk=program_id))
+    folded = fold(Folding(stored.updates, stored.appended))
     if folded.has_hole:
         raise DocumentHole(f"{_MISSING} {_MENDED}")
     with transaction.atomic():
         program = Program.objects.select_for_update().filter(pk=program_id).first()
-        newest = None if program is None else program.snapshots.order_by("-seq").values_list("seq", flat=True).first()
-        if program is None or (newest or 0) != stored.compacted:
+        newest = None if program is None else program.snapshots.order_by("-seq").first()
+        if program is None or (newest.seq if newest else 0) != stored.compacted:
             return False
+        rows = program.updates.filter(seq__gt=stored.compacted, seq__lte=stored.seq)
+        writers = rows.order_by("seq").values_list("author_id", flat=True)
+        authors = _with_authors(newest.authors if newest else {}, zip(writers, folded.clients, strict=False))
         written = Snapshot.objects.create(program=program, seq=stored.seq, data=folded.update, authors=authors)
         written.refresh_from_db()
-        gone, _ = program.updates.filter(seq__gt=stored.compacted, seq__lte=stored.seq).delete()
+        gone, _ = rows.delete()
         if not folded.is_same or bytes(written.data) != folded.update or gone != len(stored.appended):
             raise SnapshotDiffers(f"The snapshot of program {program_id} differs from its updates; they are kept.")
         program.snapshots.filter(seq__lt=stored.seq).delete()
@@ -177,8 +180,17 @@ def compact_document(program_id: str, fold: Callable[[Folding], Folded] = Foldin
 def authors_of(program: Program) -> dict[str, int]:
     """Return whose each Yjs client is: from the last snapshot and the rows."""
     snapshot = program.snapshots.order_by("-seq").first()
-    authors: dict[str, int] = dict(snapshot.authors) if snapshot else {}
-    for author, data in program.updates.filter(author__isnull=False).order_by("seq").values_list("author_id", "data"):
-        for client in clients_of(bytes(data)):
-            authors.setdefault(str(client), author)
+    rows = program.updates.order_by("seq").values_list("author_id", "data")
+    return _with_authors(
+        snapshot.authors if snapshot else {}, ((author, clients_of(bytes(data))) for author, data in rows)
+    )
+
+
+def _with_authors(known: Mapping[str, int], rows: Iterable[tuple[int | None, Iterable[int]]]) -> dict[str, int]:
+    """Return whose each client is, with those of rows: each their author and clients. The first author stays."""
+    authors = dict(known)
+    for author, clients in rows:
+        if author is not None:
+            for client in clients:
+                authors.setdefault(str(client), author)
     return authors
