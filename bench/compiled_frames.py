@@ -38,16 +38,17 @@ def measure() -> Iterator[dict[str, object]]:
                 yield from _figures(asyncio.run(_edit(web, count)), count)
         finally:
             web.kill()
-        for steps, tail in ((1000, 0), (4700, 0), (4700, 8000)):
-            yield from _figures_inside(folder, steps, tail)
+        for steps, tail, place in ((1000, 0, "rows"), (4700, 0, "rows"), (4700, 8000, "rows"), (4700, 8000, "stream")):
+            yield from _figures_inside(folder, steps, tail, place)
 
 
-def _figures_inside(folder: Path, steps: int, tail: int) -> Iterator[dict[str, object]]:
+def _figures_inside(folder: Path, steps: int, tail: int, place: str) -> Iterator[dict[str, object]]:
     """Yield figures of a room in a process of its own: ten people edit it four times a second and look on."""
-    command = [sys.executable, "-m", "bench.rooms.inside", str(steps), str(tail)]
+    command = [sys.executable, "-m", "bench.rooms_inside", str(steps), str(tail), place]
     done = subprocess.run(command, env=environment(folder, {}), capture_output=True, text=True, check=True)
     seen: Json = json.loads(done.stdout)
     for name, what in (
+        ("opened_ms", "opening: until somebody is in the room"),
         ("opening_stall_ms", "opening: the loop stood still at longest"),
         ("opening_stall_computed_ms", "opening: what the process computed in such a time at most"),
         ("edit_stall_ms", "ten editors: the loop stood still at longest"),
@@ -55,7 +56,7 @@ def _figures_inside(folder: Path, steps: int, tail: int) -> Iterator[dict[str, o
         ("cpu_ms", "ten editors: the web process's processor time for an edit"),
         ("children_cpu_ms", "ten editors: the child processes' processor time for an edit"),
     ):
-        yield figure(what, seen[name], "ms", steps=steps, tail=tail)
+        yield figure(what, seen[name], "ms", steps=steps, tail=tail, tail_in=place)
 
 
 def _figures(seen: Json, steps: int) -> Iterator[dict[str, object]]:

@@ -20,6 +20,7 @@ from servestatic import ServeStaticASGI  # noqa: E402
 from editor.rooms.socket import ProgramSocket, close_hub  # noqa: E402
 from execution.services import open_publisher  # noqa: E402
 from registry.api.site_socket import SiteSocket  # noqa: E402
+from vipo_site.http.collecting import leave_out_what_stays  # noqa: E402
 from vipo_site.http.ending import keep_rooms_at_end  # noqa: E402
 from vipo_site.http.entrance import BehindProxies, OwnPagesOnly  # noqa: E402
 from vipo_site.http.heartbeat import beat_while_serving  # noqa: E402
@@ -73,3 +74,4 @@ files = ServeStaticASGI(
 )
 files.files.pop("/index.html", None)
 application = BehindProxies(files, settings.VIPO_PROXIES)
+leave_out_what_stays()

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
+from operator import itemgetter
 from typing import Any
 from uuid import UUID
 
 from django.db import transaction
+from django.db.models import Value
 
 from editor.documents.shared_document import BadUpdate, SharedDocument, clients_of, merge
 from editor.documents.tasks import Folded, Folding
@@ -84,18 +86,23 @@ def get_document(*, program_id: UUID | str) -> dict[str, Any]:
 
 
 def load_document(program_id: str) -> Stored:
-    """Return the newest snapshot and the updates after it, as of one moment. Raises NoSuchProgram."""
-    with transaction.atomic():
-        program = Program.objects.select_related("site").filter(pk=program_id).first()
-        if program is None:
-            raise NoSuchProgram("There is no such program. It may have been deleted.")
-        snapshot = program.snapshots.order_by("-seq").first()
-        compacted = snapshot.seq if snapshot else 0
-        rows = program.updates.filter(seq__gt=compacted).order_by("seq")
-        updates = [bytes(row) for row in rows.values_list("data", flat=True)]
-        if snapshot is not None:
-            updates.insert(0, bytes(snapshot.data))
-        return Stored(program.site.slug, tuple(updates), program.last_seq, compacted, program.stored_to)
+    """Return the newest snapshot and the updates after it, as of one moment. Raises NoSuchProgram.
+
+    It is read by one statement: of two, PostgreSQL answers each as of its own moment, and rows that were folded between
+    them would be in neither answer.
+    """
+    program = Program.objects.select_related("site").filter(pk=program_id).first()
+    if program is None:
+        raise NoSuchProgram("There is no such program. It may have been deleted.")
+    snapshots = program.snapshots.annotate(is_snapshot=Value(True)).values_list("seq", "is_snapshot", "data")
+    rows = program.updates.annotate(is_snapshot=Value(False)).values_list("seq", "is_snapshot", "data")
+    parts = sorted(snapshots.order_by().union(rows.order_by(), all=True), key=itemgetter(0))
+    begin = max((at for at, part in enumerate(parts) if part[1]), default=0)
+    seq, is_snapshot, _ = parts[begin] if parts else (0, False, b"")
+    compacted = seq if is_snapshot else 0
+    last = max(program.last_seq, parts[-1][0] if parts else 0)
+    updates = tuple(bytes(data) for _, _, data in parts[begin:])
+    return Stored(program.site.slug, updates, last, compacted, program.stored_to)
 
 
 def append_changes(program_id: str, changes: Sequence[Change], now: datetime, stored_to: str = "") -> range:
@@ -140,34 +147,50 @@ def _gathered(changes: Sequence[Change]) -> list[Change]:
     return [Change(each[0].author, merge(change.update for change in each)) for each in gathered]
 
 
-def compact_document(program_id: str, fold: Callable[[Folding], Folded] = Folding.done) -> None:
+def compact_document(program_id: str, fold: Callable[[Folding], Folded] = Folding.done) -> bool:
     """Fold the rows into a snapshot; the rows go only when the snapshot holds the same and was read back.
 
-    `fold` does the work, in another process. Raises SnapshotDiffers, DocumentHole, and what `fold` does.
+    `fold` does the work, in another process; meanwhile rows are appended, which stay. Returns whether it was done:
+    not if there are no rows, or another process was quicker. Raises SnapshotDiffers, DocumentHole, NoSuchProgram, and
+    what `fold` does.
     """
+    stored = load_document(program_id)
+    if not stored.appended:
+        return False
+    folded = fold(Folding(stored.updates, stored.appended))
+    if folded.has_hole:
+        raise DocumentHole(f"{_MISSING} {_MENDED}")
     with transaction.atomic():
         program = Program.objects.select_for_update().filter(pk=program_id).first()
-        if program is None:
-            return
-        stored = load_document(program_id)
-        folded = fold(Folding(stored.updates, stored.appended))
-        if folded.has_hole:
-            raise DocumentHole(f"{_MISSING} {_MENDED}")
-        written, _ = Snapshot.objects.update_or_create(
-            program=program, seq=stored.seq, defaults={"data": folded.update, "authors": authors_of(program)}
-        )
+        newest = None if program is None else program.snapshots.order_by("-seq").first()
+        if program is None or (newest.seq if newest else 0) != stored.compacted:
+            return False
+        rows = program.updates.filter(seq__gt=stored.compacted, seq__lte=stored.seq)
+        writers = rows.order_by("seq").values_list("author_id", flat=True)
+        authors = _with_authors(newest.authors if newest else {}, zip(writers, folded.clients, strict=False))
+        written = Snapshot.objects.create(program=program, seq=stored.seq, data=folded.update, authors=authors)
         written.refresh_from_db()
-        if not folded.is_same or bytes(written.data) != folded.update:
+        gone, _ = rows.delete()
+        if not folded.is_same or bytes(written.data) != folded.update or gone != len(stored.appended):
             raise SnapshotDiffers(f"The snapshot of program {program_id} differs from its updates; they are kept.")
-        program.updates.filter(seq__lte=stored.seq).delete()
         program.snapshots.filter(seq__lt=stored.seq).delete()
+        return True
 
 
 def authors_of(program: Program) -> dict[str, int]:
     """Return whose each Yjs client is: from the last snapshot and the rows."""
     snapshot = program.snapshots.order_by("-seq").first()
-    authors: dict[str, int] = dict(snapshot.authors) if snapshot else {}
-    for author, data in program.updates.filter(author__isnull=False).order_by("seq").values_list("author_id", "data"):
-        for client in clients_of(bytes(data)):
-            authors.setdefault(str(client), author)
+    rows = program.updates.order_by("seq").values_list("author_id", "data")
+    return _with_authors(
+        snapshot.authors if snapshot else {}, ((author, clients_of(bytes(data))) for author, data in rows)
+    )
+
+
+def _with_authors(known: Mapping[str, int], rows: Iterable[tuple[int | None, Iterable[int]]]) -> dict[str, int]:
+    """Return whose each client is, with those of rows: each their author and clients. The first author stays."""
+    authors = dict(known)
+    for author, clients in rows:
+        if author is not None:
+            for client in clients:
+                authors.setdefault(str(client), author)
     return authors

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from editor.documents.shared_document import ROOTS_AS_BYTES, Entry, SharedDocument
+from editor.documents.shared_document import ROOTS_AS_BYTES, Entry, SharedDocument, clients_of
 from editor.documents.slices import Cutting, CutUpdate, Slice, cut_update
 from editor.documents.yjs_encoding import BadFrame
 from editor.documents.yjs_updates import MOST_CLIENTS_EVER
@@ -91,16 +91,21 @@ class Folding:
         update = document.encode()
         copy = SharedDocument([update])
         is_same = copy.digest() == document.digest() and copy.knowledge() == document.knowledge()
-        return Folded(update, is_same, document.has_hole(self.appended))
+        clients = tuple(tuple(clients_of(each)) for each in self.appended)
+        return Folded(update, is_same, document.has_hole(self.appended), clients)
 
 
 @dataclass(frozen=True, slots=True)
 class Folded:
-    """Updates as one; whether it holds the same, and whether something is missing on which they build."""
+    """Updates as one; whether it holds the same, and whether something is missing on which they build.
+
+    `clients` are the Yjs clients of each appended one.
+    """
 
     update: bytes
     is_same: bool
     has_hole: bool
+    clients: tuple[tuple[int, ...], ...]
 
 
 @dataclass(frozen=True, slots=True)

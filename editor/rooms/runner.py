@@ -54,7 +54,7 @@ PAUSE_EVERY_S = 0.005
 HASHED_AT_ONCE = 200
 
 
-_EVENTS = ("spread", "save", "keep", "publish", "awareness")
+_EVENTS = ("spread", "save", "keep", "publish", "awareness", "fold")
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,7 @@ class OpenRoom:
         self._stream = shared.stream
         self._compilers = shared.compilers
         self._after = after
-        self._compacted = stored.compacted
+        self._compacted, self._row = stored.compacted, stored.seq
         self._compared_place = 0
         self._paused_at = 0.0
         self._on_end = on_end
@@ -83,6 +83,7 @@ class OpenRoom:
         self._ended = False
         self._saving = asyncio.Lock()
         self._publishing = asyncio.Lock()
+        self._folding = asyncio.Lock()
         self._heard_at: dict[str, float] = {}
         self._events = {name: asyncio.Event() for name in _EVENTS}
         self._tasks: list[asyncio.Task[None]] = []
@@ -97,11 +98,16 @@ class OpenRoom:
 
     def wake(self) -> None:
         """Have the tasks look at the queues."""
-        waits = {"keep": self.room.must_keep, "awareness": self.room.board.has_news}
+        waits = {"keep": self.room.must_keep, "awareness": self.room.board.has_news, "fold": self._is_long}
         for name, event in self._events.items():
             if waits.get(name, True):
                 event.set()
         self.checks.wake()
+
+    @property
+    def _is_long(self) -> bool:
+        """Whether there are many rows since the last snapshot."""
+        return self._row - self._compacted >= COMPACT_AFTER_ROWS
 
     def start(self) -> None:
         """Start the tasks."""
@@ -110,6 +116,7 @@ class OpenRoom:
             self._when("publish", PUBLISH_EVERY_S, self._publish),
             self._when("save", SAVE_EVERY_S, self.save),
             self._when("keep", 0, self._keep),
+            self._when("fold", 0, self._compact),
             self._every(ADOPT_EVERY_S, self._events["save"].set),
             self._when("awareness", AWARENESS_EVERY_S, self._spread_awareness),
             self._compare_often(),
@@ -130,9 +137,10 @@ class OpenRoom:
         self.room.spread_awareness()
         with suppress(StreamLost):
             await self._publish()
-        for task in self._tasks:
-            task.cancel()
-        await asyncio.gather(*self._tasks, return_exceptions=True)
+        async with self._folding:  # its thread waits for this event loop, which may end
+            for task in self._tasks:
+                task.cancel()
+            await asyncio.gather(*self._tasks, return_exceptions=True)
         self._compilers.forget(self.room.program)
 
     async def _when(self, name: str, pause_s: float, act: Callable[[], Awaitable[None]]) -> None:
@@ -262,11 +270,9 @@ class OpenRoom:
                 except DatabaseError as error:
                     self._try_later(error)
                     return
+                self._row = rows[-1]
                 self.room.say_stored(last_numbers(waiting), rows)
                 ledger.see_row(rows[-1], time.monotonic())
-                if rows[-1] - self._compacted >= COMPACT_AFTER_ROWS:
-                    self._compacted = rows[-1]
-                    await self._compact()
 
     def _try_later(self, error: Exception) -> None:
         log.warning("Program %s could not be saved; it is tried again: %s", self.room.program, error)
@@ -337,6 +343,10 @@ class OpenRoom:
         return await asyncio.to_thread(comparing.done)
 
     async def _compact(self) -> None:
+        """Fold the rows if they are many; what people draw meanwhile is saved as ever."""
+        if not self._is_long:
+            return
+        self._compacted = self._row
         loop = asyncio.get_running_loop()
 
         def fold(folding: Folding) -> Folded:
@@ -344,6 +354,7 @@ class OpenRoom:
             return folding.done() if folded is None else folded
 
         try:
-            await in_database(compact_document)(self.room.program, fold)
-        except (DatabaseError, SnapshotDiffers, DocumentHole, BadUpdate) as error:
+            async with self._folding:
+                await in_database(compact_document)(self.room.program, fold)
+        except (DatabaseError, SnapshotDiffers, DocumentHole, BadUpdate, NoSuchProgram) as error:
             log.warning("Program %s was not compacted: %s", self.room.program, error)

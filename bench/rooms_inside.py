@@ -1,4 +1,6 @@
-"""`python -m bench.rooms.inside <steps> <tail>`: a room of a large program, opened and edited in this process.
+"""`python -m bench.rooms_inside <steps> <tail> <place>`: a room of a large program, opened and edited in this process.
+
+The program has changes after its first form: `tail` of them, in the room's `stream` or as `rows` of the database.
 
 Prints how long its event loop stood still at longest, and what an edit costs it and the child processes that check.
 """
@@ -10,7 +12,7 @@ import json
 import os
 import sys
 import time
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
 from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
@@ -47,8 +49,8 @@ async def _stalls() -> AsyncIterator[Stalls]:
         watching.cancel()
 
 
-async def measure(steps: int, tail: int) -> Json:
-    """Open a program of so many steps that has so many entries in its stream; then ten people edit it, ten look on."""
+async def measure(steps: int, tail: int, place: str) -> Json:
+    """Open a program of so many steps, with so many changes in that place; then ten people edit it, ten look on."""
     from asgiref.sync import sync_to_async
     from django.contrib.auth import get_user_model
 
@@ -63,7 +65,8 @@ async def measure(steps: int, tail: int) -> Json:
     made = await sync_to_async(editor.create_program)(site="hall", name=f"{steps} steps", document=document)
     program, hub = str(made.id), hub_of_this_loop()
     shared = SharedDocument((await sync_to_async(load_document)(program)).updates)
-    await _fill(hub.stream, program, shared, tail)
+    fill = {"stream": _fill_stream(hub.stream, program), "rows": _fill_rows(program)}[place]
+    await fill(_changes(shared, tail))
     author: int = (await sync_to_async(get_user_model().objects.get)(display_name="Ada author")).pk
     members = [Member(Person(author, "A", "A"), can_write=True, wake=lambda: None) for _ in range(EDITORS)]
     await _warm(hub)
@@ -104,16 +107,43 @@ async def _warm(hub: Any) -> None:
         await asyncio.sleep(0.01)
 
 
-async def _fill(stream: Any, program: str, shared: Any, tail: int) -> None:
+def _changes(shared: Any, count: int) -> Iterator[bytes]:
+    steps = shared._document["steps"]
+    for number in range(1, count + 1):
+        before = shared.state()
+        steps[f"s{number % len(steps)}"]["pos"] = [float(number), 0.0]
+        yield shared.encode(before)
+
+
+Fill = Callable[[Iterator[bytes]], Awaitable[None]]
+
+
+def _fill_stream(stream: Any, program: str) -> Fill:
     from editor.documents.store import Change
     from editor.rooms.ledger import encode_change
 
-    steps = shared._document["steps"]
-    for number in range(1, tail + 1):
-        before = shared.state()
-        step = f"s{number % len(steps)}"
-        steps[step]["pos"] = [float(number), 0.0]
-        await stream.append(program, "dead", [encode_change(number, Change(None, shared.encode(before)))])
+    async def fill(changes: Iterator[bytes]) -> None:
+        for number, update in enumerate(changes, 1):
+            await stream.append(program, "dead", [encode_change(number, Change(None, update))])
+
+    return fill
+
+
+def _fill_rows(program: str) -> Fill:
+    from asgiref.sync import sync_to_async
+
+    from editor.models import DocumentUpdate, Program
+
+    def fill(rows: list[bytes]) -> None:
+        DocumentUpdate.objects.bulk_create(
+            DocumentUpdate(program_id=program, seq=seq, data=data) for seq, data in enumerate(rows, 2)
+        )
+        Program.objects.filter(pk=program).update(last_seq=len(rows) + 1)
+
+    async def fill_in_thread(changes: Iterator[bytes]) -> None:
+        await sync_to_async(fill)(list(changes))
+
+    return fill_in_thread
 
 
 async def _edit(hub: Any, room: Any, members: list[Any], shared: Any) -> Json:
@@ -163,4 +193,7 @@ if __name__ == "__main__":
     import django
 
     django.setup()
-    sys.stdout.write(json.dumps(asyncio.run(measure(int(sys.argv[1]), int(sys.argv[2])))))
+    from vipo_site.http.collecting import leave_out_what_stays
+
+    leave_out_what_stays()  # as the web process does
+    sys.stdout.write(json.dumps(asyncio.run(measure(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3]))))
