@@ -1,7 +1,7 @@
 /** All constructs by name, the rare ones first; what the rail has no room for is taken from here. */
 import { Popover, Tooltip } from "@mantine/core";
 import { Ellipsis } from "lucide-react";
-import { useState, type KeyboardEvent } from "react";
+import { useLayoutEffect, useRef, useState, type KeyboardEvent } from "react";
 import { VipoIcon } from "@/design/VipoIcon";
 import type { Kind } from "@/program/kinds";
 import { TOOLS } from "../state/tools";
@@ -18,7 +18,17 @@ export function MoreTools() {
   const rareTool = useUi((ui) => TOOLS.some((kind) => kind.rare && kind.kind === ui.gesture.tool));
   const show = (more: boolean) => useUi.setState({ more });
   return (
-    <Popover opened={opened} onChange={show} position="right-end" offset={14} trapFocus returnFocus shadow="md">
+    <Popover
+      opened={opened}
+      onChange={show}
+      position="right-end"
+      offset={14}
+      trapFocus
+      returnFocus
+      shadow="md"
+      // It is there at once: what is typed right after its key must not choose tools.
+      transitionProps={{ duration: 0 }}
+    >
       <Popover.Target>
         <Tooltip label={`${t("more.label")} · .`} position="right" disabled={opened}>
           <button
@@ -45,6 +55,8 @@ function Search({ onDone }: { onDone: () => void }) {
   const { t } = useOpenProgram();
   const [text, setText] = useState("");
   const [at, setAt] = useState(0);
+  const field = useRef<HTMLInputElement>(null);
+  useLayoutEffect(() => field.current?.focus({ preventScroll: true }), []);
   const wanted = text.trim().toLowerCase();
   const found = RARE_FIRST.filter(({ kind }) =>
     `${t(`kind.${kind}`)} ${t(`about.${kind}`)}`.toLowerCase().includes(wanted),
@@ -64,6 +76,7 @@ function Search({ onDone }: { onDone: () => void }) {
   return (
     <div className={classes.more}>
       <input
+        ref={field}
         value={text}
         role="combobox"
         aria-expanded="true"

@@ -1,5 +1,6 @@
 /** The keys of the editor; single letters rest while a field has focus. */
 import { useLayoutEffect } from "react";
+import { flushSync } from "react-dom";
 import { shiftStep } from "../edits/joints";
 import type { Position } from "@/program/document/document";
 import { undoLast, duplicateSelected, nudgeSelected, removeSelected } from "./actions";
@@ -85,7 +86,7 @@ function plainKey(open: OpenProgram, event: KeyboardEvent): boolean {
     case "F8":
       return nextProblem(open, event.shiftKey ? -1 : 1);
     case ".":
-      if (open.canEdit) useUi.setState({ more: true });
+      if (open.canEdit) flushSync(() => useUi.setState({ more: true }));
       return open.canEdit;
     case "Enter":
       return enter(open, event.target);
