@@ -115,3 +115,11 @@ test("what is no list of steps is none", async () => {
   }
   db.close();
 });
+
+test("what is kept and settled at once leaves nothing", async () => {
+  const { copy } = await page("1");
+  await Promise.all([copy.keep({ count: 1, steps: ["a"] }), copy.keep({ count: 0, steps: [] })]);
+  expect((await page("1")).waiting).toEqual({ count: 0, steps: [] });
+  await Promise.all([copy.keep({ count: 0, steps: [] }), copy.keep({ count: 2, steps: ["b"] })]);
+  expect((await page("1")).waiting).toEqual({ count: 2, steps: ["b"] });
+});

@@ -59,10 +59,10 @@ export class LocalCopy {
    */
   async keep({ count, steps }: Waiting): Promise<void> {
     const persistence = this.#persistence;
-    if (count > 0) {
-      await persistence.set(STEPS + this.#page, JSON.stringify(steps));
-      await persistence.set(this.#page, count);
-    } else await this.#forget(this.#page);
+    // All is asked for at once, in this order: what is kept next must not come between.
+    await (count > 0
+      ? Promise.all([persistence.set(STEPS + this.#page, JSON.stringify(steps)), persistence.set(this.#page, count)])
+      : this.#forget(this.#page));
     await persistence.whenSynced;
     const db = await persistence._db;
     // Has its turn when all that was to be written before has been.
@@ -79,8 +79,7 @@ export class LocalCopy {
   }
 
   async #forget(page: string): Promise<void> {
-    await this.#persistence.del(page);
-    await this.#persistence.del(STEPS + page);
+    await Promise.all([this.#persistence.del(page), this.#persistence.del(STEPS + page)]);
   }
 
   /** Remove the copy; the document itself stays as it is. */
