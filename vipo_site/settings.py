@@ -132,6 +132,7 @@ def postgres(url: str) -> dict[str, object]:
         "CONN_MAX_AGE": 0,
         "OPTIONS": {
             "options": " ".join(f"-c {name}={value}" for name, value in _session_limits().items()),
+            "application_name": f"vipo {VIPO_PROCESS}".rstrip(),
             "connect_timeout": 10,
             "keepalives_idle": SILENT_S // 3,
             "keepalives_interval": SILENT_S // 6,

@@ -24,6 +24,7 @@ from execution.engine.memory import SiteMemory, read_site
 from execution.engine.poison import set_row_aside
 from execution.engine.turn import Turn
 from execution.fault_points import fault_point
+from execution.frozen_sessions import OWNER_SILENT_S
 from execution.models import InboxEvent
 from registry import services as registry
 
@@ -34,9 +35,8 @@ LOOK_EVERY_S, LOOK_AT_ONCE_S = 0.5, 0.1
 """Devices are looked at twice a second, and at most ten times when they say that something is new."""
 AGAIN_S = 0.05
 SITES_REMEMBERED = 16
-FROZEN_AFTER, SESSION_ENDED = "3s", "25P03"
-"""PostgreSQL ends a transaction of an owner in which nothing is asked for so long, and says so by this code: the next
-owner waits for no row."""
+SESSION_ENDED = "25P03"
+"""By this code PostgreSQL says that it has ended a transaction in which nothing was asked for OWNER_SILENT_S."""
 
 _memories: OrderedDict[str, SiteMemory] = OrderedDict()
 _driven: set[str] = set()
@@ -118,7 +118,7 @@ def _alone(slug: str) -> Iterator[bool]:
 def _limit_session() -> None:
     if connection.vendor == "postgresql":
         with connection.cursor() as cursor:
-            cursor.execute(f"SET idle_in_transaction_session_timeout = '{FROZEN_AFTER}'")
+            cursor.execute(f"SET idle_in_transaction_session_timeout = '{OWNER_SILENT_S:g}s'")
 
 
 def _own(slug: str, lease: Lease, stay_s: float, linger_s: float) -> bool:

@@ -15,6 +15,7 @@ from django.db.models import Case, DateTimeField, ExpressionWrapper, F, Q, Query
 from django.db.models.functions import Now
 
 from execution import database
+from execution.frozen_sessions import end_frozen_holder
 from execution.models import SiteLease
 
 LEASE_S = 5.0
@@ -50,7 +51,9 @@ def take(site: int, owner: str = OWNER) -> Lease | None:
 
     Who held it last takes it again under the same epoch, so that what it remembers of the site is still true.
     """
-    SiteLease.objects.get_or_create(site_id=site, defaults={"expires_at": Now()})
+    row, _ = SiteLease.objects.get_or_create(site_id=site, defaults={"expires_at": Now()})
+    if row.owner not in ("", owner):
+        end_frozen_holder(site)
     free = SiteLease.objects.filter(Q(owner=owner) | Q(owner="") | Q(expires_at__lt=Now()), site_id=site)
     epoch = Case(When(owner=owner, then=F("epoch")), default=F("epoch") + Value(1))
     if not free.update(owner=owner, epoch=epoch, expires_at=_later(LEASE_S)):

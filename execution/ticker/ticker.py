@@ -17,6 +17,7 @@ from execution.commands.manual_calls import expire_calls
 from execution.commands.outbox import drop_stale_controls, end_commands_of_those_out
 from execution.floor.stops import follow_stops
 from execution.floor_protocol import ToFloor, ToRun
+from execution.frozen_sessions import end_frozen_sessions
 from execution.lease import HeldLease
 from execution.machine.messages import TimerFired
 from execution.models import Run, Timer
@@ -49,6 +50,8 @@ class Ticker:
             self._leads_since = None
             return False
         self._leads_since = self._leads_since or now
+        if self._is_due("frozen", SWEEP_S, now):
+            end_frozen_sessions()
         fire_timers(now)
         if self._is_due("sites", TICK_SITES_S, now):
             mailbox.hint_watching()

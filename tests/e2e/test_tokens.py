@@ -19,6 +19,7 @@ def test_a_token_is_made_shown_once_used_and_revoked_by_keyboard(demo: Demo, sig
     expect(page.get_by_role("heading", level=1, name="Tokens")).to_be_visible()
     page.get_by_role("button", name="New token").focus()
     page.keyboard.press("Enter")
+    expect(page.get_by_label("What it is for")).to_be_focused()
     page.keyboard.type("Line display")
     expect(page.get_by_role("checkbox", name="Look")).to_be_disabled()
     expect(page.get_by_role("checkbox", name="Everything")).to_have_count(0)

@@ -76,6 +76,7 @@ def test_an_admin_is_led_to_what_was_set_aside_and_settles_it_by_keyboard(sign_i
     page.keyboard.press("Escape")
     expect(letter.get_by_role("button", name="Drop")).to_be_focused()
     page.keyboard.press("Enter")
+    expect(dialog.get_by_role("button", name="Keep")).to_be_focused()
     press(page, "Drop")
     expect(section(page).get_by_text(NONE)).to_be_visible()
     expect(section(page).get_by_role("heading", name="Set aside")).to_be_focused()

@@ -8,13 +8,18 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import psycopg
 import pytest
+from pytest_django import DjangoDbBlocker
 
+from execution.frozen_sessions import end_frozen_sessions
+from tests.kit.databases import on_database
 from tests.kit.files import ROOT
 from tests.kit.served import served_without_broker
 from tests.kit.waiting import wait_for
+from vipo_site.settings import postgres
 
 pytestmark = pytest.mark.servers
 ASK = """
@@ -87,3 +92,28 @@ def test_the_row_of_a_frozen_process_is_free_again(database_url: str, tmp_path: 
         _, errors = frozen.communicate("")
         assert "terminating connection due to idle-in-transaction timeout" in errors or "closed" in errors
         assert other.execute("SELECT number FROM django_site_of_this_test").fetchone() == (5,), "its change is undone"
+
+
+def test_only_sessions_of_ours_that_are_silent_in_a_transaction_are_ended(
+    database_url: str, settings: Any, django_db_blocker: DjangoDbBlocker
+) -> None:
+    settings.FROZEN_AFTER_S = 1
+    silent, resting, somebody, at_work = (
+        psycopg.connect(database_url, autocommit=True, application_name=name)
+        for name in ("vipo worker", "vipo web", "psql", "vipo gateway")
+    )
+    for session in (silent, somebody, at_work):
+        session.execute("BEGIN")
+        with session.pipeline():
+            session.execute("SELECT 1")
+    time.sleep(1.2)
+    at_work.execute("SELECT 2")
+    with django_db_blocker.unblock(), on_database(**postgres(database_url)):
+        assert end_frozen_sessions() == 1
+        settings.FROZEN_AFTER_S = 0
+        assert end_frozen_sessions() == 0, "0 says that nothing is ended"
+    for session in (resting, somebody, at_work):
+        session.execute("SELECT 3")
+        session.close()
+    with pytest.raises(psycopg.errors.AdminShutdown):
+        silent.execute("COMMIT")

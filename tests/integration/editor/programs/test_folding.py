@@ -15,7 +15,7 @@ from threading import Event
 from typing import Any
 
 import pytest
-from asgiref.sync import sync_to_async
+from asgiref.sync import ThreadSensitiveContext, sync_to_async
 from django.db import connection, transaction
 from pycrdt import Doc, Map
 from pytest_django import DjangoDbBlocker
@@ -223,13 +223,18 @@ def test_a_room_that_opens_with_many_rows_folds_them_and_holds_all(program: str)
 
 
 async def _look_at(program: str) -> None:
-    """Open a program's room as whoever may only look, draw nothing, and stay until there are no rows."""
-    hub = hub_of_this_loop()
-    try:
-        room = await hub.enter(program, Member(Person(1, "B", "B"), can_write=False, wake=lambda: None))
-        assert len(room.document.to_json()["parameters"]) == COMPACT_AFTER_ROWS
-        async with asyncio.timeout(60):
-            while await sync_to_async(DocumentUpdate.objects.count)():  # noqa: ASYNC110 - another thread's doing
-                await asyncio.sleep(0.05)
-    finally:
-        await hub.close()
+    """Open a program's room as whoever may only look, draw nothing, and stay until there are no rows.
+
+    Threads are its own: those that all tests share would go on with this test's database.
+    """
+    async with ThreadSensitiveContext():
+        hub = hub_of_this_loop()
+        try:
+            room = await hub.enter(program, Member(Person(1, "B", "B"), can_write=False, wake=lambda: None))
+            assert len(room.document.to_json()["parameters"]) == COMPACT_AFTER_ROWS
+            async with asyncio.timeout(60):
+                while await sync_to_async(DocumentUpdate.objects.count)():  # noqa: ASYNC110 - another thread's doing
+                    await asyncio.sleep(0.05)
+        finally:
+            await hub.close()
+            await sync_to_async(lambda: connection.close())()

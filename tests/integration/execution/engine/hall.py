@@ -6,7 +6,7 @@ from uuid import uuid4
 from bench.hall import OVEN, SITE
 from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant, PlaceRef
-from editor.language.plan.instructions import Call, End, Instruction, Plan, Wait
+from editor.language.plan.instructions import Call, End, Instruction, LimitBegin, Plan, TryEnd, Wait
 from execution import database, services
 from execution.models import Command, Run
 
@@ -16,6 +16,13 @@ WAITS = Plan((Instruction(Wait(Constant(3600)), "w", 1), Instruction(End())))
 def heating(steps=3, oven=OVEN):
     call = Call(PlaceRef(device=oven), "heat", {"value": Constant(1)})
     return Plan((*(Instruction(call, f"s{n}", n) for n in range(steps)), Instruction(End())))
+
+
+def limited(oven=OVEN):
+    """Return a program of two steps of which the first has a limit, so that its timer is dropped when it is done."""
+    call = Call(PlaceRef(device=oven), "heat", {"value": Constant(1)})
+    first = (Instruction(LimitBegin(Constant(3600)), "l", 1, ("l",)), Instruction(call, "s0", 2))
+    return Plan((*first, Instruction(TryEnd(), "l", 1, (), ("l",)), Instruction(call, "s1", 3), Instruction(End())))
 
 
 def start(plan):

@@ -15,9 +15,10 @@ from django.db import connection
 from bench.hall import SITE, fill_hall
 from execution.engine import drive
 from execution.fault_points import DIES_WITH, OWNER_POINTS
+from execution.frozen_sessions import end_frozen_sessions
 from execution.mailbox import DRIVE_SITE
 from execution.models import Command, DeadLetter, InboxEvent, SiteLease
-from tests.integration.execution.engine.hall import answer_open, heating, row, start, told
+from tests.integration.execution.engine.hall import answer_open, heating, limited, row, start, told
 from tests.kit.databases import on_database
 from tests.kit.files import ROOT
 from tests.kit.served import WORKER, served_without_broker
@@ -77,7 +78,7 @@ def test_a_frozen_owner_is_replaced_and_what_it_decides_when_it_thaws_changes_no
     answer_open(run)
     began = time.monotonic()
     wait_for("another owner", lambda: drive.advance_site(SITE), every_s=0.1)
-    assert time.monotonic() - began < 8
+    assert time.monotonic() - began < 12, "a lease of 5 s, a session of 3 s, and what a busy machine adds"
     wait_told(run, 2)
     fences = [command.fence for command in told(run)]
     assert fences == sorted(set(fences))
@@ -90,14 +91,23 @@ def test_a_frozen_owner_is_replaced_and_what_it_decides_when_it_thaws_changes_no
     assert Counter(command.step for command in told(run)) == {"s0": 1, "s1": 1, "s2": 1}
 
 
-def test_an_owner_that_was_frozen_until_its_session_was_ended_sets_nothing_aside(owners, tmp_path):
-    run = start(heating(2))
+@pytest.mark.parametrize(
+    ("plan", "end"),
+    [
+        pytest.param(limited(), lambda: None, id="by PostgreSQL, behind a statement"),
+        pytest.param(heating(2), end_frozen_sessions, id="by the ticker, behind a pipeline"),
+        pytest.param(heating(2), lambda: drive.advance_site(SITE), id="by the next owner, behind a pipeline"),
+    ],
+)
+def test_an_owner_that_was_frozen_until_its_session_was_ended_sets_nothing_aside(owners, tmp_path, settings, plan, end):
+    settings.FROZEN_AFTER_S = 1
+    run = start(plan)
     frozen = owners(*OWNER, "60", "30", VIPO_FAULTS=str(tmp_path))
     wait_told(run, 1)
     (tmp_path / "before_commit").write_text("freeze")
     answer_open(run)
     wait_for("the frozen transaction", lambda: is_frozen(frozen) and "idle in transaction" in sessions())
-    wait_for("the end of its session", lambda: "idle in transaction" not in sessions())
+    wait_for("the end of its session", lambda: end() or "idle in transaction" not in sessions())
     frozen.send_signal(signal.SIGCONT)
     assert frozen.communicate(timeout=60)[0] == b"False\n"
     expire()
