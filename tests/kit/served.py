@@ -22,7 +22,7 @@ from tests.kit.waiting import PATIENCE_S, wait_for
 
 SPEED = 6
 WEB = ["-m", "daphne", "-b", "127.0.0.1", "--websocket-max-message-size", "16777216"]
-_CELERY = ["-m", "celery", "-A", "vipo_site", "worker", "--pool", "threads", "--loglevel", "INFO"]
+_CELERY = ["-m", "celery", "-A", "vipo_site", "worker", "--loglevel", "INFO"]
 WORKER = [*_CELERY, "-Q", "runs", "--concurrency", "4"]
 REHEARSALS = [*_CELERY, "-Q", "rehearsals,upkeep"]
 

@@ -16,6 +16,8 @@ from execution.fault_points import GATEWAY_POINTS, OWNER_POINTS
 from tests.integration.breaking.chaos.plant import Plant
 
 PAST_LEASE_S = 7.0
+FROZEN_S = (PAST_LEASE_S, 20.0)
+"""At a named point: past its lease, and so long that others have to end what it holds."""
 LOOK_EVERY_S = 0.05
 PATIENCE_S = 240.0
 OUT_S = (0.0, 2.0)
@@ -38,13 +40,13 @@ class Fault:
 def at_point(point: str, what: str) -> Fault:
     """Let the first process that comes to a point die there, or sleep past its lease."""
 
-    def carry_out(plant: Plant, _chance: Random) -> None:
+    def carry_out(plant: Plant, chance: Random) -> None:
         if point.endswith("hand_over"):
             _ask_to_go(plant)
         wait(plant, f"{what} at {point}", lambda: not (plant.faults / point).exists())
         if what == "freeze":
             wait(plant, f"{point} freezes", lambda: any(map(plant.is_frozen, plant.processes)))
-            pause(plant, PAST_LEASE_S)
+            pause(plant, chance.choice(FROZEN_S))
             _thaw(plant)
 
     return Fault(f"{what} {point}", carry_out, point)
@@ -117,10 +119,24 @@ def _cut_devices(plant: Plant, chance: Random) -> None:
     pause(plant, longest)
 
 
+def freeze_server(kind: str) -> Fault:
+    """Let a server that everybody talks to say nothing for a while, and keep its connections."""
+
+    def carry_out(plant: Plant, _chance: Random) -> None:
+        server = plant.mosquitto.process if kind == "mosquitto" else plant.redis.process
+        assert server is not None
+        server.send_signal(signal.SIGSTOP)
+        pause(plant, PAST_LEASE_S)
+        server.send_signal(signal.SIGCONT)
+
+    return Fault(f"freeze {kind}", carry_out)
+
+
 NAMED = [at_point(point, what) for point in (*OWNER_POINTS, *GATEWAY_POINTS) for what in ("kill", "freeze")]
 AT_RANDOM = [
     *map(kill, ("worker-1", "worker-2", "gateway-1", "gateway-2", "ticker", "load", "devices")),
     *map(freeze, ("worker-1", "worker-2", "gateway-1", "gateway-2", "ticker", "devices")),
+    *map(freeze_server, ("redis", "mosquitto")),
     Fault("restart redis", _restart_redis),
     Fault("flush redis", _flush_redis),
     Fault("restart mosquitto", _restart_mosquitto),
