@@ -88,7 +88,7 @@ class Served:
 
 def wait_or_kill(process: subprocess.Popen[bytes]) -> int:
     try:
-        return process.wait(15)
+        return process.wait(PATIENCE_S)
     except subprocess.TimeoutExpired:
         process.kill()
         return process.wait()
