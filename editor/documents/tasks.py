@@ -57,13 +57,17 @@ class Comparing:
     appended: tuple[bytes, ...]
 
     def done(self) -> Differences:
-        """Compare them. Raises BadUpdate."""
+        """Compare them; what is stored may build on what only the other one has. Raises BadUpdate."""
         kept, document = SharedDocument(self.stored), SharedDocument([self.here])
+        missing = b""
         if kept.has_hole(self.appended):
-            return Differences(b"", b"", has_hole=True)
+            missing = document.encode(kept.state())
+            kept = SharedDocument([*self.stored, missing])
+            if kept.has_hole(self.appended):
+                return Differences(b"", b"", has_hole=True)
         known_there, known_here = kept.knowledge(), document.knowledge()
         return Differences(
-            b"" if known_there.covers(known_here) else document.encode(kept.state()),
+            missing or (b"" if known_there.covers(known_here) else document.encode(kept.state())),
             b"" if known_here.covers(known_there) else kept.encode(document.state()),
             has_hole=False,
         )

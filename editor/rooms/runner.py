@@ -49,6 +49,7 @@ COMPARE_EVERY_S = 30.0
 BEAT_EVERY_S = 10.0
 SILENT_AFTER_S = 75.0
 RETRY_AFTER_S = 1.0
+FOLD_AGAIN_AFTER_S = 30.0
 LARGE_BYTES = 50_000
 PAUSE_EVERY_S = 0.005
 HASHED_AT_ONCE = 200
@@ -346,7 +347,7 @@ class OpenRoom:
         """Fold the rows if they are many; what people draw meanwhile is saved as ever."""
         if not self._is_long:
             return
-        self._compacted = self._row
+        before, self._compacted = self._compacted, self._row
         loop = asyncio.get_running_loop()
 
         def fold(folding: Folding) -> Folded:
@@ -357,4 +358,10 @@ class OpenRoom:
             async with self._folding:
                 await in_database(compact_document)(self.room.program, fold)
         except (DatabaseError, SnapshotDiffers, DocumentHole, BadUpdate, NoSuchProgram) as error:
-            log.warning("Program %s was not compacted: %s", self.room.program, error)
+            log.warning("Program %s was not compacted; it is tried again: %s", self.room.program, error)
+            asyncio.get_running_loop().call_later(FOLD_AGAIN_AFTER_S, self._fold_again, before)
+
+    def _fold_again(self, compacted: int) -> None:
+        self._compacted = min(compacted, self._compacted)
+        if not self._ended:
+            self.wake()

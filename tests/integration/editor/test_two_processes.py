@@ -10,6 +10,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
+import psycopg
 import pytest
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
@@ -19,6 +20,7 @@ from tests.integration.editor.node_clients import node_clients
 from tests.integration.editor.web_pairs import Pair, running_pair
 from tests.kit.files import ROOT
 from tests.kit.servers import Redis, free_port
+from tests.kit.waiting import wait_for
 from tests.kit.web import Web, environment
 
 
@@ -62,6 +64,31 @@ def test_a_process_that_dies_leaves_nothing_behind_that_was_saved(pair: Pair) ->
         pair.one.start()
         clients.tell("converged")
         assert sorted(clients.tell("steps", name="ada")["steps"]) == ["s1", "s2"]
+
+
+@pytest.mark.servers
+def test_a_room_gives_the_database_what_its_rows_build_on_and_nobody_is_sent_away(pair: Pair) -> None:
+    """Who made the first row was killed before it was stored, after the other room had heard of it."""
+    program = pair.one.new_program()
+    with node_clients(pair.one, program) as clients, psycopg.connect(pair.database_url, autocommit=True) as database:
+        clients.open("ada", "author", pair.one)
+        for step in ("s1", "s2"):
+            clients.tell("add", name="ada", id=step)
+            clients.tell("saved", name="ada")
+        database.execute(
+            "DELETE FROM editor_documentupdate WHERE program_id = %s AND seq ="
+            " (SELECT min(seq) FROM editor_documentupdate WHERE program_id = %s)",
+            (program, program),
+        )
+        database.execute("UPDATE editor_program SET last_seq = last_seq + 1 WHERE id = %s", (program,))
+        with pair.one.client("viewer") as viewer:
+            path = f"/programs/{program}/document"
+            wait_for("whole rows", lambda: sorted(viewer.get(path).json().get("steps", ())) == ["s1", "s2"])
+        clients.tell("add", name="ada", id="s3")
+        clients.tell("saved", name="ada")
+        assert clients.tell("closed_for_good", name="ada")["closed"] is None
+        clients.open("bob", "second", pair.two)
+        assert sorted(clients.tell("steps", name="bob")["steps"]) == ["s1", "s2", "s3"]
 
 
 @contextmanager
