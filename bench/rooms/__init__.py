@@ -12,6 +12,7 @@ import subprocess
 import tempfile
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
@@ -23,7 +24,8 @@ from tests.integration.editor.node_clients import MODULES
 from tests.kit.servers import find_program
 
 Json = dict[str, Any]
-SECONDS, JOINS, SAVES, FLOODS = 4, 10, 40, 10
+SECONDS, JOINS, SAVES, FLOODS, BESIDE_S = 4, 10, 40, 10, 6
+FLOODS_OF = ("texts", "updates", "asks", "states", "presence", "noise")
 REST_S = 6
 """Then the room is closed, since nobody is in it."""
 READERS, LARGE = 300, 4_900
@@ -56,6 +58,7 @@ def _measure_server(running: AbstractContextManager[Server]) -> Iterator[dict[st
         if server.webs:
             yield from _saves(server)
             yield from _flood(server)
+            yield from _beside_floods(server)
             yield from _opening(server)
 
 
@@ -112,6 +115,37 @@ def _flood(server: Server) -> Iterator[dict[str, object]]:
     yield figure("memory after a flood", server.memory_mb(), "MB", **more)
 
 
+def _beside_floods(server: Server) -> Iterator[dict[str, object]]:
+    """What two people who draw feel of a third, who sends as much of one kind as goes out: somebody else each time."""
+    for number, kind in enumerate(("nothing", *FLOODS_OF)):
+        room = server.new_room(f"beside {kind}")
+        with ThreadPoolExecutor(1) as pool:
+            if kind == "nothing":
+                flooding = None
+            else:
+                flooding = pool.submit(
+                    _clients, server, "flooding", room, kind=kind, seconds=BESIDE_S + 3, person=AUTHORS - number
+                )
+                time.sleep(1.5)
+            seen = _clients(server, "together", room, writers=2, readers=0, perSecond=10, seconds=BESIDE_S)
+            told = flooding.result() if flooding else {"codes": {}, "sent": 0}
+        more = {
+            "server": server.name,
+            "sent": told["sent"],
+            "closed_with": told["codes"],
+            "server_cpu_s": seen["cpu_s"],
+        }
+        yield figure(
+            f"beside a flood of {kind}: updates that arrived", len(seen["delays_ms"]) / seen["wanted"], "share"
+        )
+        for name, quantile in (("p50", 0.5), ("p99", 0.99)):
+            yield figure(
+                f"beside a flood of {kind}: from an edit to another's screen, {name}",
+                share(seen["delays_ms"], quantile), "ms", **more,
+            )  # fmt: skip
+    time.sleep(REST_S)
+
+
 def _opening(server: Server) -> Iterator[dict[str, object]]:
     """In a process that has not seen the program yet."""
     room, other, web = server.new_room("large"), server.new_room("small"), server.webs[0]
@@ -128,7 +162,10 @@ def _clients(server: Server, mode: str, room: str = "", **more: Any) -> Json:
     """Let the clients do their part; return what they saw, and how long the server was at work meanwhile."""
     writers, readers = more.get("writers", 1), more.get("readers", 0)
     viewers = server.people[AUTHORS:]
-    sessions = server.people[:writers] + [viewers[number % VIEWERS] for number in range(readers) if viewers]
+    first = more.pop("person", 0)
+    sessions = server.people[first : first + writers] + [
+        viewers[number % VIEWERS] for number in range(readers) if viewers
+    ]
     config = {
         "mode": mode, "server": server.name, "ports": server.ports, "path": server.path, "site": "/ws/site/hall",
         "room": room or server.new_room(f"{mode} {more}"[:80]), "sessions": sessions, **more,

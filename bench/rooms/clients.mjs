@@ -265,11 +265,39 @@ async function flood() {
   return { codes };
 }
 
+const FLOODS = {
+  texts: (client, n) => client.doc.getMap("parameters").set("big", String(n % 10).repeat(1_000_000)),
+  updates: (client, n) => client.doc.transact(() => client.doc.getMap("parameters").set(`p${n % 50}`, n)),
+  asks: (client) => client.socket.send(Uint8Array.of(3)),
+  states: (client) => client.socket.send(Uint8Array.of(0, 0, 1, 0)),
+  presence: (client, n) => client.provider.awareness.setLocalState({ cursor: [n, n], noise: "x".repeat(2000) }),
+  noise: (client, n) => client.socket.send(new Uint8Array(20_000).fill(n % 251)),
+};
+
+/** As much of one kind as goes out, as somebody who comes again whenever they are cut off, until nobody listens. */
+async function flooding() {
+  const codes = {};
+  let sent = 0;
+  await say("begin");
+  for (const end = performance.now() + 1000 * config.seconds; performance.now() < end; await rest(100)) {
+    const client = open({});
+    client.provider.on("connection-close", (event) => event && (codes[event.code] = (codes[event.code] ?? 0) + 1));
+    await until("the join", () => client.provider.synced || performance.now() > end).catch(() => {});
+    for (let n = 0; client.socket.readyState === 1 && performance.now() < end; n += 1, sent += 1) {
+      FLOODS[config.kind](client, n);
+      if (n % 20 === 19 || config.kind === "texts") await rest(1);
+    }
+    client.provider.destroy();
+  }
+  await say("end");
+  return { codes, sent };
+}
+
 async function only() {
   await fill(config.steps);
   await rest(2500);
   return {};
 }
 
-await say(await { together, joining, saving, opening, flood, only }[config.mode]());
+await say(await { together, joining, saving, opening, flood, flooding, only }[config.mode]());
 process.exit(0);
