@@ -126,20 +126,21 @@ def _edit(path: str) -> dict[str, object]:
     """Change a step of a program that is open in a room, and check it as its runner does."""
     from bench.programs import make_program, with_step
     from editor import services
+    from editor.language import compiled_to_json
     from editor.language.compiler import EditedProgram
-    from editor.programs.checking import check_document, read_around
+    from editor.programs.checking import build_surroundings
     from editor.programs.compiled_patch import make_patch
     from tests.kit.sites import make_hall
 
     make_hall()
     before = make_program(40)
-    program = str(services.create_program(site="hall", name="Edited", document=before).id)
-    around, edited = read_around(program), EditedProgram()
-    first = check_document(before, around, edited)
+    services.create_program(site="hall", name="Edited", document=before)
+    around, edited = build_surroundings(site="hall"), EditedProgram()
+    first = compiled_to_json(edited.look(before, around).compiled(with_plan=False), 1)
     after = with_step(before, "s0", {**before["steps"]["s0"], "pos": [9, 9]})
     with _files_called() as files:
-        checked = check_document(after, around, edited)
-        make_patch(first.form, checked.form)
+        form = compiled_to_json(edited.look(after, around).compiled(with_plan=False), 2)
+        make_patch(first, form)
     return _figure(path, files)
 
 

@@ -4,6 +4,7 @@ from editor.documents.mending import Mending, mend_program, restore_rows, show_m
 from editor.documents.store import Change, get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram
 from editor.programs.checking import build_surroundings
+from editor.programs.drawn_script import DrawnScript
 from editor.programs.library import get_function, save_function, search_library
 from editor.programs.one_line import ExpressionView, print_expression, read_expression
 from editor.programs.programs import (
@@ -21,7 +22,7 @@ from editor.programs.programs import (
     rename_program,
     seed_programs,
 )
-from editor.programs.scripts import DrawnScript, draw_script
+from editor.programs.scripts import draw_script
 from editor.programs.views import AuthorView, LibraryView, ProgramView, VersionView
 
 __all__ = [

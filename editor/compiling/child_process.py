@@ -16,7 +16,8 @@ import traceback
 from typing import Any, BinaryIO
 
 from editor.compiling.frames import BEAT, HEAD, decode_body, encode_frame
-from editor.compiling.workbench import DocumentTask, Fault, Job, Workbench
+from editor.compiling.workbench import Fault, Job, Workbench
+from editor.documents.work import DocumentTask
 from registry.floorplan.plan import FloorPlan
 
 __all__ = ["FloorPlan"]  # read here, and not with the first job that brings one: it takes half a second

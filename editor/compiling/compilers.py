@@ -15,9 +15,10 @@ from typing import Any, TypeVar
 
 from editor.compiling.feeding import Wanted
 from editor.compiling.lane import GaveWay, Lane, Lost, NotStarted, TookTooLong
-from editor.compiling.workbench import DocumentTask, Found
+from editor.compiling.workbench import Found
 from editor.documents.slices import Cutting, CutUpdate
 from editor.documents.tasks import CuttingTask, Refusal
+from editor.documents.work import DocumentTask
 from editor.documents.yjs_encoding import BadFrame
 
 log = logging.getLogger(__name__)

@@ -16,7 +16,8 @@ from typing import Any
 
 from editor.compiling.feeding import Feeding, Wanted
 from editor.compiling.frames import HEAD, decode_body, encode_frame
-from editor.compiling.workbench import DocumentTask, Fault, Found
+from editor.compiling.workbench import Fault, Found
+from editor.documents.work import DocumentTask
 from registry.services import sigint_blocked
 
 log = logging.getLogger(__name__)

@@ -10,7 +10,7 @@ import pickle
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Protocol, TypeVar
+from typing import Any
 
 from editor.documents.shared_document import SharedDocument
 from editor.language import compiled_to_json
@@ -21,7 +21,6 @@ from editor.programs.compiled_patch import apply_patch, make_patch
 from editor.programs.summary import Summary, summary_of
 
 Form = Mapping[str, Any]
-Said = TypeVar("Said", covariant=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,13 +54,6 @@ class Found:
     summary: Summary
     state: bytes
     took_s: float
-
-
-class DocumentTask(Protocol[Said]):
-    """Work on a document that has to do with no check."""
-
-    def done(self) -> Said:
-        """Do it, and return what there is to say."""
 
 
 @dataclass(frozen=True, slots=True)

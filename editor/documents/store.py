@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -12,14 +13,16 @@ from uuid import UUID
 from django.db import transaction
 from django.db.models import Value
 
+from editor.documents import work
 from editor.documents.shared_document import BadUpdate, SharedDocument, clients_of, merge
-from editor.documents.tasks import Folded, Folding
+from editor.documents.tasks import Folded, Folding, Reading
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import DocumentUpdate, Program, Snapshot
 
 COMPACT_AFTER_ROWS = 500
 MOST_ROW_BYTES = 128 * 1024
 """Of changes that are gathered; one that is larger is a row by itself."""
+_BYTES_OF_A_STEP = 100
 _MISSING = "A part of this program is missing in the database."
 _UNREADABLE = "A part of this program in the database cannot be read."
 _MENDED = "`vipo mend-program` shows what is left."
@@ -47,6 +50,11 @@ class Stored:
     def appended(self) -> tuple[bytes, ...]:
         """The updates after the snapshot."""
         return self.updates[self.compacted > 0 :]
+
+    @property
+    def size(self) -> int:
+        """About how many steps it holds."""
+        return sum(map(len, self.updates)) // _BYTES_OF_A_STEP
 
     def open(self, more: Iterable[bytes] = ()) -> SharedDocument:
         """Return the document, with further updates. Raises DocumentHole."""
@@ -80,9 +88,12 @@ def get_document(*, program_id: UUID | str) -> dict[str, Any]:
     """Return a program's document as it is now, as plain JSON in today's format. Raises NoSuchProgram, DocumentHole."""
     for flush in _flushes:
         flush(str(program_id))
-    document = load_document(str(program_id)).open()
-    document.migrate()
-    return document.to_json()
+    stored = load_document(str(program_id))
+    read = work.do(Reading(stored.updates, stored.appended), stored.size)
+    if read.has_hole or not read.is_readable:
+        raise DocumentHole(f"{_MISSING if read.has_hole else _UNREADABLE} {_MENDED}")
+    plain: dict[str, Any] = json.loads(read.text)
+    return plain
 
 
 def load_document(program_id: str) -> Stored:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 
-from editor.documents.shared_document import ROOTS_AS_BYTES, Entry, SharedDocument, clients_of
+from editor.documents.knowledge import Knowledge
+from editor.documents.shared_document import ROOTS_AS_BYTES, BadUpdate, Entry, SharedDocument, clients_of
 from editor.documents.slices import Cutting, CutUpdate, Slice, cut_update
 from editor.documents.yjs_encoding import BadFrame
 from editor.documents.yjs_updates import MOST_CLIENTS_EVER
@@ -46,6 +48,51 @@ class Opened:
     hashes: dict[Entry, int]
     migrated: bool
     has_hole: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A document that is to be read from updates; of the `appended` ones none may build on what is missing."""
+
+    updates: tuple[bytes, ...]
+    appended: tuple[bytes, ...]
+
+    def done(self) -> PlainDocument:
+        """Read it, in today's format."""
+        try:
+            document = SharedDocument(self.updates)
+        except BadUpdate:
+            return PlainDocument("", is_readable=False)
+        if document.has_hole(self.appended):
+            return PlainDocument("", has_hole=True)
+        document.migrate()
+        return PlainDocument(json.dumps(document.to_json()))
+
+
+@dataclass(frozen=True, slots=True)
+class PlainDocument:
+    """A document in its plain form, as JSON; there is none with a hole, or of what cannot be read."""
+
+    text: str
+    has_hole: bool = False
+    is_readable: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Covering:
+    """What somebody has seen of a document that is stored as updates; is all of it there?"""
+
+    updates: tuple[bytes, ...]
+    appended: tuple[bytes, ...]
+    seen: Knowledge
+
+    def done(self) -> bool:
+        """Look. What builds on what is missing is not there, nor what cannot be read."""
+        try:
+            document = SharedDocument(self.updates)
+        except BadUpdate:
+            return False
+        return not document.has_hole(self.appended) and document.knowledge().covers(self.seen)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,8 +9,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from editor.errors import NoSuchProgram
-from editor.language import Compiled, compiled_to_json
-from editor.language.compiler import EditedProgram
 from editor.language.reading.well_formed import well_formed_function
 from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
 from editor.models import LibraryFunction, LibraryUse, LibraryVersion, Program
@@ -68,21 +66,6 @@ def _floor(site: str) -> FloorFacts | None:
         return None
 
 
-@dataclass(frozen=True, slots=True)
-class Checked:
-    """What a check of a document found, and the fingerprint of what it was checked against."""
-
-    document: Mapping[str, Any]
-    compiled: Compiled
-    revision: int
-    against: str
-
-    @property
-    def form(self) -> dict[str, object]:
-        """The compiled program as docs/shapes/compiled.md shows it."""
-        return compiled_to_json(self.compiled, self.revision)
-
-
 def new_revision() -> int:
     """Return a number for a look at a document, in microseconds: no two looks share one, in whatever process."""
     return time.time_ns() // 1_000
@@ -103,13 +86,6 @@ def read_around(program_id: str) -> Around:
         raise NoSuchProgram("There is no such program. It may have been deleted.")
     surroundings = build_surroundings(site=site)
     return Around(surroundings, fingerprint_of(surroundings))
-
-
-def check_document(document: Mapping[str, Any], around: Around, edited: EditedProgram) -> Checked:
-    """Check and print a program's document; `edited` has what was found when it was looked at last."""
-    revision = new_revision()
-    compiled = edited.look(document, around.surroundings).compiled(with_plan=False)
-    return Checked(document, compiled, revision, around.fingerprint)
 
 
 def store_summary(program_id: str, summary: Summary, against: str) -> bool:

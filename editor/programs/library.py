@@ -12,11 +12,11 @@ from django.db.models import Count, Q, QuerySet
 from editor.documents.shared_document import empty_document, migrate_document
 from editor.documents.store import get_document
 from editor.errors import BadRequest, NoSuchProgram
-from editor.language import compile_document
 from editor.language.document.format_migrations import FORMAT
 from editor.language.reading.well_formed import well_formed, well_formed_function
 from editor.models import LibraryFunction, LibraryVersion, Program
 from editor.programs.checking import build_surroundings
+from editor.programs.compilations import print_program
 from editor.programs.views import LibraryView, view_author
 from registry import services as registry
 from registry.services import FIRST, Listed, Part
@@ -88,7 +88,7 @@ def print_function(definition: Mapping[str, Any], site: str) -> str:
     functions = {definition["id"]: definition["function"], **definition["functions"]}
     migrated = migrate_document(definition)
     document = {**empty_document(), "functions": functions, "steps": migrated["steps"]}
-    return compile_document(document, build_surroundings(site=site)).script
+    return print_program(document, build_surroundings(site=site))
 
 
 def search_library(*, sites: Iterable[str], query: str = "", part: Part = FIRST) -> Listed[LibraryView]:

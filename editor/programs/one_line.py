@@ -7,7 +7,6 @@ from typing import Any
 from uuid import UUID
 
 from editor.documents.store import get_document
-from editor.language import compile_document
 from editor.language.expressions.names import member_name
 from editor.language.expressions.printing import quote
 from editor.language.expressions.units import is_measure
@@ -15,6 +14,7 @@ from editor.language.one_line.scope import LineScope, make_line_scope
 from editor.language.one_line.values import NotUnderstood, parse_line, print_line, type_of_line
 from editor.language.tree.robots import readings_told, short_reading
 from editor.programs.checking import build_surroundings
+from editor.programs.compilations import print_program
 from editor.programs.programs import get_program
 from vipo_device.protocol.texts import cleaned_json
 
@@ -88,7 +88,7 @@ def _view(value: Any, text: str, line: LineScope, *, names: bool) -> ExpressionV
 def _scope(program_id: UUID | str, step: str) -> LineScope:
     document = get_document(program_id=program_id)
     surroundings = build_surroundings(site=get_program(program_id=program_id).site)
-    return make_line_scope(document, surroundings, compile_document(document, surroundings).script, step)
+    return make_line_scope(document, surroundings, print_program(document, surroundings), step)
 
 
 _KINDS = {"get": "device", "place": "place", "zone": "zone"}

@@ -23,19 +23,9 @@ from editor.documents.shared_document import (
 )
 from editor.documents.store import get_document
 from editor.errors import BadRequest, DocumentHole, NoSuchProgram
-from editor.language import Compiled, Surroundings, compile_document, compiled_to_json
-from editor.language.compiler import EditedProgram
 from editor.models import Program, Snapshot, Version
-from editor.programs.checking import (
-    Checked,
-    build_surroundings,
-    check_document,
-    fingerprint_of,
-    new_revision,
-    read_around,
-    store_summary,
-)
-from editor.programs.summary import summary_of
+from editor.programs.checking import build_surroundings, fingerprint_of, new_revision, read_around, store_summary
+from editor.programs.compilations import Compilation, compile_program, print_program
 from editor.programs.views import ProgramView, VersionView, view_author
 from registry import services as registry
 from registry.services import FIRST, Listed, Part, publish
@@ -102,13 +92,14 @@ def delete_program(*, program_id: UUID | str) -> None:
 
 def get_compiled(*, program_id: UUID | str) -> dict[str, object]:
     """Return a program compiled as it is now, as JSON. Raises NoSuchProgram."""
-    return _check(str(program_id), get_document(program_id=program_id)).form
+    return _check(str(program_id), get_document(program_id=program_id)).compiled()
 
 
-def _check(program_id: str, document: Mapping[str, Any]) -> Checked:
-    checked = check_document(document, read_around(program_id), EditedProgram())
-    store_summary(program_id, summary_of(checked.document, checked.compiled), checked.against)
-    return checked
+def _check(program_id: str, document: Mapping[str, Any]) -> Compilation:
+    around = read_around(program_id)
+    compilation = compile_program(document, around.surroundings, revision=new_revision())
+    store_summary(program_id, compilation.summary, around.fingerprint)
+    return compilation
 
 
 def list_versions(*, program_id: UUID | str, part: Part = FIRST) -> Listed[VersionView]:
@@ -141,7 +132,7 @@ def pin_version(*, program_id: UUID | str, user: Any, message: str = "") -> Vers
     """
     document = get_document(program_id=program_id)
     digest = digest_of(document)
-    script = compile_document(document, build_surroundings(site=_find(program_id).site.slug)).script
+    script = print_program(document, build_surroundings(site=_find(program_id).site.slug))
     with transaction.atomic():
         program = Program.objects.select_for_update().filter(pk=program_id).first()
         if program is None:
@@ -167,14 +158,15 @@ def _add_version(program: Program, user: Any, message: str, document: dict[str, 
     )
 
 
-def compile_version(*, version: VersionView, surroundings: Surroundings | None = None) -> Compiled:
-    """Compile a version for its site as that is now, or for the surroundings given."""
-    return compile_document(version.document, surroundings or build_surroundings(site=version.site))
+def compile_version(*, version: VersionView) -> Compilation:
+    """Compile a version for its site as that is now, with its plan."""
+    return compile_program(version.document, build_surroundings(site=version.site), with_plan=True)
 
 
 def compile_version_to_json(*, version: VersionView) -> dict[str, object]:
     """Compile a version for its site as that is now, as JSON."""
-    return compiled_to_json(compile_version(version=version), new_revision())
+    surroundings = build_surroundings(site=version.site)
+    return compile_program(version.document, surroundings, revision=new_revision()).compiled()
 
 
 def _find(program_id: UUID | str) -> Program:

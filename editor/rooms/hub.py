@@ -10,6 +10,7 @@ import uuid
 import weakref
 from collections import defaultdict
 from collections.abc import Callable, Coroutine
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,6 +22,7 @@ from django.db import DatabaseError
 from editor.compiling.compilers import Compilers
 from editor.documents.shared_document import BadUpdate
 from editor.documents.store import flush_before_reading
+from editor.documents.work import DocumentTask, have_done_by
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import Program
 from editor.programs.checking import DeviceWatch
@@ -41,6 +43,7 @@ CLOSE_EMPTY_AFTER_S = 5.0
 FLUSH_LIMIT_S = 5.0
 END_LIMIT_S = 5.0
 TELL_LIMIT_S = 5.0
+WORK_LIMIT_S = 30.0
 FINISH_LIMIT_S = 30.0
 MOST_CONNECTIONS, MOST_OF_PERSON = 5_000, 40
 _HEARD = {"device", "device_removed", "map", "programs", "library", "hello"}
@@ -166,6 +169,10 @@ class Hub:
             opened.room.wake()
             await opened.save()
 
+    async def do(self, task: DocumentTask[Any]) -> Any:
+        """Have work on a document done in a child process; None where that fails."""
+        return await self._shared.compilers.do(task)
+
     async def close(self) -> None:
         """Keep everything and end."""
         if self._stop_listening:
@@ -233,6 +240,7 @@ def hub_of_this_loop() -> Hub:
     loop = asyncio.get_running_loop()
     if loop not in _hubs:
         flush_before_reading(flush_program)
+        have_done_by(do_in_child_process)
         _hubs[loop] = Hub(make_stream(settings.VIPO_STREAM_URL), make_hold_offs(settings.VIPO_STREAM_URL))
     return _hubs[loop]
 
@@ -248,6 +256,14 @@ def flush_program(program_id: str) -> None:
     """Write into the database what this process's room of a program still holds; not to be called on an event loop."""
     for loop, hub in hubs_elsewhere():
         asyncio.run_coroutine_threadsafe(hub.flush(program_id), loop).result(FLUSH_LIMIT_S)
+
+
+def do_in_child_process(task: DocumentTask[Any]) -> Any:
+    """Have work on a document done in a child process; None where that fails. Not to be called on an event loop."""
+    for loop, hub in hubs_elsewhere():
+        with suppress(TimeoutError, RuntimeError):  # the loop may just end
+            return asyncio.run_coroutine_threadsafe(hub.do(task), loop).result(WORK_LIMIT_S)
+    return None
 
 
 def tell_rooms(program_id: str, origin: str, note: Note) -> None:

@@ -18,14 +18,16 @@ from uuid import UUID
 from django.db import transaction
 from django.utils import timezone
 
+from editor.documents import work
 from editor.documents.knowledge import decode_snapshot
 from editor.documents.shared_document import digest_of, migrate_document
 from editor.documents.store import Change, append_changes, get_document, last_row, load_document
+from editor.documents.tasks import Covering
 from editor.documents.yjs_encoding import BadFrame
 from editor.errors import BadRequest, EditorError, NotStored
-from editor.language import compile_document
 from editor.models import Program
 from editor.programs.checking import build_surroundings
+from editor.programs.compilations import print_program
 from editor.programs.programs import get_compiled, get_program
 from editor.programs.scripts import draw_script
 from editor.rooms.hub import tell_rooms
@@ -82,7 +84,7 @@ class Content:
 def read_content(*, program_id: UUID | str) -> Content:
     """Return what a program holds now. Raises NoSuchProgram."""
     document = get_document(program_id=program_id)
-    script = compile_document(document, build_surroundings(site=get_program(program_id=program_id).site)).script
+    script = print_program(document, build_surroundings(site=get_program(program_id=program_id).site))
     tag = hashlib.sha256(f"{digest_of(document)} {script}".encode()).hexdigest()[:32]
     return Content(document, script, f'"{tag}"')
 
@@ -158,9 +160,11 @@ def ensure_stored(*, program_id: UUID | str, seen: bytes) -> None:
     while True:
         now = last_row(str(program_id))
         if now != rows:  # a large program is put together only when there is something new
-            if load_document(str(program_id)).open().knowledge().covers(wanted):
+            stored = load_document(str(program_id))
+            if work.do(Covering(stored.updates, stored.appended, wanted), stored.size):
                 return
             rows = now
         if time.monotonic() > ends:
+            load_document(str(program_id)).open()
             raise NotStored(_NOT_STORED)
         time.sleep(LOOK_AGAIN_S)

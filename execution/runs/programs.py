@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 from uuid import UUID
 
 from editor import services as editor
-from editor.language import Diagnostic, compiled_to_json, plan_to_json
+from editor.language import Diagnostic
 from editor.language.reading.names import by_id, read_parameters
 from execution.errors import NotReady
 from execution.runs.parameters import Surrounding, fit_parameters
@@ -45,17 +46,17 @@ def prepare(*, program_id: UUID, user: Any, parameters: Mapping[str, Any]) -> Pr
     version = editor.pin_version(program_id=program_id, user=user)
     compiled = editor.compile_version(version=version)
     if compiled.plan is None:
-        raise _not_ready([d for d in compiled.diagnostics if d.severity == "error"])
+        raise _not_ready(compiled.errors)
     _, names = read_parameters(by_id(version.document.get("parameters")).items())
-    fitting = fit_parameters(compiled.tree.parameters, names, parameters, _around(program.site))
+    fitting = fit_parameters(compiled.parameters, names, parameters, _around(program.site))
     return Prepared(
         program=program_id,
         site=program.site,
         name=program.name,
         version=version.number,
         document=version.document,
-        compiled=compiled_to_json(compiled),
-        plan=plan_to_json(compiled.plan),
+        compiled=compiled.compiled(),
+        plan=json.loads(compiled.plan),
         parameters=fitting,
     )
 

@@ -53,3 +53,38 @@ async def test_edits_are_shown_though_the_processes_that_check_are_killed_and_th
             assert 1 <= len(children_of(web.process.pid)) <= 5
             for pid in children_of(web.process.pid):
                 os.kill(pid, signal.SIGKILL)
+
+
+def work_s(pid: int) -> float:
+    """Return how long a process has computed."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+async def test_a_large_program_is_compiled_for_a_request_beside_the_web_process_and_here_when_that_dies(
+    web: Web,
+) -> None:
+    assert web.process is not None
+    program, names = web.new_program(), [f"s{number:04}" for number in range(2000)]
+
+    def ask() -> tuple[str, list[str]]:
+        with web.client("author") as client:
+            script = client.get(f"/programs/{program}/script").text
+            compiled = client.get(f"/programs/{program}/compiled")
+            assert compiled.status_code == 200, compiled.text
+            return script, compiled.json()["order"]
+
+    async with looking(web, program) as ada:
+        await add(ada, *names)
+        await ada.sees(*names)
+        asked = await asyncio.to_thread(ask)
+        children = children_of(web.process.pid)
+        before, beside = work_s(web.process.pid), sum(map(work_s, children))
+        for _ in range(5):
+            assert await asyncio.to_thread(ask) == asked
+        here, beside = work_s(web.process.pid) - before, sum(map(work_s, children)) - beside
+        for pid in children:
+            os.kill(pid, signal.SIGKILL)
+        assert await asyncio.to_thread(ask) == asked
+    assert (asked[0].count("wait"), asked[1]) == (2000, names)
+    assert beside > here, (beside, here)
