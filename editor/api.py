@@ -73,6 +73,7 @@ class ProgramShape(Schema):
     site: str
     kinds: StepKinds
     devices: list[str]
+    places: list[str]
     edited_at: datetime
     edited_by: Author | None
     errors: int

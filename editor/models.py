@@ -23,6 +23,7 @@ class Program(models.Model):
     last_version = models.PositiveIntegerField(default=0)
     kinds = models.JSONField(default=list)
     devices = models.JSONField(default=list)
+    places = models.JSONField(default=list)
     errors = models.PositiveIntegerField(default=0)
     warnings = models.PositiveIntegerField(default=0)
     checked_against = models.CharField(max_length=64, blank=True)

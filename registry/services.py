@@ -78,6 +78,7 @@ from registry.devices.samples import flush_samples, note_samples, prune_samples
 from registry.devices.states import StateMessage, ingest_state, ingest_states
 from registry.devices.views import DeviceView, device_to_json
 from registry.live.fanout import EVERY_SITE, Message, Outage, listen, publish, publish_all, wait_wake, wake
+from registry.maps.places import PlaceChange, add_place, change_place, find_place, remove_place
 from registry.maps.robot_map_parts import ingest_map_part
 from registry.maps.robot_maps import NoRobotMap, RobotMapFacts, RobotMapView, get_robot_map, get_robot_map_facts
 from registry.maps.site_maps import (
@@ -173,6 +174,7 @@ __all__ = [
     "NotRetired",
     "Outage",
     "Part",
+    "PlaceChange",
     "PlaceView",
     "Places",
     "PointView",
@@ -196,10 +198,12 @@ __all__ = [
     "TopicNotAsked",
     "TopicTaken",
     "account_file",
+    "add_place",
     "alert_to_json",
     "approve_device",
     "broker_of",
     "change_password",
+    "change_place",
     "check_device_password",
     "check_sign_in",
     "close_account",
@@ -227,6 +231,7 @@ __all__ = [
     "find_ended",
     "find_member",
     "find_out",
+    "find_place",
     "find_trouble",
     "find_unchanged",
     "flush_alerts",
@@ -293,6 +298,7 @@ __all__ = [
     "record_problem",
     "reject_device",
     "remove_member",
+    "remove_place",
     "renew_enrolment_key",
     "reopen_account",
     "require",

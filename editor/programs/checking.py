@@ -91,10 +91,15 @@ def read_around(program_id: str) -> Around:
 def store_summary(program_id: str, summary: Summary, against: str) -> bool:
     """Store what lists show of a program that was checked `against` that; tell whether they show something else."""
     rows = Program.objects.filter(pk=program_id)
-    before = rows.values_list("kinds", "devices", "errors", "warnings").first()
-    after = (list(summary.kinds), list(summary.devices), summary.errors, summary.warnings)
-    kinds, devices, errors, warnings = after
-    rows.update(kinds=kinds, devices=devices, errors=errors, warnings=warnings, checked_against=against)
+    after = {
+        "kinds": list(summary.kinds),
+        "devices": list(summary.devices),
+        "places": list(summary.places),
+        "errors": summary.errors,
+        "warnings": summary.warnings,
+    }
+    before = rows.values(*after).first()
+    rows.update(**after, checked_against=against)
     if program := rows.select_related("site").first():
         _store_uses(program, summary.sources)
     return before is not None and before != after

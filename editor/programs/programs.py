@@ -190,6 +190,7 @@ def _view(row: Program) -> ProgramView:
         name=row.name,
         kinds=tuple(row.kinds),
         devices=tuple(row.devices),
+        places=tuple(row.places),
         edited_at=row.edited_at,
         edited_by=view_author(row.edited_by),
         errors=row.errors,

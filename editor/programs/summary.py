@@ -11,13 +11,14 @@ from editor.language import Compiled
 
 @dataclass(frozen=True, slots=True)
 class Summary:
-    """What lists show: the kinds of its steps, the devices that it names, and how many errors and warnings it has.
+    """What lists show: the kinds of its steps, the devices and places that it names, and its errors and warnings.
 
     `sources` are the functions of the site's library that it has taken in.
     """
 
     kinds: tuple[str, ...]
     devices: tuple[str, ...]
+    places: tuple[str, ...]
     sources: tuple[str, ...]
     errors: int
     warnings: int
@@ -27,29 +28,44 @@ def summary_of(document: Mapping[str, Any], compiled: Compiled) -> Summary:
     """Return what lists show of a checked document."""
     severities = [diagnostic.severity for diagnostic in compiled.diagnostics]
     steps = [step for step in document["steps"].values() if isinstance(step, dict)]
+    named = names_in(document)
     return Summary(
         kinds=tuple(sorted({str(step["kind"]) for step in steps if isinstance(step.get("kind"), str)})),
-        devices=tuple(sorted(devices_in(document))),
+        devices=tuple(sorted(named.devices)),
+        places=tuple(sorted(named.places)),
         sources=tuple(sorted(_sources(document))),
         errors=severities.count("error"),
         warnings=severities.count("warning"),
     )
 
 
-def devices_in(document: Mapping[str, Any]) -> frozenset[str]:
-    """Return the ids of the devices that a document names, wherever they stand."""
-    named: list[Any] = []
+@dataclass(frozen=True, slots=True)
+class Named:
+    """The ids of what a document names of its site."""
+
+    devices: frozenset[str]
+    places: frozenset[str]
+
+
+def names_in(document: Mapping[str, Any]) -> Named:
+    """Return the devices and places that a document names, wherever they stand."""
+    devices: list[Any] = []
+    places: list[Any] = []
     waiting: list[Any] = [document.get(name) for name in ("steps", "roles", "parameters", "functions")]
     for value in waiting:  # grows while it is gone through
         if isinstance(value, dict):
-            if "device" in value:
-                named.append(value["device"])
-            if "property" in value and isinstance(value["property"], list):
-                named += value["property"][:1]
+            devices.append(value.get("device"))
+            places.append(value.get("place"))  # a step's own `place` is a list
+            if isinstance(value.get("property"), list):
+                devices += value["property"][:1]
             waiting += [each for each in value.values() if isinstance(each, _HOLD_MORE)]
         elif isinstance(value, list):
             waiting += [each for each in value if isinstance(each, _HOLD_MORE)]
-    return frozenset(name for name in named if isinstance(name, str))
+    return Named(_texts(devices), _texts(places))
+
+
+def _texts(found: list[Any]) -> frozenset[str]:
+    return frozenset(name for name in found if isinstance(name, str))
 
 
 _HOLD_MORE = (dict, list)

@@ -20,13 +20,17 @@ class AuthorView:
 
 @dataclass(frozen=True, slots=True)
 class ProgramView:
-    """A program as lists show it; `kinds` are the kinds of its steps, `devices` the ids it names, `site` a slug."""
+    """A program as lists show it; `kinds` are the kinds of its steps, `site` is a slug.
+
+    `devices` and `places` are the ids that it names.
+    """
 
     id: UUID
     site: str
     name: str
     kinds: tuple[str, ...]
     devices: tuple[str, ...]
+    places: tuple[str, ...]
     edited_at: datetime
     edited_by: AuthorView | None
     errors: int

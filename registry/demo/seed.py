@@ -42,7 +42,7 @@ def seed_demo(*, state: Path) -> list[dict[str, str]]:
     if not SiteMap.objects.filter(site__slug=SITE).exists():
         header, image = (FOLDER / f"{MAP_NAME}.yaml").read_bytes(), (FOLDER / f"{MAP_NAME}.pgm").read_bytes()
         save_map(site=SITE, grid=read_map(header, image), source="demo")
-    save_places(site=SITE, places=demo_places())
+        save_places(site=SITE, places=demo_places())
     _seed_devices(state)
     return _seed_people(state)
 

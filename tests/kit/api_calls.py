@@ -43,6 +43,8 @@ BODIES: dict[str, dict[str, Any]] = {
     "use_robot_map": {"device": "{device}", "version": 1, "replaces": 1},
     "set_retention": {"runs": 30, "rehearsals": None, "calls": 0},
     "restore_map": {"version": 1, "replaces": 1},
+    "add_place": {"name": "Other", "kind": "point", "x": 1, "y": 1},
+    "edit_place": {"name": "Table"},
     "reserve_device": {"id": "mixer-9"},
     "create_program": {"name": "New"},
     "create_token": {"name": "Other", "scopes": ["read"]},
@@ -68,8 +70,10 @@ def make_one_of_each(slug: str) -> dict[str, str]:
     call = Command.objects.create(
         id=uuid4(), site=site, position=1, device=device, method="mix", by="Me", send_after=NOW, created_at=NOW
     )
+    table = services.PlaceChange(name="Table", kind="point", x=1.5, y=1.5)
     made = {
         "program": program,
+        "place_id": services.add_place(site=slug, place=table).id,
         "run": run.pk,
         "question": Question.objects.create(run=run, number=1, text="Go?", answer=ANSWER, asked_at=NOW).pk,
         "rehearsal": Rehearsal.objects.create(site=site, program=program, created_at=NOW, **content).pk,

@@ -44,6 +44,7 @@ _NAMES = {
         list_devices export_devices show_device list_device_events show_property_history show_robot_map
         download_robot_pgm download_robot_yaml
         show_robot_cells show_difference show_rdf show_map download_pgm download_yaml show_cells list_map_versions
+        show_place
         current probe sample current_of_device probe_device sample_of_device list_programs ask post_query list_things
         watch_things show_thing read_expression show_values show_value watch_value await_next_value query_action""",
     Right("viewer", "operate"): "press_stop",
@@ -55,7 +56,8 @@ _NAMES = {
         create_program put_document put_script""",
     Right("admin", "admin"): """edit_device approve_device reject_device retire_device readmit_device
         rotate_credential revoke_credential confirm_topic withdraw_topic renew_enrolment_key reserve_device
-        use_robot_map restore_map patch_thing list_processes list_dead_letters retry_dead_letter
+        use_robot_map restore_map add_place edit_place remove_place patch_thing list_processes list_dead_letters
+        retry_dead_letter
         drop_dead_letter show_retention set_retention""",
 }
 RIGHTS = {name: right for right, names in _NAMES.items() for name in names.split()}

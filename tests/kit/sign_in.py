@@ -47,6 +47,11 @@ def post_json(client: Client, path: str, body: Any = None) -> Any:
     return client.post(path, {} if body is None else body, content_type="application/json")
 
 
+def patch_json(client: Client, path: str, body: Any) -> Any:
+    """Change something, as the pages do."""
+    return client.patch(path, body, content_type="application/json")
+
+
 def open_page(base_url: str) -> httpx.Client:
     """Return a browser of a running server that has loaded the page, with the token that changes need."""
     client = httpx.Client(base_url=base_url, timeout=60, headers={"Origin": base_url, "Referer": base_url})

@@ -21,6 +21,7 @@ from registry.api.mtconnect import router as mtconnect_router
 from registry.api.onboarding import router as onboarding_router
 from registry.api.once import begin_once, watch_request
 from registry.api.people import router as people_router
+from registry.api.places import router as places_router
 from registry.api.sites import router as sites_router
 from registry.api.sparql import router as sparql_router
 from registry.api.things import router as things_router
@@ -117,6 +118,7 @@ api.add_router("", devices_router)
 api.add_router("", alerts_router)
 api.add_router("", onboarding_router)
 api.add_router("", maps_router)
+api.add_router("", places_router)
 api.add_router("", sparql_router)
 api.add_router("", things_router)
 api.add_router("", mtconnect_router)

@@ -33,6 +33,7 @@ MADE = {
     "reserve_device": Place("show_device", ("slug",), {"device_id": "id"}),
     "use_robot_map": Place("show_map", ("slug",), {}),
     "restore_map": Place("show_map", ("slug",), {}),
+    "add_place": Place("show_place", ("slug",), {"place_id": "id"}),
     "create_program": Place("show_program", (), {"program": "id"}),
     "pin_version": Place("show_version", ("program",), {"number": "number"}),
     "save_function": Place("show_function_version", (), {"function": "id", "number": "version"}),

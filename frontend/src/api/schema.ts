@@ -1836,6 +1836,54 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/places": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Add Place
+         * @description Make a place on a site's map. The site needs a map; a place where robots stand may not be in a wall.
+         */
+        post: operations["add_place"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/places/{place_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Place
+         * @description Show a place of a site's map.
+         */
+        get: operations["show_place"];
+        put?: never;
+        post?: never;
+        /**
+         * Remove Place
+         * @description Take a place away. Programs that name it cannot run until they name another one.
+         */
+        delete: operations["remove_place"];
+        options?: never;
+        head?: never;
+        /**
+         * Edit Place
+         * @description Change a place: programs that name it follow.
+         */
+        patch: operations["edit_place"];
+        trace?: never;
+    };
     "/api/sites/{slug}/programs": {
         parameters: {
             query?: never;
@@ -2785,6 +2833,18 @@ export interface components {
             new: string;
             old: string;
         };
+        /** @description A place that is to be: metres and radians in the map frame; `id` is what scripts call it, made of its name. */
+        NewPlace: {
+            /** @default  */
+            id: string;
+            /** @enum {string} */
+            kind: "dock" | "room" | "point";
+            name: string;
+            /** @default 0 */
+            theta: number;
+            x: number;
+            y: number;
+        };
         /** @description What a token is for, what it may do, and how long; `broker`, with `read` alone, lets it in over MQTT, too. */
         NewToken: {
             /** @default 90 */
@@ -2895,6 +2955,14 @@ export interface components {
             name: string;
         };
         Place: components["schemas"]["DevicePlace"] | components["schemas"]["NamedPlace"] | components["schemas"]["PointPlace"] | components["schemas"]["ParameterUse"];
+        /** @description What is to be another about a place; what is left out stays. */
+        PlaceEdit: {
+            kind?: ("dock" | "room" | "point") | null;
+            name?: string | null;
+            theta?: number | null;
+            x?: number | null;
+            y?: number | null;
+        };
         /** @description A named place; `label` is where its name is written, if not beside it. */
         PlaceShape: {
             id: string;
@@ -3002,6 +3070,7 @@ export interface components {
             id: string;
             kinds: components["schemas"]["StepKind"][];
             name: string;
+            places: string[];
             site: string;
             warnings: number;
         };
@@ -8187,6 +8256,185 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ExpectedDevice"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    add_place: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewPlace"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PlaceShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_place: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                place_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PlaceShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_place: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                place_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    edit_place: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                place_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PlaceEdit"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PlaceShape"];
                 };
             };
             400: components["responses"]["Refused400"];

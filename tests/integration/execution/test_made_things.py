@@ -52,6 +52,7 @@ def make_each(client: Client) -> dict[str, Any]:
             client, f"{AT_SITE}/map/from-device", {"device": "robot01", "version": 1, "replaces": 1}
         ),
         "restore_map": post_json(client, f"{AT_SITE}/map/restore", {"version": 1, "replaces": 2}),
+        "add_place": post_json(client, f"{AT_SITE}/places", {"name": "Bench", "kind": "point", "x": 7.0, "y": -8.0}),
         "create_program": post_json(client, f"{AT_SITE}/programs", {"name": "New"}),
         "pin_version": post_json(client, f"/api/programs/{task}/versions"),
         "save_function": post_json(client, f"{AT_SITE}/library", function),

@@ -22,7 +22,7 @@ from editor.language.one_line.values import print_line, type_of_line
 from editor.language.reading.well_formed import well_formed
 from editor.programs.compiled_patch import apply_patch, make_patch
 from editor.programs.library import cut_out_function
-from editor.programs.summary import devices_in
+from editor.programs.summary import names_in
 from tests.cases.odd_documents import ODD, make_odd, sound_documents
 from tests.kit.demo_site import factory
 
@@ -120,7 +120,7 @@ def test_values_of_any_document_are_printed_as_lines(
 @given(documents())
 def test_functions_and_devices_are_found_in_any_document(pair: tuple[dict[str, Any], dict[str, Any]]) -> None:
     _, odd = pair
-    devices_in(odd)
+    names_in(odd)
     for function in [*well_formed(odd)["functions"], "gone"]:
         try:
             definition = cut_out_function(odd, function)

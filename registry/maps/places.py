@@ -1,0 +1,186 @@
+"""The named places of a site, as its admins make, change and remove them.
+
+A place stands over the map and stays where it is when the map becomes another one. Whoever shows or checks anything
+with a map hears of a change as of a new map.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+from dataclasses import dataclass
+
+from django.db import transaction
+from django.utils.text import slugify
+
+from registry.errors import RegistryError
+from registry.floorplan.plan import Grid
+from registry.live.fanout import publish
+from registry.maps.site_maps import find_map, get_map
+from registry.models import Place, Site
+from registry.sites.sites import find_site, list_places
+from registry.sites.views import PlaceView
+from vipo_device.protocol.texts import find_unfit, normal
+
+MOST_PLACES = 500
+MOST_NAME = 60
+_WALL = 100
+_ID = re.compile(r"[A-Za-z0-9_]{1,60}")
+_NO_ROOM = "There is a wall at {x:.2f}, {y:.2f}. Put the place where a robot can stand."
+_OFF = "The place is off the map at {x:.2f}, {y:.2f}. Put it on the floor."
+
+
+class BadPlace(RegistryError):
+    """A place that cannot be so."""
+
+    code = "bad_place"
+    status = 422
+
+
+class NoSuchPlace(RegistryError):
+    """A place that is not, or no longer, at the site."""
+
+    code = "no_such_place"
+    status = 404
+
+
+class PlaceTaken(RegistryError):
+    """A name or id that another place of the site has."""
+
+    code = "place_taken"
+    status = 409
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceChange:
+    """What is to be another about a place; None leaves it. Metres and radians in the map frame."""
+
+    name: str | None = None
+    kind: str | None = None
+    x: float | None = None
+    y: float | None = None
+    theta: float | None = None
+
+
+def add_place(*, site: str, place: PlaceChange, place_id: str = "") -> PlaceView:
+    """Make a place; its id is made of its name, if none is wished. Raises BadPlace, PlaceTaken, NoMap, NotAMember."""
+    version, grid = _map_of(site)
+    with transaction.atomic():
+        row = Site.objects.select_for_update().get(pk=find_site(site).pk)
+        keys = set(Place.objects.filter(site=row).values_list("key", flat=True))
+        if len(keys) >= MOST_PLACES:
+            text = f"A site has at most {MOST_PLACES} places. Remove one that nobody needs."
+            raise BadPlace(text, {"why": "many", "most": MOST_PLACES})
+        made = Place(site=row, key=_new_key(place_id, place.name or "", keys), kind=Place.Kind.POINT, x=0.0, y=0.0)
+        _change(made, place, grid)
+        made.save(force_insert=True)
+        _tell(site, version)
+    return find_place(site=site, place_id=made.key)
+
+
+def change_place(*, site: str, place_id: str, place: PlaceChange) -> PlaceView:
+    """Change what is named of a place. Raises NoSuchPlace, BadPlace, PlaceTaken, NoMap, NotAMember."""
+    version, grid = _map_of(site)
+    with transaction.atomic():
+        Site.objects.select_for_update().get(pk=find_site(site).pk)
+        row = _lock(site, place_id)
+        _change(row, place, grid)
+        row.save()
+        _tell(site, version)
+    return find_place(site=site, place_id=place_id)
+
+
+def remove_place(*, site: str, place_id: str) -> None:
+    """Take a place away; programs that name it are told of it. Raises NoSuchPlace, NotAMember."""
+    with transaction.atomic():
+        _lock(site, place_id).delete()
+        known = find_map(site=site)
+        _tell(site, known.version if known else 0)
+
+
+def find_place(*, site: str, place_id: str) -> PlaceView:
+    """Return a place of a site. Raises NoSuchPlace, NotAMember."""
+    found = next((place for place in list_places(site=site) if place.id == place_id), None)
+    if found is None:
+        raise _missing(place_id)
+    return found
+
+
+def _map_of(site: str) -> tuple[int, Grid]:
+    found = get_map(site=site)
+    return found.version, found.grid
+
+
+def _lock(site: str, place_id: str) -> Place:
+    row = Place.objects.select_for_update().filter(site=find_site(site), key=place_id).first()
+    if row is None:
+        raise _missing(place_id)
+    return row
+
+
+def _missing(place_id: str) -> NoSuchPlace:
+    return NoSuchPlace(f"There is no place {place_id[:64]!r} at this site. Somebody may have removed it.")
+
+
+def _tell(site: str, version: int) -> None:
+    transaction.on_commit(lambda: publish(site, {"type": "map", "version": version}))
+
+
+def _change(row: Place, place: PlaceChange, grid: Grid) -> None:
+    """Write what is named into the row. Raises BadPlace, PlaceTaken."""
+    if place.name is not None or not row.name:
+        row.name = _checked_name(place.name or "", row)
+    if place.kind is not None:
+        row.kind = _checked_kind(place.kind)
+    x, y = (row.x if place.x is None else place.x), (row.y if place.y is None else place.y)
+    if (x, y) != (row.x, row.y):
+        row.label = None  # the name was written for where it stood
+    row.x, row.y = round(x, 3), round(y, 3)
+    if place.theta is not None:
+        row.theta = round(math.remainder(place.theta, math.tau), 4)
+    _check_floor(row, grid)
+
+
+def _checked_name(name: str, row: Place) -> str:
+    name = normal(" ".join(name.split()))
+    if not 1 <= len(name) <= MOST_NAME or find_unfit(name, is_line=True):
+        text = f"A place's name has 1 to {MOST_NAME} characters that can be printed. Enter one."
+        raise BadPlace(text, {"why": "name", "most": MOST_NAME})
+    others = Place.objects.filter(site_id=row.site_id).exclude(key=row.key).values_list("name", flat=True)
+    if name.casefold() in {other.casefold() for other in others}:
+        raise PlaceTaken(f"There is already a place {name!r} at this site. Choose another name.", {"why": "taken_name", "name": name})
+    return name
+
+
+def _checked_kind(kind: str) -> str:
+    if kind not in Place.Kind.values:
+        raise BadPlace(f"A place is a {', a '.join(Place.Kind.values)}; {kind[:20]!r} is none of them.")
+    return kind
+
+
+def _check_floor(row: Place, grid: Grid) -> None:
+    """Refuse a place off the map, and one in a wall where a robot shall stand. Raises BadPlace."""
+    args = {"x": row.x, "y": row.y}
+    cell = grid.cell_of(row.x, row.y)
+    if cell is None:
+        raise BadPlace(_OFF.format(**args), {"why": "off", **args})
+    if row.kind != Place.Kind.ROOM and grid.cells[cell[0] * grid.width + cell[1]] == _WALL:
+        raise BadPlace(_NO_ROOM.format(**args), {"why": "wall", **args})
+
+
+def _new_key(wished: str, name: str, taken: set[str]) -> str:
+    """Return the id of a new place; whoever asks holds the site's row. Raises BadPlace, PlaceTaken."""
+    if wished in taken:
+        raise PlaceTaken(f"There is already a place with the id {wished!r} at this site.", {"why": "taken_id", "id": wished})
+    if wished and not _ID.fullmatch(wished):
+        raise BadPlace("A place's id has 1 to 60 of the letters a to z, digits and underscores.", {"why": "id"})
+    if wished:
+        return wished
+    plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+    stem = slugify(plain)[:40].replace("-", "_") or "place"
+    return next(key for number in range(1, MOST_PLACES + 2) if (key := _numbered(stem, number)) not in taken)
+
+
+def _numbered(stem: str, number: int) -> str:
+    return stem if number == 1 else f"{stem}_{number}"
