@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from django.http import HttpRequest
 from ninja import Router
@@ -15,8 +15,7 @@ from registry.shapes import Asked, Line, Number, PlaceShape, signed_in
 
 router = Router(tags=["registry"])
 Kind = Literal["dock", "room", "point"]
-_FAR_M = 1e6
-_WHERE = {"ge": -_FAR_M, "le": _FAR_M}
+Coordinate = Annotated[Number, Field(ge=-1e6, le=1e6)]
 
 
 class NewPlace(Asked):
@@ -24,9 +23,9 @@ class NewPlace(Asked):
 
     name: Line = Field(max_length=200)
     kind: Kind
-    x: Number = Field(**_WHERE)
-    y: Number = Field(**_WHERE)
-    theta: Number = Field(0.0, **_WHERE)
+    x: Coordinate
+    y: Coordinate
+    theta: Coordinate = 0.0
     id: Line = Field("", max_length=60)
 
 
@@ -35,9 +34,9 @@ class PlaceEdit(Asked):
 
     name: Line | None = Field(None, max_length=200)
     kind: Kind | None = None
-    x: Number | None = Field(None, **_WHERE)
-    y: Number | None = Field(None, **_WHERE)
-    theta: Number | None = Field(None, **_WHERE)
+    x: Coordinate | None = None
+    y: Coordinate | None = None
+    theta: Coordinate | None = None
 
 
 @router.post("/sites/{slug}/places", response={201: PlaceShape})

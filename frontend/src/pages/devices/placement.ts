@@ -21,7 +21,8 @@ export function nudge([x, y]: Point, key: string, leap: boolean): Point | null {
 
 export const isSame = (a: Point, b: Point): boolean => a[0] === b[0] && a[1] === b[1];
 
-type Extent = Pick<SiteMap, "width" | "height" | "resolution_m" | "origin">;
+/** Where a map lies. */
+export type Extent = Pick<SiteMap, "width" | "height" | "resolution_m" | "origin">;
 
 /** The nearest point on the map, to the centimetre. */
 export function onMap([x, y]: Point, map: Extent): Point {

@@ -1,7 +1,7 @@
-/** The site's map, large, with what there is to know about it and its ROS files. */
+/** The site's map, large, with its places, what there is to know about it and its ROS files. */
 import { Button, Skeleton } from "@mantine/core";
-import { Check, MapPinned, Move } from "lucide-react";
-import { useState } from "react";
+import { Check, MapPin, MapPinned, Move, type LucideIcon } from "lucide-react";
+import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { missing } from "@/api/failed";
@@ -18,6 +18,9 @@ import { MovableMachine } from "../devices/MovableMachine";
 import { MapDownloads } from "./MapDownloads";
 import styles from "./MapPage.module.css";
 import { MapVersions } from "./MapVersions";
+import { PlaceHandles } from "./places/PlaceHandles";
+import { PlacesPanel } from "./places/PlacesPanel";
+import { usePlaces } from "./places/usePlaces";
 
 function Facts({ map }: { map: SiteMap }) {
   const { t } = useTranslation();
@@ -42,69 +45,74 @@ function Facts({ map }: { map: SiteMap }) {
   );
 }
 
-function Places({ map }: { map: SiteMap }) {
+/** What an admin is changing on the map. */
+type Mode = "machines" | "places";
+const MODES: readonly { mode: Mode; icon: LucideIcon; begin: string; end: string }[] = [
+  { mode: "places", icon: MapPin, begin: "place.edit", end: "place.finish" },
+  { mode: "machines", icon: Move, begin: "placing.move", end: "placing.finish" },
+];
+
+function ModeButtons({ mode, change }: { mode: Mode | null; change: (mode: Mode | null) => void }) {
   const { t } = useTranslation();
-  return (
-    <section aria-labelledby="places">
-      <h2 id="places">{t("pages.map.places")}</h2>
-      {map.places.length === 0 ? <p>{t("pages.map.noPlaces")}</p> : null}
-      <ul className={styles.places}>
-        {map.places.map((place) => (
-          <li key={place.id}>
-            <span>{place.name}</span>
-            <Chip>{t(`pages.map.kind.${place.kind}`, { defaultValue: place.kind })}</Chip>
-            <code>{formatPoint(place.x, place.y)}</code>
-          </li>
-        ))}
-      </ul>
-    </section>
-  );
+  return MODES.map((each) => {
+    const isOn = mode === each.mode;
+    const Icon = isOn ? Check : each.icon;
+    return (
+      <Button
+        key={each.mode}
+        variant={isOn ? "filled" : "default"}
+        leftSection={<Icon size={16} aria-hidden="true" />}
+        onClick={() => change(isOn ? null : each.mode)}
+      >
+        {t(isOn ? each.end : each.begin)}
+      </Button>
+    );
+  });
 }
 
-function MoveMachines({ moving, change }: { moving: boolean; change: (moving: boolean) => void }) {
-  const { t } = useTranslation();
-  const Icon = moving ? Check : Move;
-  return (
-    <Button
-      variant={moving ? "filled" : "default"}
-      leftSection={<Icon size={16} aria-hidden="true" />}
-      onClick={() => change(!moving)}
-    >
-      {t(moving ? "placing.finish" : "placing.move")}
-    </Button>
-  );
-}
-
-function MapView({ site, map, moving }: { site: Site; map: SiteMap; moving: boolean }) {
+function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | null }) {
   const { t } = useTranslation();
   const navigate = useNavigate();
   const [query] = useSearchParams();
+  const places = usePlaces(site.slug, map);
   const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
-  const movable = moving ? devices.filter((device) => device.kind === "machine") : [];
+  const movable = mode === "machines" ? devices.filter((device) => device.kind === "machine") : [];
+  const bare = useMemo(() => ({ ...map, places: [] }), [map]);
+  const open = (id: string) => void navigate(`/sites/${site.slug}/devices/${id}`);
   return (
     <div className={styles.page}>
       <Panel className={styles.map}>
         <StaticMap
-          plan={map}
+          plan={mode === "places" ? bare : map}
           devices={devices.filter((device) => !movable.includes(device))}
           named
           selected={query.get("device")}
-          onSelect={(id) => void navigate(`/sites/${site.slug}/devices/${id}`)}
+          onSelect={mode === "places" ? undefined : open}
           label={t("pages.map.of", { site: site.name })}
         >
           {movable.map((device) => (
             <MovableMachine key={device.id} site={site} map={map} device={device} />
           ))}
+          {mode === "places" ? <PlaceHandles slug={site.slug} map={map} places={places} /> : null}
         </StaticMap>
       </Panel>
       <Panel className={styles.about}>
-        {moving ? <p id="placing-help">{t("placing.help")}</p> : null}
-        <h2>{t("pages.map.about")}</h2>
-        <Facts map={map} />
-        <Places map={map} />
-        <MapVersions site={site} />
+        {mode === "machines" ? <p id="placing-help">{t("placing.help")}</p> : null}
+        {mode === "places" ? null : <About map={map} />}
+        <PlacesPanel slug={site.slug} map={map} editing={mode === "places" ? places : null} />
+        {mode === "places" ? null : <MapVersions site={site} />}
       </Panel>
     </div>
+  );
+}
+
+function About({ map }: { map: SiteMap }) {
+  const { t } = useTranslation();
+  return (
+    <>
+      <h2>{t("pages.map.about")}</h2>
+      <Facts map={map} />
+    </>
   );
 }
 
@@ -114,7 +122,7 @@ export function MapPage() {
   const site = useSite(slug);
   const map = useSiteMap(site.data?.has_map ? slug : undefined);
   const me = useMe();
-  const [moving, setMoving] = useState(false);
+  const [mode, setMode] = useState<Mode | null>(null);
   const problem = missing(site, map);
   return (
     <PageShell
@@ -123,7 +131,7 @@ export function MapPage() {
       actions={
         map.data ? (
           <>
-            {site.data?.role === "admin" ? <MoveMachines moving={moving} change={setMoving} /> : null}
+            {site.data?.role === "admin" ? <ModeButtons mode={mode} change={setMode} /> : null}
             <MapDownloads fileOf={(form) => `/api/sites/${slug}/map.${form}`} />
           </>
         ) : null
@@ -131,7 +139,7 @@ export function MapPage() {
     >
       {problem ? <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), map.refetch()])} /> : null}
       {!problem && !map.data && site.data?.has_map !== false ? <Skeleton height="100%" radius="lg" /> : null}
-      {site.data && map.data ? <MapView site={site.data} map={map.data} moving={moving} /> : null}
+      {site.data && map.data ? <MapView site={site.data} map={map.data} mode={mode} /> : null}
       {site.data?.has_map === false ? (
         <Panel>
           <EmptyState icon={<MapPinned size={20} />} title={t("pages.map.none")} text={t("pages.map.noneText")}>

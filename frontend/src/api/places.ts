@@ -1,0 +1,37 @@
+/** A site's named places: made, changed and removed by its admins. */
+import { useMutation, useQueryClient } from "@tanstack/react-query";
+import { api } from "./client";
+import { staleWithSiteMap } from "./robotMaps";
+import type { MapPlace } from "./types";
+
+export type PlaceKind = "dock" | "room" | "point";
+export const PLACE_KINDS: readonly PlaceKind[] = ["point", "dock", "room"];
+
+export type PlaceFields = Partial<Pick<MapPlace, "name" | "kind" | "x" | "y" | "theta">>;
+
+export type PlaceChange =
+  | { do: "add"; place: { name: string; kind: PlaceKind; x: number; y: number } }
+  | { do: "edit"; id: string; fields: PlaceFields }
+  | { do: "remove"; id: string };
+
+function send(slug: string, change: PlaceChange): Promise<MapPlace | undefined> {
+  const path = `/sites/${slug}/places`;
+  switch (change.do) {
+    case "add":
+      return api.post<MapPlace>(path, change.place);
+    case "edit":
+      return api.patch<MapPlace>(`${path}/${encodeURIComponent(change.id)}`, change.fields);
+    case "remove":
+      return api.delete<undefined>(`${path}/${encodeURIComponent(change.id)}`);
+  }
+}
+
+/** Change a place; whatever comes of it, the map's places are fetched anew. */
+export function useChangePlace(slug: string) {
+  const queries = useQueryClient();
+  return useMutation({
+    mutationFn: (change: PlaceChange) => send(slug, change),
+    onSettled: () =>
+      Promise.all(staleWithSiteMap(slug).map((queryKey) => queries.invalidateQueries({ queryKey, exact: false }))),
+  });
+}

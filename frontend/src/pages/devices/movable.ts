@@ -1,0 +1,83 @@
+/** A thing on the map that is put somewhere else by hand: by dragging or by the arrow keys. */
+import { useEffect, useRef, useState, type KeyboardEvent, type MouseEvent, type PointerEvent } from "react";
+import { toMetres, type Point } from "@/map/plane/projection";
+import { isSame, nudge, onMap, type Extent } from "./placement";
+
+export interface DraftPoint {
+  at: Point;
+  draft: Point | null;
+  setDraft: (point: Point | null) => void;
+  keep: () => void;
+}
+
+/** Arrow keys move, Enter keeps, Esc takes back. */
+export function movedByKey(event: KeyboardEvent, { at, draft, setDraft, keep }: DraftPoint): void {
+  const next = nudge(at, event.key, event.shiftKey);
+  if (next) setDraft(next);
+  else if (event.key === "Enter") keep();
+  else if (event.key === "Escape" && draft) setDraft(null);
+  else return;
+  event.preventDefault();
+}
+
+/** Where the pointer is on the plane in which the machine stands, in metres. */
+export function pointed(event: PointerEvent<SVGGraphicsElement> | MouseEvent<SVGGraphicsElement>): Point {
+  const plane = event.currentTarget.parentElement as unknown as SVGGElement;
+  return toMetres(new DOMPoint(event.clientX, event.clientY).matrixTransform(plane.getScreenCTM()?.inverse()));
+}
+
+export function useDragging({ at, setDraft, keep }: DraftPoint) {
+  const [grip, setGrip] = useState<Point | null>(null);
+  const letGo = (done: () => void) => () => {
+    if (grip) done();
+    setGrip(null);
+  };
+  return {
+    onPointerDown: (event: PointerEvent<SVGGElement>) => {
+      if (event.button !== 0) return;
+      event.currentTarget.setPointerCapture(event.pointerId);
+      const [x, y] = pointed(event);
+      setGrip([at[0] - x, at[1] - y]);
+    },
+    onPointerMove: (event: PointerEvent<SVGGElement>) => {
+      if (!grip) return;
+      const [x, y] = pointed(event);
+      setDraft([x + grip[0], y + grip[1]]);
+    },
+    onPointerUp: letGo(keep),
+    onPointerCancel: letGo(() => setDraft(null)),
+  };
+}
+
+/** Send where it stands now; it is told when that is refused, and when it is over. */
+type Send = (to: Point, done: { onError: () => void; onSettled: () => void }) => void;
+
+/**
+ * Where a thing stands for the one who moves it, until the server says the same.
+ *
+ * What is moved while an earlier place is being kept (`isSending`) is kept next.
+ */
+export function useDraftPoint(map: Extent, [x, y]: Point, isSending: boolean, send: Send): DraftPoint {
+  const [draft, setDraft] = useState<Point | null>(null);
+  const [sent, next] = [useRef<Point | null>(null), useRef<Point | null>(null)];
+  useEffect(() => {
+    setDraft((last) => (last && sent.current && !isSame(last, sent.current) ? last : null));
+  }, [x, y, sent]);
+  const sendOn = (to: Point) => {
+    sent.current = to;
+    const goOn = () => {
+      const then = next.current;
+      next.current = null;
+      if (then && !isSame(then, to)) sendOn(then);
+    };
+    send(to, { onError: () => setDraft(null), onSettled: goOn });
+  };
+  const keep = () => {
+    if (!draft) return;
+    if (isSending) next.current = draft;
+    else if (isSame(draft, [x, y])) setDraft(null);
+    else sendOn(draft);
+  };
+  const place = (point: Point | null) => setDraft(point && onMap(point, map));
+  return { at: draft ?? ([x, y] as const), draft, setDraft: place, keep };
+}

@@ -1,0 +1,68 @@
+/** Asks before a place goes, and names the programs that go there. */
+import { Button, Modal } from "@mantine/core";
+import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
+import { useChangePlace } from "@/api/places";
+import { usePrograms } from "@/api/queries";
+import type { MapPlace } from "@/api/types";
+import { useReturnFocus } from "@/design/useReturnFocus";
+import { problemText } from "@/shell/LoadProblem";
+import styles from "./places.module.css";
+
+/** The programs of a site that name the place; null until that is known. */
+export function usePlaceUses(slug: string, place: string) {
+  return usePrograms(slug).data?.filter((program) => program.places.includes(place)) ?? null;
+}
+
+export function PlaceUses({ slug, place }: { slug: string; place: string }) {
+  const { t } = useTranslation();
+  const uses = usePlaceUses(slug, place);
+  if (uses === null) return null;
+  if (uses.length === 0) return <p className={styles.quiet}>{t("place.unused")}</p>;
+  return (
+    <div>
+      <p className={styles.quiet}>{t("place.usedBy", { count: uses.length })}</p>
+      <ul className={styles.uses}>
+        {uses.map((program) => (
+          <li key={program.id}>
+            <Link to={`/programs/${program.id}`}>{program.name}</Link>
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}
+
+interface RemovePlaceProps {
+  slug: string;
+  place: MapPlace;
+  onClose: () => void;
+}
+
+export function RemovePlace({ slug, place, onClose }: RemovePlaceProps) {
+  const { t } = useTranslation();
+  useReturnFocus();
+  const change = useChangePlace(slug);
+  const uses = usePlaceUses(slug, place.id);
+  return (
+    <Modal opened onClose={onClose} title={t("place.removeAsk", { name: place.name })} size={440}>
+      <div className={styles.form}>
+        <PlaceUses slug={slug} place={place.id} />
+        {uses && uses.length > 0 ? <p>{t("place.removeText", { count: uses.length })}</p> : null}
+        {change.error ? <p role="alert">{problemText(change.error, t("shell.problem.screen"))}</p> : null}
+        <div className={styles.decide}>
+          <Button variant="default" onClick={onClose} data-autofocus>
+            {t("keys.cancel")}
+          </Button>
+          <Button
+            color="red"
+            loading={change.isPending}
+            onClick={() => change.mutate({ do: "remove", id: place.id }, { onSuccess: onClose })}
+          >
+            {t("place.remove")}
+          </Button>
+        </div>
+      </div>
+    </Modal>
+  );
+}

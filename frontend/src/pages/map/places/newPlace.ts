@@ -1,0 +1,30 @@
+/** Where a place goes that nobody has pointed at, and what it is called until somebody names it. */
+import type { MapPlace } from "@/api/types";
+import { cellAt, type FloorPlan } from "@/map/floor/floor";
+import type { Point } from "@/map/plane/projection";
+
+/** The free point that is nearest to the middle of the map, in metres; the middle itself where nothing is free. */
+export function freeMiddle(map: FloorPlan): Point {
+  const middle: Point = [
+    map.origin.x + (map.width * map.resolution_m) / 2,
+    map.origin.y + (map.height * map.resolution_m) / 2,
+  ];
+  let [best, least] = [middle, Infinity];
+  for (let row = 0; row < map.height; row += 1)
+    for (let column = 0; column < map.width; column += 1) {
+      const at: Point = [
+        map.origin.x + (column + 0.5) * map.resolution_m,
+        map.origin.y + (row + 0.5) * map.resolution_m,
+      ];
+      const far = (at[0] - middle[0]) ** 2 + (at[1] - middle[1]) ** 2;
+      if (far < least && cellAt(map, at) === 0) [best, least] = [at, far];
+    }
+  return [Math.round(best[0] * 100) / 100, Math.round(best[1] * 100) / 100];
+}
+
+/** The first of "Place 1", "Place 2", … that no place is called. */
+export function freeName(places: readonly Pick<MapPlace, "name">[], nameOf: (number: number) => string): string {
+  const taken = new Set(places.map((place) => place.name.toLocaleLowerCase()));
+  for (let number = places.length + 1; ; number += 1)
+    if (!taken.has(nameOf(number).toLocaleLowerCase())) return nameOf(number);
+}
