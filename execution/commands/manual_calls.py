@@ -31,7 +31,7 @@ EXPIRY_S = 30.0
 """A call that no device has answered after so long is given up: a person waits, and a late start would surprise."""
 NO_ANSWER = "The device did not answer in time. Look whether it is switched on and connected."
 MOST_MISFITS = 5
-DRIVES = "drives only in a program, where its way is kept free of others. Draw a Move and run it."
+ONLY_IN_PROGRAMS = "drives only in a program, where its way is kept free of others. Draw a Move and run it."
 
 
 def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[str, Any], by: str) -> CallView:
@@ -46,7 +46,7 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
     fence = get_stop(site=site).fence
     device = registry.get_device(site=site, device_id=device_id)
     if device.kind == "robot" and method == "move":
-        raise NotPossibleNow(f"{device.name} {DRIVES}")
+        raise NotPossibleNow(f"{device.name} {ONLY_IN_PROGRAMS}")
     given = {name: value for name, value in arguments.items() if value is not None}
     _check_arguments(device, method, given)
     with transaction.atomic():

@@ -300,7 +300,10 @@ Node = (
 Block = tuple[Node, ...]
 LOADS: Final = (Pick, Drop)
 DRIVES: Final = (Move, Pick, Drop, Cover)
-"""What a robot goes for. (A check of a class against such a row is several times as quick as against a union.)"""
+"""Every node with a field of type `role` but Release, also what is done where the robot stands; analyses follow from it.
+
+(A check of a class against such a row is several times as quick as against a union.)
+"""
 ACTS: Final = (*DRIVES, Perform)
 """What a robot does, there or where it stands."""
 OF_ROBOTS: Final = (*ACTS, Release)

@@ -15,7 +15,7 @@ from registry import services
 from registry.models import DeviceEvent, Membership, Site, User
 from tests.kit.sign_in import PASSWORD, ROLES, signed_in
 from tests.kit.sites import MIXER, NOW, come, describe, say
-from vipo_device.descriptions.forms import CONTENT_TYPES
+from vipo_device.descriptions.forms import CONTENT_TYPES, FORMS
 from vipo_device.descriptions.reader import read_description
 
 YAML = b"image: a.pgm\nresolution: 0.05\norigin: [-1, -2, 0]\n"
@@ -284,7 +284,7 @@ def test_a_decided_device_is_not_decided_again(hall: str) -> None:
     assert client.post("/api/sites/hall/devices/nothing/approve").status_code == 404
 
 
-@pytest.mark.parametrize("form", ["turtle", "n-triples", "json-ld", "td", "paper"])
+@pytest.mark.parametrize("form", sorted(FORMS))
 def test_a_description_can_be_had_in_every_form(hall: str, form: str) -> None:
     describe()
     path = f"/api/sites/hall/devices/mixer1/rdf?format={form}"

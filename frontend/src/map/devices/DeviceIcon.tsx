@@ -8,7 +8,8 @@ const LUCIDE: Readonly<Record<string, LucideIcon>> = {
   booth: SprayCan,
   rollers: PackageCheck,
 };
-const OWN: Readonly<Record<string, string>> = { turtlebot: "turtle", mixer: "mixer", oven: "oven" };
+/** Only classes whose file has another name. */
+const OWN: Readonly<Record<string, string>> = { turtlebot: "turtle" };
 
 export function DeviceIcon({
   deviceClass,
