@@ -149,7 +149,8 @@ def _checked_name(name: str, row: Place) -> str:
         raise BadPlace(text, {"why": "name", "most": MOST_NAME})
     others = Place.objects.filter(site_id=row.site_id).exclude(key=row.key).values_list("name", flat=True)
     if name.casefold() in {other.casefold() for other in others}:
-        raise PlaceTaken(f"There is already a place {name!r} at this site. Choose another name.", {"why": "taken_name", "name": name})
+        text = f"There is already a place {name!r} at this site. Choose another name."
+        raise PlaceTaken(text, {"why": "taken_name", "name": name})
     return name
 
 
@@ -172,7 +173,8 @@ def _check_floor(row: Place, grid: Grid) -> None:
 def _new_key(wished: str, name: str, taken: set[str]) -> str:
     """Return the id of a new place; whoever asks holds the site's row. Raises BadPlace, PlaceTaken."""
     if wished in taken:
-        raise PlaceTaken(f"There is already a place with the id {wished!r} at this site.", {"why": "taken_id", "id": wished})
+        text = f"There is already a place with the id {wished!r} at this site."
+        raise PlaceTaken(text, {"why": "taken_id", "id": wished})
     if wished and not _ID.fullmatch(wished):
         raise BadPlace("A place's id has 1 to 60 of the letters a to z, digits and underscores.", {"why": "id"})
     if wished:

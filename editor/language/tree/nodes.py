@@ -300,7 +300,7 @@ Node = (
 Block = tuple[Node, ...]
 LOADS: Final = (Pick, Drop)
 DRIVES: Final = (Move, Pick, Drop, Cover)
-"""Every node with a field of type `role` but Release, also what is done where the robot stands; analyses follow from it.
+"""Every node with a field of type `role` but Release, also what is done where the robot stands.
 
 (A check of a class against such a row is several times as quick as against a union.)
 """

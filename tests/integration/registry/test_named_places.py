@@ -46,7 +46,8 @@ def test_a_place_is_made_moved_renamed_and_removed(
         assert admin.delete(made["Location"]).status_code == 204
     assert told(admin) == []
     assert heard == [("hall", {"type": "map", "version": 1})] * 3
-    for answer in (admin.get(made["Location"]), admin.delete(made["Location"]), patch_json(admin, made["Location"], {})):
+    gone = made["Location"]
+    for answer in (admin.get(gone), admin.delete(gone), patch_json(admin, gone, {})):
         assert refused(answer) == (404, "no_such_place")
 
 
