@@ -46,7 +46,7 @@ export function StaticMap(props: StaticMapProps) {
   return (
     <div ref={element} className={classes.static} role="group" aria-label={label}>
       <FloorCanvas plan={plan} viewport={cell} detail={named ? NAMED : QUIET} />
-      <svg className={classes.still} aria-hidden={props.onSelect ? undefined : true}>
+      <svg className={classes.still} aria-hidden={props.onSelect || props.children ? undefined : true}>
         <g transform={`translate(${view.x} ${view.y}) scale(${view.zoom})`}>
           {routes.map((route, index) => (
             <PathLine key={index} points={route.map(toPixels)} />

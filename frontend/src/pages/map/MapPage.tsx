@@ -84,7 +84,9 @@ function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | n
       <Panel className={styles.map}>
         <StaticMap
           plan={mode === "places" ? bare : map}
-          devices={devices.filter((device) => !movable.includes(device))}
+          devices={devices.filter(
+            (device) => !movable.includes(device) && !(mode === "places" && device.kind === "robot"),
+          )}
           named
           selected={query.get("device")}
           onSelect={mode === "places" ? undefined : open}

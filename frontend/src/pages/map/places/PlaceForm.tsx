@@ -1,11 +1,12 @@
 /** The selected place: its name, what it is, how a robot parks there, who goes there. */
-import { Button, NumberInput, SegmentedControl, TextInput } from "@mantine/core";
+import { Button, NumberInput, TextInput } from "@mantine/core";
 import { Trash2 } from "lucide-react";
-import { useEffect, useRef, useState } from "react";
+import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
-import { PLACE_KINDS, useChangePlace, type PlaceFields } from "@/api/places";
+import { useChangePlace, type PlaceFields } from "@/api/places";
 import type { MapPlace } from "@/api/types";
 import { formatPoint } from "@/i18n/format";
+import { KindField } from "./KindField";
 import { PlaceUses } from "./RemovePlace";
 import { tellRefusal } from "./refusal";
 import styles from "./places.module.css";
@@ -13,32 +14,18 @@ import styles from "./places.module.css";
 interface PlaceFormProps {
   slug: string;
   place: MapPlace;
-  /** It has just been made: its name is to be typed. */
-  isNew: boolean;
   remove: () => void;
 }
 
-export function PlaceForm({ slug, place, isNew, remove }: PlaceFormProps) {
+export function PlaceForm({ slug, place, remove }: PlaceFormProps) {
   const { t } = useTranslation();
   const change = useChangePlace(slug);
   const edit = (fields: PlaceFields, refused?: () => void) =>
     change.mutate({ do: "edit", id: place.id, fields }, { onError: (error) => (refused?.(), tellRefusal(error, t)) });
   return (
     <div className={styles.form} role="group" aria-label={t("place.about", { name: place.name })}>
-      <NameField place={place} isNew={isNew} keep={(name, refused) => edit({ name }, refused)} />
-      <div>
-        <p className={styles.label} id="place-kind">
-          {t("place.kind")}
-        </p>
-        <SegmentedControl
-          fullWidth
-          aria-labelledby="place-kind"
-          value={place.kind}
-          onChange={(kind) => edit({ kind })}
-          data={PLACE_KINDS.map((kind) => ({ value: kind, label: t(`pages.map.kind.${kind}`) }))}
-        />
-        <p className={styles.quiet}>{t(`place.means.${place.kind}`)}</p>
-      </div>
+      <NameField place={place} keep={(name, refused) => edit({ name }, refused)} />
+      <KindField kind={place.kind} change={(kind) => edit({ kind })} />
       {place.kind === "dock" ? <HeadingField place={place} keep={(theta) => edit({ theta })} /> : null}
       <p className={styles.quiet}>
         {t("place.id")} <code>{place.id}</code>, {formatPoint(place.x, place.y)}
@@ -52,22 +39,10 @@ export function PlaceForm({ slug, place, isNew, remove }: PlaceFormProps) {
 }
 
 /** Kept when the field is left or Enter is pressed; Esc takes back what was typed. */
-function NameField({
-  place,
-  isNew,
-  keep,
-}: {
-  place: MapPlace;
-  isNew: boolean;
-  keep: (name: string, refused: () => void) => void;
-}) {
+function NameField({ place, keep }: { place: MapPlace; keep: (name: string, refused: () => void) => void }) {
   const { t } = useTranslation();
-  const field = useRef<HTMLInputElement>(null);
   const [name, setName] = useState(place.name);
   useEffect(() => setName(place.name), [place.name]);
-  useEffect(() => {
-    if (isNew) field.current?.select();
-  }, [isNew]);
   const settle = () => {
     const next = name.trim();
     if (next && next !== place.name) keep(next, () => setName(place.name));
@@ -75,7 +50,6 @@ function NameField({
   };
   return (
     <TextInput
-      ref={field}
       label={t("place.name")}
       maxLength={60}
       value={name}

@@ -17,7 +17,7 @@ export function PlaceHandles({ slug, map, places }: { slug: string; map: SiteMap
           onSelect={() => places.select(place.id)}
         />
       ))}
-      {places.isAdding ? <PlaceTool map={map} put={places.put} stop={() => places.setAdding(false)} /> : null}
+      {places.adding ? <PlaceTool map={map} at={places.adding.at} put={places.put} stop={places.stop} /> : null}
     </>
   );
 }

@@ -6,6 +6,7 @@ import { useTranslation } from "react-i18next";
 import type { MapPlace, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { formatPoint } from "@/i18n/format";
+import { NewPlaceForm } from "./NewPlaceForm";
 import { PlaceForm } from "./PlaceForm";
 import { RemovePlace } from "./RemovePlace";
 import type { PlaceEditing } from "./usePlaces";
@@ -31,12 +32,7 @@ export function PlacesPanel({ slug, map, editing }: PlacesPanelProps) {
           <li key={place.id}>
             <Row place={place} editing={editing} />
             {editing?.place?.id === place.id ? (
-              <PlaceForm
-                slug={slug}
-                place={place}
-                isNew={editing.made === place.id}
-                remove={() => setRemoving(place)}
-              />
+              <PlaceForm slug={slug} place={place} remove={() => setRemoving(place)} />
             ) : null}
           </li>
         ))}
@@ -48,19 +44,20 @@ export function PlacesPanel({ slug, map, editing }: PlacesPanelProps) {
 
 function Adding({ editing }: { editing: PlaceEditing }) {
   const { t } = useTranslation();
-  const { isAdding, setAdding } = editing;
-  const Icon = isAdding ? X : MapPinPlus;
+  const { adding, begin, stop } = editing;
+  const Icon = adding ? X : MapPinPlus;
   return (
     <div className={styles.adding}>
       <p id="places-help" className={styles.quiet}>
-        {t(isAdding ? "place.putHelp" : "place.help")}
+        {t(adding ? "place.putHelp" : "place.help")}
       </p>
+      {adding?.at ? <NewPlaceForm editing={editing} /> : null}
       <Button
-        variant={isAdding ? "default" : "light"}
+        variant={adding ? "default" : "light"}
         leftSection={<Icon size={16} aria-hidden="true" />}
-        onClick={() => setAdding(!isAdding)}
+        onClick={adding ? stop : begin}
       >
-        {t(isAdding ? "place.addStop" : "place.add")}
+        {t(adding ? "place.addStop" : "place.add")}
       </Button>
     </div>
   );

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { freeMiddle, freeName } from "./newPlace";
+import { freeMiddle } from "./newPlace";
 
 const map = { version: 1, width: 5, height: 3, resolution_m: 1, origin: { x: -1, y: 2 }, places: [] };
 
@@ -15,10 +15,4 @@ test("a place that nobody has pointed at stands on the free floor nearest to the
 
 test("where nothing is free it stands in the middle", () => {
   expect(freeMiddle({ ...map, cells: new Uint8Array(15).fill(100) })).toEqual([1.5, 3.5]);
-});
-
-test("a new place has a name that no other has, whatever its capitals", () => {
-  const nameOf = (number: number) => `Place ${String(number)}`;
-  expect(freeName([], nameOf)).toBe("Place 1");
-  expect(freeName([{ name: "place 2" }], nameOf)).toBe("Place 3");
 });

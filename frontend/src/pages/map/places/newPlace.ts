@@ -1,5 +1,4 @@
-/** Where a place goes that nobody has pointed at, and what it is called until somebody names it. */
-import type { MapPlace } from "@/api/types";
+/** Where a place goes that nobody has pointed at. */
 import { cellAt, type FloorPlan } from "@/map/floor/floor";
 import type { Point } from "@/map/plane/projection";
 
@@ -20,11 +19,4 @@ export function freeMiddle(map: FloorPlan): Point {
       if (far < least && cellAt(map, at) === 0) [best, least] = [at, far];
     }
   return [Math.round(best[0] * 100) / 100, Math.round(best[1] * 100) / 100];
-}
-
-/** The first of "Place 1", "Place 2", … that no place is called. */
-export function freeName(places: readonly Pick<MapPlace, "name">[], nameOf: (number: number) => string): string {
-  const taken = new Set(places.map((place) => place.name.toLocaleLowerCase()));
-  for (let number = places.length + 1; ; number += 1)
-    if (!taken.has(nameOf(number).toLocaleLowerCase())) return nameOf(number);
 }

@@ -1,37 +1,40 @@
-/** What an admin does with the places of a map at the moment: which one is selected, whether one is being added. */
+/** What an admin does with the places of a map at the moment: which one is selected, where a new one is to be. */
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import { useChangePlace } from "@/api/places";
+import { useChangePlace, type PlaceKind } from "@/api/places";
 import type { SiteMap } from "@/api/types";
 import type { Point } from "@/map/plane/projection";
-import { freeName } from "./newPlace";
 import { tellRefusal } from "./refusal";
 
 export type PlaceEditing = ReturnType<typeof usePlaces>;
 
+/** `adding` is null while no place is being added; its `at` is null until somebody says where. */
 export function usePlaces(slug: string, map: SiteMap) {
   const { t } = useTranslation();
   const change = useChangePlace(slug);
-  const [selected, setSelected] = useState<string | null>(null);
-  const [made, setMade] = useState<string | null>(null);
-  const [isAdding, setAdding] = useState(false);
-  const put = ([x, y]: Point) => {
-    setAdding(false);
-    const name = freeName(map.places, (number) => t("place.new", { number }));
-    change.mutate(
-      { do: "add", place: { name, kind: "point", x, y } },
-      {
-        onSuccess: (place) => {
-          setSelected(place?.id ?? null);
-          setMade(place?.id ?? null);
-        },
-        onError: (error) => tellRefusal(error, t),
-      },
-    );
+  const [selected, select] = useState<string | null>(null);
+  const [adding, setAdding] = useState<{ at: Point | null } | null>(null);
+  const begin = () => {
+    select(null);
+    setAdding({ at: null });
   };
-  const select = (id: string | null) => {
-    setSelected(id);
-    if (id !== made) setMade(null);
+  const add = (name: string, kind: PlaceKind) => {
+    if (!adding?.at) return;
+    const [x, y] = adding.at;
+    const onSuccess = (place: { id: string } | undefined) => {
+      setAdding(null);
+      select(place?.id ?? null);
+    };
+    change.mutate({ do: "add", place: { name, kind, x, y } }, { onSuccess, onError: (error) => tellRefusal(error, t) });
   };
-  return { place: map.places.find((each) => each.id === selected) ?? null, made, isAdding, setAdding, put, select };
+  return {
+    place: map.places.find((each) => each.id === selected) ?? null,
+    select,
+    adding,
+    begin,
+    put: (at: Point) => setAdding({ at }),
+    stop: () => setAdding(null),
+    add,
+    isSending: change.isPending,
+  };
 }
