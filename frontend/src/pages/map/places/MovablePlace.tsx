@@ -51,6 +51,7 @@ export function MovablePlace({ slug, map, place, isSelected, onSelect }: Movable
       onKeyDown={(event) => movedByKey(event, draft)}
       onBlur={keep}
     >
+      <rect className={styles.reach} x={-24} y={-24} width={48} height={48} />
       {place.kind === "dock" ? <rect className={styles.dock} x={-20} y={-25} width={40} height={50} rx={6} /> : null}
       <rect className={styles.token} x={-HALF} y={-HALF} width={2 * HALF} height={2 * HALF} rx={7} />
       <Icon x={-8} y={-8} width={16} height={16} aria-hidden="true" />
