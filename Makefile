@@ -70,7 +70,9 @@ test:
 	@$(MAKE) --no-print-directory --jobs=2 test-python check-beside
 
 test-python:
-	PYTHONDONTWRITEBYTECODE= VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native --durations=25 --numprocesses=3 --dist=loadfile --no-loadscope-reorder
+	@rm -f .pytest_cache/v/cache/lastfailed
+	PYTHONDONTWRITEBYTECODE= VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native --durations=25 --numprocesses=3 --dist=loadfile --no-loadscope-reorder \
+		|| { test $$? -eq 1 && PYTHONDONTWRITEBYTECODE= VIPO_STEADY=1 $(BIN)/python -m scripts.retry_failed; }
 
 check-beside:
 	@$(MAKE) --no-print-directory --output-sync=target check-frontend check-static
