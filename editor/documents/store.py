@@ -140,6 +140,11 @@ def append_changes(program_id: str, changes: Sequence[Change], now: datetime, st
         return range(first, program.last_seq + 1)
 
 
+def note_stored_to(program_id: str, stored_to: str) -> None:
+    """Keep the entry of the room's stream up to which the rows go."""
+    Program.objects.filter(pk=program_id).update(stored_to=stored_to)
+
+
 def last_row(program_id: str) -> int:
     """Return the number of a program's last row; 0 if the program is gone."""
     return Program.objects.filter(pk=program_id).values_list("last_seq", flat=True).first() or 0

@@ -24,6 +24,7 @@ from editor.documents.store import (
     compact_document,
     last_row,
     load_document,
+    note_stored_to,
 )
 from editor.documents.tasks import Comparing, Differences, Folded, Folding
 from editor.documents.yjs_encoding import BadFrame
@@ -131,18 +132,27 @@ class OpenRoom:
 
     async def stop(self) -> None:
         """Save and publish what is left, and end the tasks."""
-        self._ended = True
+        was_whole, self._ended = not self._ended, True
         await self.save()
         await self._compare_with_database()
         await self.checks.store()
         self.room.spread_awareness()
-        with suppress(StreamLost):
+        with suppress(StreamLost, DatabaseError):
             await self._publish()
+            if was_whole:
+                await self._empty_stream()
         async with self._folding:  # its thread waits for this event loop, which may end
             for task in self._tasks:
                 task.cancel()
             await asyncio.gather(*self._tasks, return_exceptions=True)
         self._compilers.forget(self.room.program)
+
+    async def _empty_stream(self) -> None:
+        """Leave nothing between the processes that is in the rows, if no other one has the room open."""
+        stored_to = self.room.ledger.stored_to
+        if stored_to and not self._heard_at:
+            await in_database(note_stored_to)(self.room.program, stored_to)
+            await self._stream.forget(self.room.program, stored_to)
 
     async def _when(self, name: str, pause_s: float, act: Callable[[], Awaitable[None]]) -> None:
         """Act a little after each wake-up, so that what comes in a burst goes in one batch."""

@@ -26,9 +26,11 @@ FORMAT = 2
 """Of the notes. Processes of another version are not heard; what they save is found in the rows."""
 KEPT_ENTRIES = 10_000
 KEPT_SECONDS = 3600
-KEPT_BYTES = 8 * 1024 * 1024
-"""Of one room within one process: whoever reads there is never further behind, and the rows have the rest."""
+KEPT_BYTES = 4 * 1024 * 1024
+"""Of one room, and a little more: who is further behind is told of a gap, and the rows have the rest."""
 _READ_AT_ONCE = 500
+_MARKS = 16
+_WEIGHED_ROOMS = 5_000
 
 
 class StreamLost(ConnectionError):
@@ -72,6 +74,9 @@ class RoomStream(Protocol):
     async def read(self, room: str, after: str, wait_s: float) -> Batch:
         """Return what stands after an id, waiting for it if there is nothing; empty when the time is up."""
 
+    async def forget(self, room: str, up_to: str) -> None:
+        """Keep nothing before this entry: all of it is in the rows, and nobody reads there any more."""
+
     async def close(self) -> None:
         """Give back connections."""
 
@@ -85,6 +90,12 @@ class _Kept:
     last: tuple[int, int] = (0, 0)
     dropped: tuple[int, int] = (0, 0)
     bytes: int = 0
+
+    def drop_first(self) -> None:
+        """Forget the oldest entry."""
+        gone = self.entries.popleft()
+        self.bytes -= len(gone.note.data)
+        self.dropped = _order(gone.id)
 
 
 class MemoryStream:
@@ -106,9 +117,7 @@ class MemoryStream:
             kept.entries.append(Entry("{}-{}".format(*kept.last), origin, note))
             kept.bytes += len(note.data)
         while len(kept.entries) > self._most or (kept.bytes > self._most_bytes and len(kept.entries) > len(notes)):
-            gone = kept.entries.popleft()
-            kept.bytes -= len(gone.note.data)
-            kept.dropped = _order(gone.id)
+            kept.drop_first()
         kept.grown.set()
         kept.grown = asyncio.Event()
         for name in [name for name, each in self._rooms.items() if each.last[0] < now_ms - self._kept_ms]:
@@ -132,14 +141,43 @@ class MemoryStream:
         newer = tuple(takewhile(lambda entry: _order(entry.id) > place, reversed(kept.entries)))
         return Batch(newer[::-1], gap=after != BEGINNING and kept.dropped > place)
 
+    async def forget(self, room: str, up_to: str) -> None:
+        """See RoomStream."""
+        kept, place = self._room(room), _order(up_to)
+        while kept.entries and _order(kept.entries[0].id) < place:
+            kept.drop_first()
+
     async def close(self) -> None:
         """Nothing to give back."""
 
 
-class RedisStream:
-    """Between processes: one Redis Stream for each room."""
+class _Weight:
+    """How many bytes of a room's entries have been read here, and some of the entries with the bytes before them."""
 
-    def __init__(self, url: str, kept: int = KEPT_ENTRIES) -> None:
+    def __init__(self) -> None:
+        self._bytes = 0
+        self._last = (0, 0)
+        self._marks: deque[tuple[str, int]] = deque()
+
+    def take(self, entries: Sequence[Entry], kept: int) -> str:
+        """Count entries, each once; return the one before which nothing has to be kept, or nothing."""
+        for entry in entries:
+            if _order(entry.id) > self._last:
+                self._last = _order(entry.id)
+                if not self._marks or self._bytes - self._marks[-1][1] >= kept // _MARKS:
+                    self._marks.append((entry.id, self._bytes))
+                self._bytes += len(entry.note.data)
+        found = ""
+        while len(self._marks) > 1 and self._bytes - self._marks[1][1] >= kept:
+            self._marks.popleft()
+            found = self._marks[0][0]
+        return found
+
+
+class RedisStream:
+    """Between processes: one Redis Stream for each room; each process that reads it keeps it short."""
+
+    def __init__(self, url: str, kept: int = KEPT_ENTRIES, kept_bytes: int = KEPT_BYTES) -> None:
         self._redis: Any = Redis.from_url(
             url,
             socket_connect_timeout=3,
@@ -149,8 +187,10 @@ class RedisStream:
             retry_on_error=[RedisConnectionError, RedisTimeout],
         )
         self._kept = kept
+        self._kept_bytes = kept_bytes
         self._at_once = min(_READ_AT_ONCE, kept)
         self._doubtful: set[str] = set()
+        self._weights: dict[str, _Weight] = {}
 
     async def append(self, room: str, origin: str, notes: Sequence[Note]) -> None:
         """See RoomStream."""
@@ -180,13 +220,36 @@ class RedisStream:
         try:
             found = await self._redis.xread({_key(room): after}, count=self._at_once, block=max(1, int(wait_s * 1000)))
             entries = tuple(_entry(key, fields) for key, fields in (found[0][1] if found else ()))
-            look = after != BEGINNING and (len(entries) == self._at_once or room in self._doubtful)
-            gap = look and await self._is_trimmed_past(room, after)
+            gap = self._may_have_missed(room, after, entries) and await self._is_trimmed_past(room, after)
+            if up_to := self._weigh(room, entries):
+                await self._trim(room, up_to)
         except (RedisError, OSError) as error:
             self._doubtful.add(room)
             raise StreamLost(f"Redis does not answer: {error}") from error
         self._doubtful.discard(room)
         return Batch(entries, gap)
+
+    def _may_have_missed(self, room: str, after: str, entries: Sequence[Entry]) -> bool:
+        """Tell whether so much was read at once that more may have been dropped before it."""
+        much = len(entries) == self._at_once or sum(len(each.note.data) for each in entries) >= self._kept_bytes
+        return after != BEGINNING and (much or room in self._doubtful)
+
+    def _weigh(self, room: str, entries: Sequence[Entry]) -> str:
+        weight = self._weights.pop(room, None) or _Weight()
+        self._weights[room] = weight  # at the end: those read longest ago are forgotten
+        while len(self._weights) > _WEIGHED_ROOMS:
+            del self._weights[next(iter(self._weights))]
+        return weight.take(entries, self._kept_bytes)
+
+    async def forget(self, room: str, up_to: str) -> None:
+        """See RoomStream."""
+        try:
+            await self._trim(room, up_to)
+        except (RedisError, OSError) as error:
+            raise StreamLost(f"Redis does not answer: {error}") from error
+
+    async def _trim(self, room: str, up_to: str) -> None:
+        await self._redis.xtrim(_key(room), minid=up_to, approximate=False)
 
     async def _is_trimmed_past(self, room: str, after: str) -> bool:
         """Tell whether the entry after which we read is gone, and others after it perhaps too."""

@@ -12,13 +12,15 @@ from redis.asyncio import Redis as RedisClient
 from editor.rooms.stream import BEGINNING, FORMAT, Batch, MemoryStream, Note, RedisStream, RoomStream, StreamLost
 from tests.kit.servers import Redis, run_redis
 
+KEPT_BYTES = 20_000
+
 
 @pytest.fixture(params=["memory", "redis"])
 async def stream(request: pytest.FixtureRequest) -> AsyncIterator[RoomStream]:
     made: RoomStream = (
-        MemoryStream(kept=50)
+        MemoryStream(kept=50, kept_bytes=KEPT_BYTES)
         if request.param == "memory"
-        else RedisStream(request.getfixturevalue("shared_redis").url, kept=50)
+        else RedisStream(request.getfixturevalue("shared_redis").url, kept=50, kept_bytes=KEPT_BYTES)
     )
     yield made
     await made.close()
@@ -71,6 +73,37 @@ async def test_whoever_was_away_too_long_is_told(shared_redis: Redis) -> None:
         await stream.close()
         assert batch.gap
         assert "first" not in texts(batch)
+
+
+async def test_a_room_keeps_little_more_than_its_bytes_and_who_was_away_is_told_of_the_gap(
+    stream: RoomStream, request: pytest.FixtureRequest
+) -> None:
+    room = request.node.name
+    await stream.append(room, "a", notes("first"))
+    away = after = (await stream.read(room, BEGINNING, 0.1)).entries[-1].id
+    for number in range(100):
+        await stream.append(room, "a", notes(f"{number:02}" + "x" * 2000))
+        batch = await stream.read(room, after, 0.1)
+        assert (len(batch.entries), batch.gap) == (1, False)
+        after = batch.entries[-1].id
+    late = await stream.read(room, away, 0.1)
+    kept = [text[:2] for text in texts(late)]
+    assert late.gap
+    assert kept == [f"{number:02}" for number in range(100)][-len(kept) :]
+    assert KEPT_BYTES * 0.8 < sum(map(len, texts(late))) < KEPT_BYTES * 1.3
+
+
+async def test_what_a_closed_room_has_in_its_rows_is_forgotten_and_the_next_one_misses_nothing(
+    stream: RoomStream, request: pytest.FixtureRequest
+) -> None:
+    room = request.node.name
+    await stream.append(room, "a", notes("1", "2", "3"))
+    second = (await stream.read(room, BEGINNING, 0.1)).entries[1].id
+    await stream.forget(room, second)
+    assert await stream.known(room, second) == second
+    rest = await stream.read(room, second, 0.1)
+    assert (texts(rest), rest.gap) == (["3"], False)
+    assert texts(await stream.read(room, BEGINNING, 0.1)) == ["2", "3"]
 
 
 async def test_a_redis_that_is_gone_is_said_to_be(tmp_path: Path) -> None:

@@ -12,10 +12,12 @@ from contextlib import contextmanager, suppress
 
 import psycopg
 import pytest
+import redis
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
 from editor.rooms.hold_off import RedisHoldOffs
+from editor.rooms.stream import FORMAT, KEPT_BYTES
 from tests.integration.editor.node_clients import node_clients
 from tests.integration.editor.web_pairs import Pair, running_pair
 from tests.kit.files import ROOT
@@ -92,13 +94,13 @@ def test_a_room_gives_the_database_what_its_rows_build_on_and_nobody_is_sent_awa
 
 
 @contextmanager
-def frozen(redis: Redis) -> Iterator[None]:
+def frozen(server: Redis) -> Iterator[None]:
     """Let Redis answer nobody for a while."""
-    redis.process.send_signal(signal.SIGSTOP)
+    server.process.send_signal(signal.SIGSTOP)
     try:
         yield
     finally:
-        redis.process.send_signal(signal.SIGCONT)
+        server.process.send_signal(signal.SIGCONT)
 
 
 def set_role(pair: Pair, person: str, role: str) -> None:
@@ -138,6 +140,32 @@ def test_without_redis_nobody_edits_and_afterwards_all_is_there(pair: Pair) -> N
         clients.tell("converged")
         clients.tell("saved", name="ada")
         assert sorted(clients.tell("steps", name="bob")["steps"]) == ["after", "before", "meanwhile"]
+
+
+def kept_in_redis(pair: Pair, program: str) -> tuple[int, int]:
+    """Return of how many entries what the processes have told each other is, and of how many bytes."""
+    key = f"vipo:room:{FORMAT}:{program}"
+    with redis.Redis.from_url(pair.redis.url) as connection:
+        return int(connection.xlen(key)), int(connection.memory_usage(key, samples=0) or 0)
+
+
+@pytest.mark.servers
+def test_who_sends_megabytes_fills_neither_redis_nor_keeps_anything_there_after_leaving(pair: Pair) -> None:
+    program, people = pair.one.new_program(), {"ada": "author", "bob": "second", "cem": "admin"}
+    with node_clients(pair.one, program) as clients:
+        for name, person in people.items():
+            clients.open(name, person, pair.one)
+        for number in range(10):
+            for name in people:
+                clients.tell("fill", name=name, bytes=1_000_000 + number)
+        for name in people:
+            clients.tell("add", name=name, id=name)
+            clients.tell("saved", name=name)
+        assert kept_in_redis(pair, program)[1] < 2 * KEPT_BYTES
+    wait_for("the room to be closed", lambda: kept_in_redis(pair, program)[0] <= 1)
+    with node_clients(pair.two, program) as clients:
+        clients.open("eve", "viewer", pair.two)
+        assert sorted(clients.tell("steps", name="eve")["steps"]) == sorted(people)
 
 
 def press(web: Web, program: str, snapshot: str) -> int:
