@@ -5,7 +5,8 @@ from __future__ import annotations
 import asyncio
 import json
 import signal
-from collections.abc import AsyncIterator, Iterator
+import time
+from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -14,15 +15,18 @@ import pytest
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
-from editor.documents.shared_document import empty_document, encode_document
+from editor.documents.shared_document import SharedDocument, empty_document, encode_document
 from editor.documents.yjs_encoding import encode_integer
 from editor.programs.compiled_patch import apply_patch
 from editor.rooms import yjs_protocol
+from editor.rooms.checks import LEFT_TO_OTHERS_S
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis
+from tests.kit.waiting import PATIENCE_S
 from tests.kit.web import Web, prepare
 
 pytestmark = pytest.mark.servers
+AGAIN_AFTER_S = 0.3
 Json = dict[str, Any]
 
 
@@ -45,55 +49,83 @@ def pair(
 
 
 class Looker:
-    """Somebody who looks at the compiled form; `frames` counts what they were sent, in bytes."""
+    """Somebody who looks at the compiled form, and who comes again when sent away; `frames` are the bytes it was told.
 
-    def __init__(self, socket: ClientConnection) -> None:
-        self.socket = socket
+    What was added is sent again with each connection, as Yjs clients do.
+    """
+
+    def __init__(self, web: Web, program: str, person: str) -> None:
+        self.connecting = connect(
+            web.socket_url(program), additional_headers=web.headers(person), max_size=None, ping_interval=None
+        )
+        self.socket: ClientConnection | None = None
+        self.document = SharedDocument()
+        self.added: list[bytes] = []
         self.form: Json = {}
         self.frames: list[int] = []
-        self.updates = 0
         self.news = asyncio.Condition()
 
-    async def read(self) -> None:
+    async def stay(self) -> None:
+        """Read, and connect again whenever the connection ends."""
         while True:
-            frame = await self.socket.recv()
-            assert isinstance(frame, bytes)
-            if frame.startswith(encode_integer(yjs_protocol.COMPILED)):
-                told = json.loads(frame[frame.index(b"{") :])
-                self.form = apply_patch(self.form, told) if "base" in told else told
-                self.frames.append(len(frame))
-            self.updates += frame.startswith(bytes([yjs_protocol.SYNC, yjs_protocol.UPDATE]))
-            async with self.news:
-                self.news.notify_all()
+            with suppress(ConnectionClosed):
+                async with self.connecting as socket:
+                    await socket.send(encode_integer(yjs_protocol.COMPILED) + encode_integer(0))
+                    await socket.send(yjs_protocol.encode_step_1(self.document.state()))
+                    for update in self.added:
+                        await socket.send(yjs_protocol.encode_step_2(update))
+                    self.socket = socket
+                    while True:
+                        await self._take(await socket.recv())
+            self.socket = None
+            await asyncio.sleep(AGAIN_AFTER_S)
+
+    async def _take(self, frame: str | bytes) -> None:
+        assert isinstance(frame, bytes)
+        if frame.startswith(encode_integer(yjs_protocol.COMPILED)):
+            told = json.loads(frame[frame.index(b"{") :])
+            self.form = apply_patch(self.form, told) if "base" in told else told
+            self.frames.append(len(frame))
+        elif frame[0] == yjs_protocol.SYNC:
+            message = yjs_protocol.decode_frame(frame)
+            if isinstance(message, yjs_protocol.Update | yjs_protocol.SyncStep2):
+                self.document.apply(message.update)
+        async with self.news:
+            self.news.notify_all()
+
+    async def add(self, *names: str) -> None:
+        steps = {
+            name: {"kind": "wait", "place": ["program", "body", name], "params": {"duration": 5}} for name in names
+        }
+        self.added.append(encode_document({**empty_document(), "steps": steps}))
+        if self.socket is not None:
+            with suppress(ConnectionClosed):
+                await self.socket.send(yjs_protocol.encode_step_2(self.added[-1]))
 
     async def sees(self, *steps: str) -> None:
-        async with asyncio.timeout(30), self.news:
-            await self.news.wait_for(lambda: sorted(self.form.get("order", ["?"])) == sorted(steps))
+        await self._wait(lambda: sorted(self.form.get("order", ["?"])) == sorted(steps), f"the form of {steps}")
 
-    async def has_updates(self, count: int, within_s: float) -> bool:
+    async def has(self, step: str) -> None:
+        await self._wait(lambda: step in self.document.to_json()["steps"], step)
+
+    async def _wait(self, is_there: Callable[[], bool], what: str) -> None:
         try:
-            async with asyncio.timeout(within_s), self.news:
-                return await self.news.wait_for(lambda: self.updates >= count)
+            async with asyncio.timeout(PATIENCE_S), self.news:
+                await self.news.wait_for(is_there)
         except TimeoutError:
-            return False
+            has = sorted(self.document.to_json()["steps"])
+            pytest.fail(f"{what} did not come: the form has {self.form.get('order')}, the document {has}")
 
 
 @asynccontextmanager
 async def looking(web: Web, program: str, person: str = "author") -> AsyncIterator[Looker]:
-    headers = web.headers(person)
-    async with connect(web.socket_url(program), additional_headers=headers, max_size=None) as socket:
-        looker = Looker(socket)
-        reading = asyncio.create_task(looker.read())
-        await socket.send(encode_integer(yjs_protocol.COMPILED) + encode_integer(0))
-        try:
-            yield looker
-        finally:
-            reading.cancel()
-
-
-async def add(looker: Looker, *names: str) -> None:
-    steps = {name: {"kind": "wait", "place": ["program", "body", name], "params": {"duration": 5}} for name in names}
-    await looker.socket.send(yjs_protocol.encode_step_2(encode_document({**empty_document(), "steps": steps})))
+    looker = Looker(web, program, person)
+    staying = asyncio.create_task(looker.stay())
+    try:
+        yield looker
+    finally:
+        staying.cancel()
+        await asyncio.gather(staying, return_exceptions=True)
 
 
 async def quiet(*lookers: Looker) -> None:
@@ -101,21 +133,23 @@ async def quiet(*lookers: Looker) -> None:
     while any(looker.frames for looker in lookers):
         for looker in lookers:
             looker.frames.clear()
-        await asyncio.sleep(2.5)
+        await asyncio.sleep(LEFT_TO_OTHERS_S + 0.5)
 
 
 async def test_both_show_one_form_and_an_edit_costs_one_check_and_few_bytes(pair: tuple[Web, Web]) -> None:
     program = pair[0].new_program()
     async with looking(pair[0], program) as ada, looking(pair[1], program, "viewer") as eve:
-        await add(ada, *(f"s{number:03}" for number in range(300)))
+        await ada.add(*(f"s{number:03}" for number in range(300)))
         await ada.sees(*(names := [f"s{number:03}" for number in range(300)]))
         await eve.sees(*names)
         await quiet(ada, eve)
-        await add(ada, "s000a")
+        began = time.monotonic()
+        await ada.add("s000a")
         await ada.sees(*names, "s000a")
         await eve.sees(*names, "s000a")
-        await asyncio.sleep(3)  # longer than one process waits for the other to check
-    assert (len(ada.frames), len(eve.frames)) == (1, 1)
+        took_s = time.monotonic() - began
+        await asyncio.sleep(LEFT_TO_OTHERS_S + 1)
+    assert (len(ada.frames), len(eve.frames)) == (1, 1) or took_s > LEFT_TO_OTHERS_S  # then both may have checked
     assert max(ada.frames + eve.frames) < 1000
     assert ada.form == eve.form
     assert ada.form["numbers"]["s299"] == "301"
@@ -126,36 +160,29 @@ async def test_edits_at_both_at_once_are_all_shown_at_both(pair: tuple[Web, Web]
     async with looking(pair[0], program) as ada, looking(pair[1], program, "second") as bob:
         names = []
         for number in range(30):
-            await asyncio.gather(add(ada, f"a{number}"), add(bob, f"b{number}"))
+            await asyncio.gather(ada.add(f"a{number}"), bob.add(f"b{number}"))
             names += [f"a{number}", f"b{number}"]
             await asyncio.sleep(0.01 * (number % 5))
         await ada.sees(*names)
         await bob.sees(*names)
-        await asyncio.sleep(0.5)
+        await quiet(ada, bob)
         assert ada.form == bob.form
 
 
 async def test_an_edit_whose_process_stops_before_it_has_checked_is_shown_by_the_other(pair: tuple[Web, Web]) -> None:
     program, process = pair[0].new_program(), pair[0].process
     assert process is not None
-    async with looking(pair[1], program, "second") as bob:
+    names: list[str] = []
+    async with looking(pair[0], program) as ada, looking(pair[1], program, "second") as bob:
         for number in range(5):
-            names = [f"s{each}" for each in range(number + 1)]
-            before = bob.updates
-            for _ in range(6):  # who was frozen for long asks its people to come again, who then say it again
-                with suppress(ConnectionClosed):
-                    async with looking(pair[0], program) as ada:
-                        await add(ada, names[-1])
-                        if await bob.has_updates(before + 1, within_s=10):
-                            process.send_signal(signal.SIGSTOP)
-                            try:
-                                await bob.sees(*names)
-                            finally:
-                                process.send_signal(signal.SIGCONT)
-                            break
-            else:
-                pytest.fail("no edit came through the process that had been frozen")
-        async with looking(pair[0], program) as ada:
+            names.append(f"s{number}")
+            await ada.add(names[-1])
+            await bob.has(names[-1])
+            process.send_signal(signal.SIGSTOP)
+            try:
+                await bob.sees(*names)
+            finally:
+                process.send_signal(signal.SIGCONT)
             await ada.sees(*names)
             await quiet(ada, bob)
             assert ada.form == bob.form
