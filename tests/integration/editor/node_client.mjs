@@ -93,8 +93,8 @@ const commands = {
   },
   snapshot: ({ name }) => ({ snapshot: Buffer.from(Y.encodeSnapshot(Y.snapshot(clients.get(name).doc))).toString("base64") }),
   acknowledged: ({ name }) => {
-    const { savedAt, refused, made } = clients.get(name);
-    return { savedAt, refused, made };
+    const { savedAt, refused, made, opened } = clients.get(name);
+    return { savedAt, refused, made, opened };
   },
   steps: ({ name }) => ({ steps: clients.get(name).doc.getMap("steps").toJSON() }),
   destroy({ name }) {

@@ -131,6 +131,18 @@ async def test_within_a_process_a_room_keeps_no_more_bytes_than_its_bound_and_sa
     assert texts(await stream.read("room", batch.entries[-1].id, 0.1)) == ["v" * 2000, "w" * 2000]
 
 
+async def test_within_a_process_a_room_of_which_nothing_is_said_any_more_is_forgotten() -> None:
+    stream = MemoryStream(kept_s=0.05)
+    await stream.append("old", "a", notes("1"))
+    told = (await stream.read("old", BEGINNING, 0.1)).entries[-1].id
+    assert await stream.known("old", told) == told
+    await asyncio.sleep(0.1)
+    await stream.append("new", "a", notes("2"))
+    assert await stream.known("old", told) == BEGINNING
+    assert await stream.read("old", BEGINNING, 0.01) == Batch(())
+    assert texts(await stream.read("new", BEGINNING, 0.1)) == ["2"]
+
+
 async def test_what_a_process_of_another_version_tells_is_not_heard(shared_redis: Redis) -> None:
     stream, redis = RedisStream(shared_redis.url), RedisClient.from_url(shared_redis.url)
     for other in (FORMAT - 1, FORMAT + 1):

@@ -7,6 +7,8 @@ from typing import Any
 from uuid import uuid4
 
 import pytest
+from django.db import connection
+from django.test.utils import CaptureQueriesContext
 from pycrdt import Doc, Map
 
 from editor import services
@@ -76,6 +78,18 @@ def test_changes_of_one_person_that_follow_each_other_are_one_row(program: str, 
         author.pk,
     ]
     assert steps(program) == ["s0", "s1", "s2", "s3", "s4"]
+
+
+def test_a_batch_costs_as_many_statements_with_many_rows_as_with_few(program: str) -> None:
+    statements = []
+    for number in (1, 300, 2):
+        for each in range(number):
+            append_changes(program, [Change(None, drawing(f"s{number}-{each}"))], NOW)
+        with CaptureQueriesContext(connection) as captured:
+            append_changes(program, [Change(None, drawing(f"s{number}-last"))], NOW)
+        statements.append([query["sql"].split()[0] for query in captured.captured_queries])
+    assert statements[0] == statements[1] == statements[2]
+    assert [word for word in statements[0] if word not in {"SAVEPOINT", "RELEASE"}] == ["SELECT", "INSERT", "UPDATE"]
 
 
 def test_whose_a_change_is_outlives_compacting(program: str, author: Any) -> None:

@@ -8,15 +8,16 @@ const decoding = load("lib0/decoding");
 const WebSocket = load("ws");
 const SAVED = 100;
 
-/** `made` counts its changes, `savedAt` says how many of them the server has called saved. */
+/** `made` counts its changes, `savedAt` says how many of them the server has called saved, `opened` its connections. */
 export function openClient({ program, session, port }) {
-  const client = { doc: new Y.Doc(), frames: 0, made: 0, saved: 0, savedAt: 0, refused: 0, closed: null, marks: [] };
+  const client = { doc: new Y.Doc(), frames: 0, made: 0, saved: 0, savedAt: 0, refused: 0, opened: 0, closed: null, marks: [] };
   class Socket extends WebSocket {
     constructor(url, protocols) {
       super(url, protocols, { headers: { Cookie: `sessionid=${session}`, Origin: `http://127.0.0.1:${port}` } });
       client.frames = client.saved = 0;
       client.marks = [];
       this.on("open", () => super.send(Uint8Array.of(SAVED)));
+      this.on("open", () => (client.opened += 1));
     }
     send(data) {
       super.send(data);

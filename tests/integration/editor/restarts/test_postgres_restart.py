@@ -67,5 +67,5 @@ def test_what_is_drawn_while_postgres_is_away_is_not_called_saved_and_is_there_a
             wanted |= {f"ada-before-{restart}"}
         steps = clients.tell("steps", name="ada")["steps"]
         assert set(steps) == wanted
-        assert [clients.tell("closed_for_good", name=name)["closed"] for name in PEOPLE] == [None, None]
+        assert [clients.tell("acknowledged", name=name)["opened"] for name in PEOPLE] == [1, 1]
     pair.two.wait_for_document(program, steps)
