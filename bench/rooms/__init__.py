@@ -2,7 +2,7 @@
 
 Compression is off on all. The peers keep nothing and check nothing; ours stores and compiles meanwhile. Beside each
 time stands how long the server was at work, since the machine's pace swings, and how long the clients were, which
-share the machine with it.
+share the machine with it, and how many others wanted the processor (`load`, of the minute before).
 """
 
 from __future__ import annotations
@@ -48,6 +48,7 @@ def measure() -> Iterator[dict[str, object]]:
 
 def _measure_server(running: AbstractContextManager[Server]) -> Iterator[dict[str, object]]:
     with running as server:
+        _clients(server, "together", writers=2, readers=0, perSecond=4, seconds=2)  # as one that has been at work
         yield from _editors(server)
         if len(server.webs) > 1:  # of these two it matters how many processes there are; a run shall end soon
             yield from _saves(server)
@@ -109,7 +110,7 @@ def _saves(server: Server) -> Iterator[dict[str, object]]:
 
 def _flood(server: Server) -> Iterator[dict[str, object]]:
     before = server.memory_mb()
-    seen = _clients(server, "flood", rounds=FLOODS)
+    seen = _clients(server, "flood", rounds=FLOODS, writers=FLOODS)  # somebody else each time: who has flooded waits
     time.sleep(REST_S)
     more = {"server": server.name, "before": round(before), "closed_with": sorted(set(seen["codes"]))}
     yield figure("memory after a flood", server.memory_mb(), "MB", **more)

@@ -249,7 +249,7 @@ async function flood() {
   await say("begin");
   const codes = [];
   for (let round = 0; round < config.rounds; round += 1) {
-    const client = open({});
+    const client = open({ index: round });
     client.provider.on("closed", (event) => codes.push(event.code));
     client.provider.on("connection-close", (event) => event && codes.push(event.code));
     await until("the join", () => client.provider.synced);

@@ -1,4 +1,4 @@
-"""People at two web processes draw while one of them is killed; a judge says what was called saved and is not there.
+"""People at two web processes draw while one of them ends; a judge says what was called saved and is not there.
 
 `python -m scripts.room_kills 1000 [SEED]` does so often enough to believe it.
 A round is one program with a person at each process; several are drawn at once, and one kill ends all of them.
@@ -7,6 +7,7 @@ A round is one program with a person at each process; several are drawn at once,
 from __future__ import annotations
 
 import random
+import signal
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -19,11 +20,15 @@ import redis
 from editor.documents.shared_document import SharedDocument
 from tests.integration.editor.node_clients import NodeClients, node_process
 from tests.integration.editor.web_pairs import Pair
+from tests.kit.waiting import PATIENCE_S
+from tests.kit.web import Web
 
 AT_ONCE = 5
 ALIKE_WITHIN_S = 20.0
-EMPTIED = 0.25
-"""How often Redis loses all it has shortly before the kill."""
+EMPTIED = 0.3
+"""How often Redis loses what it has shortly before the end: all of it, what the rooms told, or all but the last."""
+ENDS = ("killed", "killed", "killed", "told to end", "frozen")
+"""How a process ends; the one that is frozen goes on when the other has been judged."""
 LONGEST_S = 0.8
 """How long people draw before the kill at most: several times as long as changes wait for their rows."""
 
@@ -48,7 +53,7 @@ def play(pair: Pair, rounds: int, seed: int) -> Iterator[Judged]:
 
 
 def _kill_once(pair: Pair, count: int, dice: random.Random, judged: Judged) -> None:
-    victim, other = dice.sample([pair.one, pair.two], 2)
+    (victim, other), how = dice.sample([pair.one, pair.two], 2), dice.choice(ENDS)
     programs = [other.new_program() for _ in range(count)]
     with node_process(other, Path(__file__).with_name("kill_clients.mjs")) as people:
         for number, program in enumerate(programs):
@@ -59,21 +64,53 @@ def _kill_once(pair: Pair, count: int, dice: random.Random, judged: Judged) -> N
         people.tell("draw", everyMs=dice.choice([10, 30, 80]))
         time.sleep(dice.random() * LONGEST_S)
         if dice.random() < EMPTIED:
-            with redis.Redis.from_url(pair.redis.url) as connection:
-                connection.flushall()
+            _empty(pair.redis.url, dice)
             time.sleep(dice.random() * LONGEST_S / 4)
-        victim.kill()
+        _end(victim, how)
         people.tell("stop")
         kept = people.tell("acknowledged")["people"]
         if dice.random() < 0.5:  # the browsers of the dead process are closed, so nobody can say it again
             people.tell("leave", names=[each["name"] for each in kept if each["name"].endswith("v")])
         _judge(kept, {program: _stored_steps(pair, program) for program in programs}, judged)
-        victim.start()
+        _begin(victim, how)
         drawn = people.tell("settled")["steps"]
         _judge(kept, drawn, judged)
         for program in programs:
             _judge_alike(pair, people, program, judged)
     judged.rounds += count
+
+
+def _empty(url: str, dice: random.Random) -> None:
+    with redis.Redis.from_url(url) as connection:
+        keys = list(connection.scan_iter("vipo:room:*"))
+        match dice.choice(("flushed", "expired", "trimmed")):
+            case "flushed":
+                connection.flushall()
+            case "expired" if keys:
+                connection.delete(*keys)
+            case _:
+                for key in keys:
+                    connection.xtrim(key, maxlen=dice.randrange(3), approximate=False)
+
+
+def _end(web: Web, how: str) -> None:
+    assert web.process is not None
+    match how:
+        case "killed":
+            web.kill()
+        case "told to end":
+            web.process.terminate()
+            web.process.wait(PATIENCE_S)
+        case _:
+            web.process.send_signal(signal.SIGSTOP)
+
+
+def _begin(web: Web, how: str) -> None:
+    assert web.process is not None
+    if how == "frozen":
+        web.process.send_signal(signal.SIGCONT)
+    else:
+        web.start()
 
 
 def _judge_alike(pair: Pair, people: NodeClients, program: str, judged: Judged) -> None:
