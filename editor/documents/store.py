@@ -150,6 +150,12 @@ def last_row(program_id: str) -> int:
     return Program.objects.filter(pk=program_id).values_list("last_seq", flat=True).first() or 0
 
 
+def last_rows(program_ids: Iterable[str]) -> dict[str, int]:
+    """Return the numbers of programs' last rows, of those that are there."""
+    found = Program.objects.filter(pk__in=list(program_ids)).values_list("pk", "last_seq")
+    return {str(program): seq for program, seq in found}
+
+
 def _gathered(changes: Sequence[Change]) -> list[Change]:
     """Return changes of one author that follow each other as one, up to a size: merging holds all threads up."""
     gathered: list[list[Change]] = []

@@ -17,11 +17,11 @@ from typing import Any
 from asgiref.sync import async_to_sync
 from django.conf import settings
 from django.contrib.auth import get_user_model
-from django.db import DatabaseError
+from django.db import DatabaseError, Error
 
 from editor.compiling.compilers import Compilers
 from editor.documents.shared_document import BadUpdate
-from editor.documents.store import flush_before_reading
+from editor.documents.store import flush_before_reading, last_rows
 from editor.documents.work import DocumentTask, have_done_by
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import Program
@@ -40,6 +40,7 @@ from registry.services import Claim, Places, Standing, find_access
 
 log = logging.getLogger(__name__)
 CLOSE_EMPTY_AFTER_S = 5.0
+LOOK_FOR_ROWS_S = 3.0
 FLUSH_LIMIT_S = 5.0
 END_LIMIT_S = 5.0
 TELL_LIMIT_S = 5.0
@@ -60,6 +61,7 @@ class Hub:
         self._ending: dict[str, asyncio.Task[None]] = {}
         self._locks: defaultdict[str, asyncio.Lock] = defaultdict(asyncio.Lock)
         self._background: set[asyncio.Task[None]] = set()
+        self._looking: asyncio.Task[None] | None = None
         self._watches: defaultdict[str, DeviceWatch] = defaultdict(DeviceWatch)
         self._stop_listening: Callable[[], None] | None = None
         self._is_closed = False
@@ -116,7 +118,20 @@ class Hub:
             await asyncio.wait([self._ending[program_id]], timeout=END_LIMIT_S)  # its last rows are read by the next
         opened = await open_room(program_id, uuid.uuid4().hex, self._shared, self._drop)
         self._open[program_id] = opened
+        self._looking = self._looking or self._start(self._look_for_rows)
         return opened
+
+    async def _look_for_rows(self) -> None:
+        """Now and then see whether there are rows of which nobody has told: one question for all rooms."""
+        while not self._is_closed:
+            await asyncio.sleep(LOOK_FOR_ROWS_S)
+            try:
+                rows = await in_database(last_rows)(list(self._open)) if self._open else {}
+            except Error as error:
+                log.warning("The rows of the open programs could not be looked for: %s", error)
+            else:
+                for program in rows.keys() & self._open.keys():
+                    self._open[program].see_row(rows[program])
 
     def inbox(self, room: Room, member: Member) -> Inbox:
         """Return what a connection's messages are given to."""
@@ -178,6 +193,8 @@ class Hub:
         if self._stop_listening:
             self._stop_listening()
         self._is_closed = True
+        if self._looking is not None:
+            self._looking.cancel()
         opened, self._open = list(self._open.values()), {}
         for each in opened:
             each.room.close_all(Close(Close.COME_AGAIN, INTERRUPTED))

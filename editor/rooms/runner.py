@@ -22,7 +22,6 @@ from editor.documents.store import (
     Stored,
     append_changes,
     compact_document,
-    last_row,
     load_document,
     note_stored_to,
 )
@@ -40,9 +39,10 @@ from editor.rooms.threads import in_database
 log = logging.getLogger(__name__)
 SAVE_EVERY_S = 0.25
 PUBLISH_EVERY_S = 0.01
+READ_FOR_S = 5.0
+"""So long a question after news waits for an answer: each is work, in a room where nothing happens too."""
 SPREAD_EVERY_S, SPREAD_AT_LEAST_EVERY_S = 0.01, 0.2
 ADOPT_EVERY_S = 0.5
-LOOK_FOR_ROWS_S = 3.0
 LOST_FOR_S = 20.0
 """So long a room goes on by itself while the other processes cannot be reached."""
 AWARENESS_EVERY_S, AWARENESS_BYTES_PER_S = 0.033, 8_000_000
@@ -122,7 +122,6 @@ class OpenRoom:
             self._every(ADOPT_EVERY_S, self._events["save"].set),
             self._when("awareness", AWARENESS_EVERY_S, self._spread_awareness),
             self._compare_often(),
-            self._look_for_rows(),
             self._every(BEAT_EVERY_S, self._beat),
             self._read(),
             *self.checks.loops(),
@@ -223,7 +222,7 @@ class OpenRoom:
     async def _read(self) -> None:
         while not self._ended:
             try:
-                batch = await self._stream.read(self.room.program, self._after, 1.0)
+                batch = await self._stream.read(self.room.program, self._after, READ_FOR_S)
                 self._lost_at = None
                 if batch.gap:
                     await self._reload()
@@ -310,16 +309,9 @@ class OpenRoom:
         while self.room.document.hash_some(HASHED_AT_ONCE):  # noqa: ASYNC110 - it is this that does it
             await asyncio.sleep(0.002)
 
-    async def _look_for_rows(self) -> None:
-        """Now and then see whether there are rows of which nobody has told."""
-        while True:
-            await asyncio.sleep(LOOK_FOR_ROWS_S)
-            try:
-                seq = await in_database(last_row)(self.room.program)
-            except DatabaseError as error:
-                log.warning("The rows of program %s could not be counted: %s", self.room.program, error)
-            else:
-                self.room.ledger.see_row(seq, time.monotonic())
+    def see_row(self, number: int) -> None:
+        """Take in the number of the program's last row: nobody may have told of it."""
+        self.room.ledger.see_row(number, time.monotonic())
 
     async def _compare_with_database(self) -> None:
         """Give the database what it lacks of the document, and the document what it lacks of the database."""

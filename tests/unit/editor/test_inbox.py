@@ -15,7 +15,7 @@ from editor.rooms.member import BURST_WORK_S, WORK_PER_S, Close, Person
 from editor.rooms.receiving import MOST_STEPS
 from tests.unit.editor.people import Client, room
 
-LARGE = 3000
+LARGE = 20_000  # so many that a quick processor cannot apply them in one stretch either
 
 
 async def cut_here(cutting: Cutting) -> CutUpdate:

@@ -11,7 +11,7 @@ from typing import Any
 
 from websockets.asyncio.client import connect
 
-from tests.integration.editor.test_compiled_in_two_processes import add, looking
+from tests.integration.editor.compiling.looker import looking
 from tests.kit.web import Web
 
 
@@ -32,7 +32,7 @@ async def test_the_site_hears_a_small_notice_of_other_counts_and_not_the_form(we
     program = web.new_program()
     url = f"ws://127.0.0.1:{web.port}/ws/site/hall"
     async with connect(url, additional_headers=web.headers("viewer")) as site, looking(web, program) as ada:
-        await add(ada, "a")
+        await ada.add("a")
         await ada.sees("a")
         async with asyncio.timeout(30):
             told: dict[str, Any] = {}
@@ -48,7 +48,7 @@ async def test_edits_are_shown_though_the_processes_that_check_are_killed_and_th
     program, names = web.new_program(), [f"s{number}" for number in range(6)]
     async with looking(web, program) as ada:
         for number, name in enumerate(names):
-            await add(ada, name)
+            await ada.add(name)
             await ada.sees(*names[: number + 1])
             assert 1 <= len(children_of(web.process.pid)) <= 5
             for pid in children_of(web.process.pid):
@@ -75,7 +75,7 @@ async def test_a_large_program_is_compiled_for_a_request_beside_the_web_process_
             return script, compiled.json()["order"]
 
     async with looking(web, program) as ada:
-        await add(ada, *names)
+        await ada.add(*names)
         await ada.sees(*names)
         asked = await asyncio.to_thread(ask)
         children = children_of(web.process.pid)
