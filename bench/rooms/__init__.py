@@ -26,7 +26,7 @@ from tests.kit.servers import find_program
 
 Json = dict[str, Any]
 SECONDS, JOINS, SAVES, FLOODS, BESIDE_S = 4, 10, 40, 10, 6
-FLOODS_OF = ("texts", "updates", "asks", "states", "presence", "noise")
+FLOODS_OF = ("texts", "updates", "asks", "states", "presence", "noise", "coming")
 REST_S = 6
 """Then the room is closed, since nobody is in it."""
 READERS, LARGE = 300, 4_900

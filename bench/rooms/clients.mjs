@@ -274,12 +274,32 @@ const FLOODS = {
   noise: (client, n) => client.socket.send(new Uint8Array(20_000).fill(n % 251)),
 };
 
+/** Connections that are made and cut off as quickly as the server takes them, ten at once. */
+async function coming(end, codes) {
+  const port = config.ports[0];
+  const headers = { Origin: `http://127.0.0.1:${port}`, Cookie: `sessionid=${config.sessions[0]}` };
+  let made = 0;
+  const one = () =>
+    new Promise((done) => {
+      const socket = new WebSocket(`ws://127.0.0.1:${port}${config.path}/${config.room}`, { headers, perMessageDeflate: false });
+      socket.on("message", () => socket.terminate());
+      socket.on("close", (code) => done((codes[code] = (codes[code] ?? 0) + 1)));
+      socket.on("error", () => socket.terminate());
+    });
+  const again = async () => {
+    for (; performance.now() < end; made += 1) await one();
+  };
+  await Promise.all(Array.from({ length: 10 }, again));
+  return made;
+}
+
 /** As much of one kind as goes out, as somebody who comes again whenever they are cut off, until nobody listens. */
 async function flooding() {
   const codes = {};
   let sent = 0;
   await say("begin");
-  for (const end = performance.now() + 1000 * config.seconds; performance.now() < end; await rest(100)) {
+  if (config.kind === "coming") sent = await coming(performance.now() + 1000 * config.seconds, codes);
+  for (const end = performance.now() + 1000 * config.seconds; config.kind !== "coming" && performance.now() < end; await rest(100)) {
     const client = open({});
     client.provider.on("connection-close", (event) => event && (codes[event.code] = (codes[event.code] ?? 0) + 1));
     await until("the join", () => client.provider.synced || performance.now() > end).catch(() => {});
