@@ -7,6 +7,7 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime, timedelta
+from functools import cache
 from typing import Any
 
 import psycopg
@@ -14,6 +15,8 @@ from django.db import DatabaseError, InterfaceError, connection
 
 KEPT_S = 5.0
 """So long a process counts on from what the database's clock said, by a clock that nobody sets."""
+AT_ONCE = (16, 4, 2, 1)
+"""So many new rows go with one statement: each of these is planned once, and what a step writes is mostly one."""
 
 
 class _Heard:
@@ -81,6 +84,12 @@ def preparing_cursor() -> Iterator[Any]:
         yield prepared
 
 
+@cache
+def _insert(into: str, columns: int, rows: int, ending: str) -> str:
+    row = f"({', '.join(['%s'] * columns)})"
+    return f"{into} VALUES {', '.join([row] * rows)} {ending}"
+
+
 class Batch:
     """Statements of which none waits for what the one before has come to; each returns its cursor.
 
@@ -92,6 +101,15 @@ class Batch:
         cursor = open_cursor()
         cursor.execute(statement, told)
         return cursor
+
+    def insert(self, into: str, rows: Sequence[Sequence[Any]], ending: str = "") -> None:
+        """Insert rows in their order; `into` and `ending` are what stands before and behind their values."""
+        begin = 0
+        for count in AT_ONCE:
+            while len(rows) - begin >= count:
+                some = rows[begin : begin + count]
+                self.ask(_insert(into, len(some[0]), count, ending), [value for row in some for value in row])
+                begin += count
 
     def ask_many(self, statement: str, rows: Sequence[Any]) -> Any:
         """Send one statement for each of the rows; its `rowcount` is that of all of them."""

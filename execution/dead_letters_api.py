@@ -34,14 +34,14 @@ class DeadLetterShape(Schema):
 
 
 class DeadLettersAsked(Asked):
-    """Which are asked for: all of the site, or those in one `state`."""
+    """Which are asked for: all of the site, or those in one `state`; `settled` is all that is not open any more."""
 
-    state: LetterState | None = None
+    state: LetterState | Literal["settled"] | None = None
 
 
 @router.get("/sites/{slug:site}/dead-letters", response=list[DeadLetterShape])
 def list_dead_letters(request: HttpRequest, site: str, asked: Query[DeadLettersAsked]) -> list[dict[str, Any]]:
-    """Return what was set aside at a site because it raised, the newest first, at most 200."""
+    """Return what was set aside at a site because it raised, at most 200, the newest or what was settled last first."""
     require(request.user, site, "admin")
     return [_to_json(letter) for letter in services.list_dead_letters(site=site, state=asked.state)]
 

@@ -30,10 +30,7 @@ REQUEST_HEADER = "vipo_request"
 """Where a task's message carries the id of the HTTP request that it comes from, for the log."""
 ASK_AGAIN_S = 0.5
 """An owner stays for two seconds after its last work: whoever is asked for within half a second is still there."""
-_PUT = """
-INSERT INTO execution_inboxevent (site, target, key, payload, created_at) VALUES (%s, %s, %s, %s, %s)
-ON CONFLICT DO NOTHING
-"""
+_PUT = "INSERT INTO execution_inboxevent (site, target, key, payload, created_at)"
 _asked_at: dict[str, float] = {}
 
 
@@ -69,8 +66,7 @@ def put(batch: database.Batch, site: str, messages: Iterable[tuple[str, str, ToF
     """Put messages into the inboxes of a site together with other statements; `hint` is left to whoever does it."""
     now = connection.ops.adapt_datetimefield_value(database.now())
     rows = [(site, target, key, json.dumps(to_json(message)), now) for target, key, message in messages]
-    if rows:
-        batch.ask_many(_PUT, rows)
+    batch.insert(_PUT, rows, "ON CONFLICT DO NOTHING")
 
 
 def find_told(key: str) -> ToFloor | None:

@@ -7,12 +7,13 @@ from contextlib import contextmanager, suppress
 from typing import Any
 
 from celery import current_task, shared_task
-from celery.signals import worker_shutting_down
+from celery.signals import worker_init, worker_process_init, worker_shutting_down
 
 from execution import mailbox
 from execution.engine.drive import drive_site as drive
 from execution.engine.drive import leave
 from execution.errors import NotFound
+from execution.pool_children import end_of_worker
 from execution.rehearsals import worker
 from execution.retention import upkeep
 from execution.runs.runs import site_of_run
@@ -47,9 +48,27 @@ def advance_run(run_id: str) -> None:
         mailbox.hint_now(site_of_run(run_id=run_id))
 
 
+@worker_init.connect  # type: ignore[untyped-decorator]
+def prepare_pool(**_more: Any) -> None:
+    """See to it that child processes, where the worker has a pool of them, will hear of its end."""
+    end_of_worker.prepare()
+
+
+@worker_process_init.connect  # type: ignore[untyped-decorator]
+def follow_worker(**_more: Any) -> None:
+    """Hand over, in a child process, when its worker is to end."""
+    end_of_worker.listen(_leave_all)
+
+
 @worker_shutting_down.connect  # type: ignore[untyped-decorator]
 def hand_over(**_more: Any) -> None:
-    """Hand every site over before the worker waits for its tasks to end."""
+    """Hand every site over, and let what is rehearsed go back into the queue, before the worker waits for its tasks."""
+    end_of_worker.say()
+    _leave_all()
+
+
+def _leave_all() -> None:
+    worker.stopping.set()
     leave()
 
 
@@ -64,9 +83,3 @@ def archive_old(_hint: str) -> None:
     """Put into the archive what is older than its site keeps it; what is left when time runs out is for the next."""
     if upkeep.archive_old():
         upkeep.ask_for_archiving()
-
-
-@worker_shutting_down.connect  # type: ignore[untyped-decorator]
-def give_rehearsals_back(**_told: Any) -> None:
-    """Let what is rehearsed here go back into the queue: nobody waits ten minutes for a process to end."""
-    worker.stopping.set()

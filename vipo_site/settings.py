@@ -230,7 +230,7 @@ CELERY_TASK_ROUTES = {
     "execution.tasks.rehearse": {"queue": "rehearsals"},
 }
 """Runs have workers that do nothing else. Those of rehearsals have threads to spare, which do the upkeep."""
-CELERY_WORKER_POOL = "threads"  # child processes would not hear that they are to hand their sites over
+CELERY_WORKER_POOL = "threads"  # what child processes count would not go out with the worker's heartbeat
 CELERY_WORKER_CONCURRENCY = VIPO_REHEARSALS_AT_ONCE + 2
 CELERY_TASK_IGNORE_RESULT = True
 CELERY_TASK_ACKS_LATE = False

@@ -23,6 +23,9 @@ from vipo_device.protocol import messages
 
 FIRST_RETRY_S = 2.0
 LAST_RETRY_S = 15.0
+ASKED_AFTER_S = (5.0, 10.0, LAST_RETRY_S)
+"""A command that was accepted is asked for again after these, by how often it has been sent; an answer that a dead
+gateway was to take waits with the broker until that gateway is back."""
 CLAIM_HOLDS_S = 1.0
 """Who comes later than that to send what was claimed does not: others are given it after `FIRST_RETRY_S`."""
 NEVER_AGAIN_S = 7 * 86_400.0
@@ -79,7 +82,7 @@ WITH ready AS MATERIALIZED (
 )<haste>
 UPDATE execution_command SET tries = tries + 1, send_after = CASE
     WHEN execution_command.device IN (SELECT device FROM idless) THEN %(never)s
-    WHEN status NOT IN ({_words(UNANSWERED)}) THEN %(last)s
+    WHEN status NOT IN ({_words(UNANSWERED)}) THEN CASE WHEN tries = 1 THEN %(asked)s ELSE %(last)s END
     WHEN tries = 0 THEN %(first)s WHEN tries = 1 THEN %(second)s WHEN tries = 2 THEN %(third)s
     ELSE %(last)s END
 FROM taken <hasty> WHERE id = taken_id
@@ -172,6 +175,7 @@ def _parameters(now: datetime, limit: int) -> dict[str, Any]:
         "second": FIRST_RETRY_S * 2,
         "third": FIRST_RETRY_S * 4,
         "last": LAST_RETRY_S,
+        "asked": ASKED_AFTER_S[1],
         "never": NEVER_AGAIN_S,
     }
     when = connection.ops.adapt_datetimefield_value

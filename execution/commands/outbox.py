@@ -20,7 +20,7 @@ from django.db.models import Q
 from django.utils.dateparse import parse_datetime
 
 from execution import database, mailbox
-from execution.commands.claim import FIRST_RETRY_S, LAST_RETRY_S, NEVER_AGAIN_S, UNANSWERED
+from execution.commands.claim import ASKED_AFTER_S, FIRST_RETRY_S, NEVER_AGAIN_S, UNANSWERED
 from execution.fault_points import fault_point
 from execution.floor_protocol import CommandEnded, ToFloor, ToRun
 from execution.models import Command
@@ -144,9 +144,9 @@ def _lock(ids: Sequence[UUID], *, durable: bool) -> list[_Open]:
     """Return these commands, which nobody else changes before the transaction is over; always in the same order."""
     is_postgres = connection.vendor == "postgresql"
     given = list(ids) if is_postgres else json.dumps([number.hex for number in ids])
-    with database.preparing_cursor() as cursor:
-        cursor.execute(_LOCKS[connection.vendor], {"ids": given, "hasty": not durable})
-        found = [_Open(*row[: len(_Open._fields)]) for row in cursor.fetchall()]
+    with database.sent_together() as batch:  # with the beginning of the transaction
+        answer = batch.ask(_LOCKS[connection.vendor], {"ids": given, "hasty": not durable})
+    found = [_Open(*row[: len(_Open._fields)]) for row in answer.fetchall()]
     return found if is_postgres else [_from_sqlite(row) for row in found]
 
 
@@ -184,12 +184,13 @@ def _write(heard: Sequence[tuple[_Open, Answer]], at: datetime) -> None:
 
 def _columns(row: _Open, answer: Answer, at: datetime) -> tuple[Any, ...]:
     is_final, when = answer.status in FINAL, connection.ops.adapt_datetimefield_value
+    again_s = ASKED_AFTER_S[min(max(row.tries, 1), len(ASKED_AFTER_S)) - 1]
     return (
         STATUS[answer.status].value,
         answer.why[:500],
         when(row.sent_at(at)),
         when(at if is_final else None),
-        when(None if is_final else at + timedelta(seconds=LAST_RETRY_S)),
+        when(None if is_final else at + timedelta(seconds=again_s)),
         json.dumps(dict(answer.result)) if is_final else None,
         row.id if connection.vendor == "postgresql" else row.id.hex,
     )

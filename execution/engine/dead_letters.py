@@ -16,6 +16,7 @@ from execution.floor_protocol import ResumeAsked, to_json
 from execution.models import DeadLetter, InboxEvent, Run
 
 MOST = 200
+SETTLED = "settled"
 NOTHING_TO_TELL = frozenset({"start", "step", "plan", "facts", "unreadable"})
 """What stands for something that no message said; its run is tried again by resuming it."""
 
@@ -42,10 +43,17 @@ class DeadLetterView:
 
 
 def list_dead_letters(*, site: str, state: str | None = None) -> tuple[DeadLetterView, ...]:
-    """Return what was set aside at a site, the newest first, at most 200 of it."""
+    """Return what was set aside at a site, the newest first, at most 200 of it.
+
+    The state `settled` is that of all that was retried or dropped; there what was settled last comes first.
+    """
     rows = DeadLetter.objects.filter(site__slug=site).select_related("site", "run").order_by("-id")
     rows = rows.defer("run__document", "run__compiled", "run__plan", "run__state")
-    return tuple(_view(row) for row in (rows.filter(state=state) if state else rows)[:MOST])
+    if state == SETTLED:
+        rows = rows.exclude(state=DeadLetter.State.OPEN).order_by("-settled_at", "-id")
+    elif state:
+        rows = rows.filter(state=state)
+    return tuple(_view(row) for row in rows[:MOST])
 
 
 def site_of_dead_letter(*, letter_id: int) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import socket
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import timedelta
 from typing import Any
 from uuid import uuid4
@@ -19,8 +19,25 @@ from execution.frozen_sessions import end_frozen_holder
 from execution.models import SiteLease
 
 LEASE_S = 5.0
-OWNER = f"{socket.gethostname()[:60]}:{os.getpid()}:{uuid4().hex[:8]}"
-"""This process; one that is started anew is another one."""
+
+
+class _Process:
+    """What this process is called as an owner; one that is started anew, or forked from it, is another one."""
+
+    def __init__(self) -> None:
+        self.take_name()
+        os.register_at_fork(after_in_child=self.take_name)
+
+    def take_name(self) -> None:
+        self.name = f"{socket.gethostname()[:60]}:{os.getpid()}:{uuid4().hex[:8]}"
+
+
+_process = _Process()
+
+
+def this_owner() -> str:
+    """Return what this process is called as an owner."""
+    return _process.name
 
 
 _HOLD = {
@@ -43,14 +60,15 @@ class Lease:
 
     site: int
     epoch: int
-    owner: str = OWNER
+    owner: str = field(default_factory=this_owner)
 
 
-def take(site: int, owner: str = OWNER) -> Lease | None:
+def take(site: int, owner: str | None = None) -> Lease | None:
     """Take a site that nobody holds; None when another process holds it.
 
     Who held it last takes it again under the same epoch, so that what it remembers of the site is still true.
     """
+    owner = owner or this_owner()
     row, _ = SiteLease.objects.get_or_create(site_id=site, defaults={"expires_at": Now()})
     if row.owner not in ("", owner):
         end_frozen_holder(site)

@@ -16,10 +16,8 @@ Fields = tuple["models.Field[Any, Any]", ...]
 
 def insert_all(batch: database.Batch, model: type[models.Model], rows: Iterable[models.Model]) -> None:
     """Insert new rows; those that have no key of their own are given one by the database and do not learn it."""
-    fields, statement = _insert(model)
-    values = [[_stored(field, row) for field in fields] for row in rows]
-    if values:
-        batch.ask_many(statement, values)
+    fields, into = _insert(model)
+    batch.insert(into, [[_stored(field, row) for field in fields] for row in rows])
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,8 +55,8 @@ def _key(model: type[models.Model]) -> models.Field[Any, Any]:
 @cache
 def _insert(model: type[models.Model]) -> tuple[Fields, str]:
     fields = tuple(field for field in model._meta.concrete_fields if not isinstance(field, models.AutoField))
-    columns, marks = ", ".join(f'"{field.column}"' for field in fields), ", ".join(["%s"] * len(fields))
-    return fields, f'INSERT INTO "{model._meta.db_table}" ({columns}) VALUES ({marks})'  # noqa: S608 - our own names
+    columns = ", ".join(f'"{field.column}"' for field in fields)
+    return fields, f'INSERT INTO "{model._meta.db_table}" ({columns})'
 
 
 @cache

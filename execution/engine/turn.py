@@ -77,7 +77,6 @@ class Turn:
         self.taken: list[int] = []
         self.kept: list[tuple[str, ToFloor | ToRun]] = []
         self.dead: list[SetAside] = []
-        self.floor_inputs: list[dict[str, Any]] = []
         self.has_more = False
         self._look, self._floor_was_told = look, False
         self._for_runs: dict[str, list[Mail]] = {}

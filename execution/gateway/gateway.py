@@ -19,13 +19,13 @@ from typing import Any
 from django.db import DatabaseError, InterfaceError, connection
 
 from execution import database
-from execution.clock import steady_s
 from execution.commands.claim import OutgoingCommand, claim_commands, mark_sent, release_commands
 from execution.fault_points import fault_point
 from execution.gateway.dashboards import Dashboards
 from execution.gateway.ingest import ENROLMENT, Ingester
 from execution.gateway.queue import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket, with_others
 from execution.gateway.stops import Stops
+from execution.gateway.unmarked import Unmarked
 from registry import services as registry
 from registry.services import Outage
 from vipo_device.protocol import messages
@@ -42,7 +42,6 @@ SERVER_STATUS = "vipo/v1/srv/status"
 WAKE_CHANNEL, STOPS_CHANNEL = "gateway", "stops"
 POLL_S = 0.1
 CLAIM_LIMIT = 100
-MARK_AFTER_S = 0.1
 MOST_AT_ONCE = 200
 COUNT_EVERY_S = 2.0
 TOO_MANY = "too many messages"
@@ -65,13 +64,12 @@ class Gateway:
         self.complaints = Complaints()
         self._outage = Outage("The database", "What devices say waits at the broker, and commands wait.")
         self._outages_seen = 0
-        self._ingester = Ingester(self._note, self.complaints.counts, self._outage)
+        self._unmarked = Unmarked()
+        self._ingester = Ingester(self._note, self.complaints.counts, self._unmarked, self._outage)
         self._notes: deque[tuple[str, str, Mapping[str, Any]]] = deque(maxlen=1000)
         self._greeting_due = threading.Event()
         self._stops = Stops(self._client)
         self._counted_at = 0.0
-        self._unmarked: dict[str, datetime] = {}
-        self._unmarked_since_s = 0.0
 
     def run_forever(self, stopping: threading.Event) -> None:
         """Serve until `stopping` is set."""
@@ -212,9 +210,7 @@ class Gateway:
                 fault_point("after_publish")
                 sent.append(command.id)
         if sent:
-            now = database.now()
-            self._unmarked_since_s = self._unmarked_since_s if self._unmarked else steady_s()
-            self._unmarked |= dict.fromkeys(sent, now)
+            self._unmarked.add(sent, database.now())
             registry.count(name="mqtt_messages_out", labels=("command",), by=len(sent))
         if late:
             count = release_commands(commands=late)
@@ -224,19 +220,20 @@ class Gateway:
 
     def _mark(self) -> None:
         """Say what has gone out, once for all that went out in a moment: what is answered by then needs no word."""
-        if self._unmarked and steady_s() - self._unmarked_since_s >= MARK_AFTER_S:
+        if due := self._unmarked.list_due():
             fault_point("before_mark")
-            mark_sent(sent=self._unmarked)
+            mark_sent(sent=due)
             fault_point("after_mark")
-            self._unmarked = {}
+            self._unmarked.forget(due)
 
     def _mark_last(self) -> None:
         """Say what has gone out before this gateway ends; without that it is only asked for once more."""
+        left = self._unmarked.list_due(all_of_it=True)
         try:
-            if self._unmarked:
-                mark_sent(sent=self._unmarked)
+            if left:
+                mark_sent(sent=left)
         except (DatabaseError, InterfaceError) as error:
-            log.warning("%d commands stay unmarked: %s", len(self._unmarked), error)
+            log.warning("%d commands stay unmarked: %s", len(left), error)
 
     def _greet(self) -> None:
         """Announce the server, upon which devices describe themselves anew; repeat the stops."""

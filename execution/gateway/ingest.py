@@ -15,6 +15,7 @@ from django.db import DatabaseError, InterfaceError, OperationalError, connectio
 from execution import database, mailbox
 from execution.commands import outbox
 from execution.gateway.queue import Entry
+from execution.gateway.unmarked import Unmarked
 from registry import services as registry
 from registry.services import Outage
 from vipo_device.kit.log_ids import add_ids, bind_ids
@@ -36,9 +37,13 @@ class Ingester:
     """Takes messages in and acknowledges each to the broker once it is kept, or will never be."""
 
     def __init__(
-        self, note: Callable[[str, str, Mapping[str, Any]], None], counts: Counter[str], outage: Outage | None = None
+        self,
+        note: Callable[[str, str, Mapping[str, Any]], None],
+        counts: Counter[str],
+        unmarked: Unmarked | None = None,
+        outage: Outage | None = None,
     ) -> None:
-        self._note, self._counts = note, counts
+        self._note, self._counts, self._unmarked = note, counts, unmarked or Unmarked()
         self._outage = outage or Outage("The database", "What devices say waits.")
         self._woken_at: dict[str, float] = {}
 
@@ -104,7 +109,8 @@ class Ingester:
             else:
                 outcomes.append(None)
                 answers.append(outbox.Answer(entry.device, ack.command, ack.status, ack.why, ack.result))
-        outbox.record_acks(answers=answers, at=at)
+        taken = outbox.record_acks(answers=answers, at=at)
+        self._unmarked.forget(answer.command for answer, is_news in zip(answers, taken, strict=True) if is_news)
         return outcomes
 
     def _take_states(self, entries: list[Entry]) -> bool:

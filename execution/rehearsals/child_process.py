@@ -1,8 +1,9 @@
 """`python -m execution.rehearsals.child_process`: one rehearsal in a process of its own, without Django.
 
-It reads a job as JSON from standard input and writes lines of JSON: `{"course": {…}}` (`Course`) four times a second,
-at the end `{"result": {…}}` or `{"error": "…"}`. Of a job's `limits` it holds itself to `wall_s` by the clock and to
-`memory_bytes`; `parent` is the process without which nobody wants the result.
+It reads a job as JSON from standard input and writes lines of JSON: `{"begun": true}` when its time begins,
+`{"course": {…}}` (`Course`) four times a second, at the end `{"result": {…}}` or `{"error": "…"}`. Of a job's `limits`
+it holds itself to `wall_s` by the clock and to `memory_bytes`; `parent` is the process without which nobody wants the
+result.
 """
 
 from __future__ import annotations
@@ -88,6 +89,7 @@ class _Teller:
 def run_job(job: Mapping[str, Any]) -> dict[str, Any]:
     """Carry a job out, writing how far it is; returns the result."""
     limits = job.get("limits", {})
+    _write({"begun": True})  # before it gives way to others: its start is not counted, and may take long beside them
     _hold_to(limits)
     teller = _Teller(limits)
     scene, places = scene_from_json(job["scene"])

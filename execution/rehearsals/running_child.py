@@ -37,7 +37,9 @@ class RunningChild:
         self._pipe = self._process.stdout.fileno()
         self._selector = selectors.DefaultSelector()
         self._selector.register(self._pipe, selectors.EVENT_READ)
-        self._began = self._heard_at = time.monotonic()
+        self._heard_at = time.monotonic()
+        self._kept_waiting_s = self._kept_waiting()
+        self._began: float | None = None
         self._rest = b""
         self.has_ended = False
 
@@ -48,13 +50,24 @@ class RunningChild:
 
     @property
     def age_s(self) -> float:
-        """How long ago it was started."""
-        return time.monotonic() - self._began
+        """How long ago it has begun to rehearse; 0 before that."""
+        return 0.0 if self._began is None else time.monotonic() - self._began
 
     @property
     def silence_s(self) -> float:
-        """How long it has said nothing."""
-        return time.monotonic() - self._heard_at
+        """How long it has said nothing, without the time in which everything else kept it from the processor.
+
+        It gives way to everything else, so on a busy machine it may stand ready for minutes; one that is frozen, stuck
+        or waits for something does not.
+        """
+        return time.monotonic() - self._heard_at - (self._kept_waiting() - self._kept_waiting_s)
+
+    def _kept_waiting(self) -> float:
+        """Return for how many seconds in all it stood ready and had no processor; 0 where the system does not say."""
+        try:
+            return int(Path(f"/proc/{self.pid}/schedstat").read_text().split()[1]) / 1e9
+        except (OSError, IndexError, ValueError):
+            return 0.0
 
     def read(self, limit_s: float) -> list[dict[str, Any]]:
         """Return the lines that have come, after waiting for `limit_s` at most; `has_ended` when no more will."""
@@ -62,7 +75,9 @@ class RunningChild:
             return []
         data = os.read(self._pipe, MOST_BYTES)
         self.has_ended = not data
-        self._heard_at = time.monotonic()
+        self._heard_at, self._kept_waiting_s = time.monotonic(), self._kept_waiting()
+        if self._began is None:
+            self._began = self._heard_at
         *lines, self._rest = (self._rest + data).split(b"\n")
         return [json.loads(line) for line in lines if line.startswith(b"{") and line.endswith(b"}")]
 

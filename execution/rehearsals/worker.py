@@ -31,9 +31,12 @@ log = logging.getLogger(__name__)
 LOOK_S = 0.1
 BEAT_S = 0.5
 SILENT_S = 60.0
-"""A child that has said nothing for so long is frozen; reading a large site takes it a few seconds."""
+"""A child that has said nothing for so long, though it had a processor, is frozen; a large site takes a few seconds."""
 GRACE_S = 15.0
-"""A child ends itself when its time is over, with what it has found; one that does not is ended so much later."""
+"""A child ends itself when its time is over, with what it has found; one that says nothing for so long then is ended.
+
+Whoever says how far it is looks at its time, too; so only silence is a sign that a child will not end itself.
+"""
 DEAD_AFTER = timedelta(seconds=15)
 LOST_AFTER = timedelta(seconds=5)
 MOST_TRIES = 2
@@ -92,9 +95,10 @@ def _follow(row: Rehearsal, child: RunningChild) -> dict[str, Any] | None:
     beat_at = time.monotonic()
     while True:
         for line in child.read(LOOK_S):
-            if "course" not in line:
+            if "course" in line:
+                course = line["course"]
+            elif "begun" not in line:
                 return _ending(line)
-            course = line["course"]
         if child.has_ended:
             return {"status": Rehearsal.Status.FAILED, "reason": DIED}
         if stopping.is_set():
@@ -123,7 +127,7 @@ def _overdue(child: RunningChild, course: Course) -> str:
     """Return why a child is to be ended that does not do so itself; empty when it is not."""
     if child.silence_s > SILENT_S:
         return f"The process that rehearsed it gave no sign for {SILENT_S:g} s and was ended. Start it again."
-    if child.age_s > settings.VIPO_REHEARSAL_LIMIT_S + GRACE_S:
+    if child.age_s > settings.VIPO_REHEARSAL_LIMIT_S + GRACE_S and child.silence_s > GRACE_S:
         minutes, reached = settings.VIPO_REHEARSAL_LIMIT_S / 60, course.get("virtual_s", 0.0)
         return f"It was ended after {minutes:.3g} min, at {reached:.0f} s of simulated time; it may never end."
     return ""

@@ -147,8 +147,9 @@ class MemoryLive:
 class RedisLive:
     """Between processes, over Redis pub/sub.
 
-    One thread listens for news and one for hints, each from the first need on: who waits for hints alone, as workers
-    do, does not take in what every browser is told, and no hint stands behind it.
+    One thread listens for news and one for each kind of hint, each from the first need on: who waits for hints alone,
+    as workers do, does not take in what every browser is told, nor hints that are for gateways, and no hint stands
+    behind another kind.
     """
 
     def __init__(self, url: str) -> None:
@@ -158,7 +159,7 @@ class RedisLive:
         self._here = MemoryLive()
         self._lock = threading.Lock()
         self._threads: dict[str, threading.Thread] = {}
-        self._ready = {_LIVE: threading.Event(), _WAKE: threading.Event()}
+        self._ready: dict[str, threading.Event] = {}
         self._closed = threading.Event()
         self._missed: set[str] = set()
         self._outage = Outage("Redis", "There is no live news, and what waits is found a little later.")
@@ -192,7 +193,7 @@ class RedisLive:
     def listen(self, callback: Listener) -> Callable[[], None]:
         """See Live."""
         stop = self._here.listen(callback)
-        self._start(_LIVE)
+        self._start(f"{_LIVE}*")
         return stop
 
     def wake(self, channel: str) -> None:
@@ -207,7 +208,8 @@ class RedisLive:
 
     def wait_wake(self, channel: str, timeout_s: float) -> bool:
         """See Live."""
-        self._start(_WAKE)
+        kind, colon, _ = channel.partition(":")
+        self._start(f"{_WAKE}{kind}:*" if colon else _WAKE + kind)
         return self._here.wait_wake(channel, timeout_s)
 
     def close(self) -> None:
@@ -226,35 +228,37 @@ class RedisLive:
         self._rests_until = time.monotonic() + REST_S
         self._outage.begin(error)
 
-    def _start(self, what: str) -> None:
+    def _start(self, pattern: str) -> None:
         """Begin to listen at the first need; only the first caller waits, and not for ever, until Redis has heard."""
         with self._lock:
-            if what not in self._threads:
-                name = f"vipo-{what.strip(':').rpartition(':')[2]}"
-                self._threads[what] = threading.Thread(target=self._hear, args=(what,), name=name, daemon=True)
-                self._threads[what].start()
-                self._ready[what].wait(5)
+            if pattern not in self._threads:
+                self._ready[pattern] = threading.Event()
+                name = pattern.strip(":*").replace(":", "-")
+                self._threads[pattern] = threading.Thread(target=self._hear, args=(pattern,), name=name, daemon=True)
+                self._threads[pattern].start()
+                self._ready[pattern].wait(5)
 
-    def _hear(self, what: str) -> None:
+    def _hear(self, pattern: str) -> None:
         """Listen until closed; after each gap tell every watcher to fetch the state anew."""
         connected_before = False
         while not self._closed.is_set():
             try:
                 with self._redis.pubsub(ignore_subscribe_messages=False) as channel:
-                    channel.psubscribe(what + "*")
-                    self._hear_from(channel, what, say_hello=connected_before and what == _LIVE)
+                    channel.psubscribe(pattern)
+                    say_hello = connected_before and pattern.startswith(_LIVE)
+                    self._hear_from(channel, pattern, say_hello=say_hello)
             except RedisError as error:
                 self._outage.begin(error)
                 self._closed.wait(REST_S)
             connected_before = True
 
-    def _hear_from(self, channel: Any, what: str, *, say_hello: bool) -> None:
+    def _hear_from(self, channel: Any, pattern: str, *, say_hello: bool) -> None:
         while not self._closed.is_set():
             message = channel.get_message(timeout=0.2)
             if message is None:
                 continue
             if message["type"] == "psubscribe":
-                self._ready[what].set()
+                self._ready[pattern].set()
                 self._outage.end()
                 if say_hello:
                     self._here.deliver(EVERY_SITE, json.dumps({"type": "hello"}))

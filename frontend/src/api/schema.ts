@@ -765,7 +765,7 @@ export interface paths {
         };
         /**
          * List Dead Letters
-         * @description Return what was set aside at a site because it raised, the newest first, at most 200.
+         * @description Return what was set aside at a site because it raised, at most 200, the newest or what was settled last first.
          */
         get: operations["list_dead_letters"];
         put?: never;
@@ -2390,9 +2390,9 @@ export interface components {
             /** @enum {string} */
             target: "run" | "floor";
         };
-        /** @description Which are asked for: all of the site, or those in one `state`. */
+        /** @description Which are asked for: all of the site, or those in one `state`; `settled` is all that is not open any more. */
         DeadLettersAsked: {
-            state?: ("open" | "retried" | "dropped") | null;
+            state?: ("open" | "retried" | "dropped") | "settled" | null;
         };
         /** @description What a library function holds; `functions` are those that it calls. */
         DefinitionShape: {
@@ -5639,7 +5639,7 @@ export interface operations {
     list_dead_letters: {
         parameters: {
             query?: {
-                state?: ("open" | "retried" | "dropped") | null;
+                state?: ("open" | "retried" | "dropped") | "settled" | null;
             };
             header?: never;
             path: {

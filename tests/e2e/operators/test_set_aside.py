@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sqlite3
 from collections.abc import Iterator
 from contextlib import suppress
@@ -80,6 +81,11 @@ def test_an_admin_is_led_to_what_was_set_aside_and_settles_it_by_keyboard(sign_i
     press(page, "Drop")
     expect(section(page).get_by_text(NONE)).to_be_visible()
     expect(section(page).get_by_role("heading", name="Set aside")).to_be_focused()
+    press(page, "Settled before")
+    expect(letter).to_have_count(2)
+    expect(letter.first).to_contain_text(re.compile("Dropped by .+, "))
+    expect(letter.last).to_contain_text(re.compile("Retried by .+, "))
+    assert violations(page) == []
 
 
 @pytest.mark.usefixtures("bad_message")
@@ -121,6 +127,11 @@ def test_in_german_in_the_dark_on_a_small_screen_it_is_read_and_touched(sign_in:
     assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
     letter.get_by_role("button", name="Verwerfen").press("Enter")
     assert violations(page) == []
+    page.get_by_role("dialog").get_by_role("button", name="Verwerfen").press("Enter")
+    section(page, "Beiseitegelegt").get_by_text("Früher erledigt").press("Enter")
+    expect(letter).to_contain_text(re.compile("Verworfen von .+, "))
+    assert violations(page) == []
+    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
 
 
 def test_an_author_sees_how_much_waits_for_an_admin_and_nothing_to_press(sign_in: SignIn) -> None:

@@ -120,11 +120,24 @@ def test_who_does_not_answer_is_asked_again_after_2_4_8_and_then_every_15_second
         row = Command.objects.get()
         waits.append(int((row.send_after - begun).total_seconds()))
     assert (waits, row.tries) == ([2, 4, 8, 15, 15], 5)
-    accept("robot01", command)
-    begun = datetime.now(UTC)
-    Command.objects.update(send_after=begun, tries=0)
-    assert claimed() == [command]
-    assert int((Command.objects.get().send_after - begun).total_seconds()) == 15
+
+
+def test_what_was_accepted_is_asked_for_again_after_5_10_and_then_every_15_seconds(db):
+    site = Site.objects.create(name="Hall", slug="hall")
+    command, waits = add(site, 1, "oven", "heat", piece=False), []
+
+    def note_wait(since):
+        waits.append(round((Command.objects.get().send_after - since).total_seconds()))
+
+    for status in ("ACCEPTED", "RUNNING", "RUNNING", "RUNNING"):
+        begun = datetime.now(UTC)
+        Command.objects.update(send_after=begun)
+        assert claimed() == [command]
+        note_wait(begun)
+        begun = datetime.now(UTC)
+        assert answer("oven", command, status)
+        note_wait(begun)
+    assert waits == [2, 5, 10, 10, 15, 15, 15, 15]
 
 
 def test_what_a_device_fails_at_is_a_line_of_the_log_with_run_step_and_command(db):
@@ -157,7 +170,7 @@ def test_answers_of_many_devices_are_one_transaction_and_each_counts_once(db, dj
     ids = [add(site, position, f"oven{position}", "heat", piece=False) for position in range(50)]
     answers = [said(f"oven{position}", command) for position, command in enumerate(ids)]
     now = datetime.now(UTC)
-    with django_assert_max_num_queries(6):
+    with django_assert_max_num_queries(9):  # fifty rows go with four statements
         assert record_acks(answers=answers, at=now) == [True] * 50
     assert set(Command.objects.values_list("status", "ended_at")) == {("done", now)}
     assert sorted(InboxEvent.objects.values_list("key", flat=True)) == sorted(f"answer:{command}" for command in ids)

@@ -40,7 +40,8 @@ def test_the_child_process_writes_progress_and_the_result():
     )  # fmt: skip
     lines = [json.loads(line) for line in child.stdout.splitlines()]
     assert child.returncode == 0
-    course = lines[0]["course"]
+    assert lines[0] == {"begun": True}
+    course = lines[1]["course"]
     assert (course["steps"], course["end_known"], course["share"]) == (1, True, 0.0)
     assert course["virtual_s"] <= 30.0
     assert lines[-1]["result"]["ok"] is True
@@ -56,4 +57,6 @@ def test_a_broken_job_is_answered_with_a_sentence():
         cwd=ROOT,
     )
     assert child.returncode == 1
-    assert json.loads(child.stdout)["error"].startswith("The rehearsal broke off")
+    begun, broke = (json.loads(line) for line in child.stdout.splitlines())
+    assert begun == {"begun": True}
+    assert broke["error"].startswith("The rehearsal broke off")

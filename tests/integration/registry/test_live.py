@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import redis
 
 from registry.live import fanout as port
 from registry.live.fanout import Live, RedisLive, make_live
-from tests.kit.servers import run_redis
+from tests.kit.servers import Redis, run_redis
 from tests.kit.waiting import wait_for
 
 
@@ -135,3 +136,15 @@ def test_after_a_gap_watchers_are_told_to_begin_anew(tmp_path: Path, caplog: pyt
         wait_for("the messages", lambda: caplog.text.count("Redis does not answer") == 2)
     live.close()
     assert caplog.text.count("Redis does not answer") == 2
+
+
+def test_who_waits_for_hints_of_one_kind_is_not_told_those_of_others(shared_redis: Redis) -> None:
+    live = RedisLive(shared_redis.url)
+    try:
+        with redis.Redis.from_url(shared_redis.url) as other:
+            before = [other.publish(f"vipo:wake:{channel}", "") for channel in ("site:a", "gateway")]
+            assert live.wait_wake("site:b", 0) is False
+            after = [other.publish(f"vipo:wake:{channel}", "") for channel in ("site:a", "gateway")]
+        assert [now - then for now, then in zip(after, before, strict=True)] == [1, 0]
+    finally:
+        live.close()

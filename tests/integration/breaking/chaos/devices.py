@@ -31,6 +31,8 @@ REMEMBERED = 16
 TWICE, LATE, OLD = 0.25, 0.15, 0.1
 """The share of answers that are said twice, late (and so behind later ones), and once more after the next command."""
 LATE_S, WORK_S = (0.1, 3.0), (0.02, 0.3)
+SLOW, SLOW_S = 0.5, (0.15, 0.4)
+"""The share of commands that an oven hears late: so long that they are marked as sent before they are answered."""
 
 
 class Clock:
@@ -123,10 +125,14 @@ class Oven:
         if isinstance(event, IntroductionDue):
             self.connection.introduce(self._description, online=True)
         elif isinstance(event, CommandReceived):
-            with self._lock:
-                self._take(event.command)
+            late_s = self._chance.uniform(*SLOW_S) if self._chance.random() < SLOW else 0.0
+            self._clock.after(late_s, lambda: self._take(event.command))
 
     def _take(self, command: DeviceCommand) -> None:
+        with self._lock:
+            self._take_locked(command)
+
+    def _take_locked(self, command: DeviceCommand) -> None:
         if command.method in CONTROLS:  # nothing of a game asks for one, unless it is lost already
             self._answer(command.id, "REJECTED")
             return

@@ -43,13 +43,21 @@ def at_point(point: str, what: str) -> Fault:
     def carry_out(plant: Plant, chance: Random) -> None:
         if point.endswith("hand_over"):
             _ask_to_go(plant)
-        wait(plant, f"{what} at {point}", lambda: not (plant.faults / point).exists())
+        wait(plant, f"{what} at {point}", lambda: _is_passed(plant, point))
         if what == "freeze":
             wait(plant, f"{point} freezes", lambda: any(map(plant.is_frozen, plant.processes)))
             pause(plant, chance.choice(FROZEN_S))
             _thaw(plant)
 
     return Fault(f"{what} {point}", carry_out, point)
+
+
+def _is_passed(plant: Plant, point: str) -> bool:
+    """Tell whether somebody has come to a point; where all is done before that, more is given to do."""
+    if not (plant.faults / point).exists():
+        return True
+    plant.allow_more()
+    return False
 
 
 def _ask_to_go(plant: Plant) -> None:

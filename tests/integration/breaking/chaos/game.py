@@ -97,7 +97,7 @@ class _Course:
         if fault.arms:
             (plant.faults / fault.arms).write_text(fault.kind.partition(" ")[0])
         before, at = len(plant.read_log()), time.monotonic()
-        plant.allow(max(runs, plant.game.sites))
+        plant.allow(max(runs, plant.game.sites, plant.wanted))
         if not fault.arms and self._open():
             self._wait(f"work before {fault.kind}", lambda: len(plant.read_log()) > before)
         fault.carry_out(plant, chance)

@@ -102,6 +102,12 @@ class Plant:
         self.wanted = runs
         self.tell("load", str(runs))
 
+    def allow_more(self) -> None:
+        """Let one more run be started, if there is one and all that may have been is done."""
+        ended = len({line["value"] for line in self.read_log() if line["is"] == "end"})
+        if ended >= self.wanted * self.game.commands and self.wanted < self.game.runs:
+            self.allow(self.wanted + 1)
+
     def signal(self, name: str, number: int) -> None:
         self.processes[name].send_signal(number)
 

@@ -133,15 +133,36 @@ def test_an_owner_that_is_killed_at_a_named_point_loses_and_repeats_nothing(owne
     assert len({command.id for command in told(run)}) == 2
 
 
-def test_a_worker_that_is_asked_to_end_hands_its_sites_over_at_once(owners, shared_redis):
+def children_of(process):
+    lists = Path(f"/proc/{process.pid}/task").glob("*/children")
+    return [pid for each in lists for pid in each.read_text().split()]
+
+
+def owner_pid():
+    return SiteLease.objects.get().owner.split(":")[1]
+
+
+@pytest.mark.parametrize("pool", ["threads", "processes"])
+def test_a_worker_that_is_asked_to_end_hands_its_sites_over_at_once(owners, shared_redis, pool):
     run = start(heating(2))
-    worker = owners(*WORKER)
+    worker = owners(*WORKER, "--pool", pool)
     Celery(broker=shared_redis.url, set_as_current=False).send_task(DRIVE_SITE, [SITE], queue="runs")
     wait_told(run, 1)
-    lease = SiteLease.objects.get()
-    assert lease.owner.split(":")[1] == str(worker.pid)
+    assert owner_pid() in ([str(worker.pid)] if pool == "threads" else children_of(worker))
     worker.send_signal(signal.SIGTERM)
     assert worker.wait(30) == 0
     assert drive.advance_site(SITE)
-    assert SiteLease.objects.get().owner.split(":")[1] == str(os.getpid())
+    assert owner_pid() == str(os.getpid())
+    assert Command.objects.count() == 1
+
+
+def test_the_children_of_a_killed_worker_hand_its_sites_over_as_well(owners, shared_redis):
+    run = start(heating(2))
+    worker = owners(*WORKER, "--pool", "processes")
+    Celery(broker=shared_redis.url, set_as_current=False).send_task(DRIVE_SITE, [SITE], queue="runs")
+    wait_told(run, 1)
+    assert owner_pid() in children_of(worker)
+    worker.kill()
+    wait_for("the lease given up", lambda: drive.advance_site(SITE), every_s=0.1)
+    assert owner_pid() == str(os.getpid())
     assert Command.objects.count() == 1

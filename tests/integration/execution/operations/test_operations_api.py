@@ -163,6 +163,22 @@ def test_what_belongs_to_a_run_that_is_over_is_dropped_and_not_retried(hall: str
     assert post(admin, letter, "drop")[0] == 200
 
 
+def test_what_is_settled_is_listed_by_itself_the_last_first(hall: str) -> None:
+    run = make_run(hall, number=9, status="paused")
+    first, second, still_open = (set_aside(hall, error, run) for error in ("One.", "Two.", "Three."))
+    admin = signed_in("admin")
+    assert ask(admin, "dead-letters?state=settled") == []
+    assert [post(admin, second, "retry")[0], post(admin, first, "drop")[0]] == [200, 200]
+    settled = ask(admin, "dead-letters?state=settled")
+    assert [(each["error"], each["state"], each["settled_by"]) for each in settled] == [
+        ("One.", "dropped", "Admin Person"),
+        ("Two.", "retried", "Admin Person"),
+    ]
+    assert settled[0]["settled_at"] >= settled[1]["settled_at"]
+    assert [each["id"] for each in ask(admin, "dead-letters?state=open")] == [still_open]
+    assert [each["id"] for each in ask(admin, "dead-letters")] == [still_open, second, first]
+
+
 def test_strangers_and_operators_cannot_tell_what_was_set_aside(other: str) -> None:
     letter = set_aside(other, "Broken.")
     stranger = post(signed_in("admin"), letter, "retry")

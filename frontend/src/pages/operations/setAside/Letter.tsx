@@ -2,12 +2,11 @@
 import { Button } from "@mantine/core";
 import { RotateCcw, Trash2 } from "lucide-react";
 import { useTranslation } from "react-i18next";
-import { Link } from "react-router-dom";
 import type { DeadLetter } from "@/api/types";
 import { useFocusAfter } from "@/design/useReturnFocus";
-import { formatAgo, formatMoment } from "@/i18n/format";
 import pages from "../../pages.module.css";
-import { eventText, isOver, whatWords } from "./letterWords";
+import { Facts, Why } from "./LetterFacts";
+import { isOver, whatWords } from "./letterWords";
 import styles from "./setAside.module.css";
 
 interface LetterProps {
@@ -19,46 +18,6 @@ interface LetterProps {
   onDrop: (from: HTMLElement) => void;
   /** Who has the focus when this one goes while it had it. */
   afterwards: () => HTMLElement | null;
-}
-
-function Facts({ letter, now }: { letter: DeadLetter; now: number }) {
-  const { t } = useTranslation();
-  return (
-    <p className={styles.facts}>
-      {letter.run ? (
-        <>
-          <Link to={`/runs/${letter.run}`} className={pages.link}>
-            {t("operations.runNumber", { number: letter.run_number ?? "–" })}
-          </Link>
-          {` · ${t(`run.status.${letter.run_status ?? "paused"}`)}`}
-        </>
-      ) : (
-        t("operations.setAside.noRun")
-      )}
-      {` · ${formatAgo(letter.at, now)}`}
-    </p>
-  );
-}
-
-function Why({ letter }: { letter: DeadLetter }) {
-  const { t } = useTranslation();
-  return (
-    <details className={styles.why}>
-      <summary>{t("operations.setAside.why")}</summary>
-      <dl>
-        <dt>{t("operations.setAside.error")}</dt>
-        <dd>
-          <code>{letter.error}</code>
-        </dd>
-        <dt>{t("operations.setAside.when")}</dt>
-        <dd>{formatMoment(letter.at)}</dd>
-        <dt>{t("operations.setAside.said")}</dt>
-        <dd>
-          <pre>{eventText(letter)}</pre>
-        </dd>
-      </dl>
-    </details>
-  );
 }
 
 export function Letter({ letter, now, retries, onRetry, onDrop, afterwards }: LetterProps) {

@@ -12,6 +12,7 @@ import { NothingHere, Section } from "../../section/Section";
 import { AskDrop } from "./AskDrop";
 import { Letter } from "./Letter";
 import { MOST, useOpenLetters, useSettle, type Settling } from "./letters";
+import { Settled } from "./Settled";
 import styles from "./setAside.module.css";
 
 interface Dropping {
@@ -89,6 +90,7 @@ export function SetAside({ slug }: { slug: string }) {
           />
         ))}
       </ul>
+      <Settled slug={slug} now={now} />
       {dropping ? (
         <AskDrop
           letter={dropping.letter}

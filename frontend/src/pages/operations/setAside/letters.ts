@@ -19,6 +19,14 @@ export const useOpenLetters = (slug: string) =>
     staleTime: 0,
   });
 
+/** What was retried or dropped, the last first; nobody waits for news of it. */
+export const useSettledLetters = (slug: string) =>
+  useQuery({
+    queryKey: [...keyOf(slug), "settled"],
+    queryFn: () => api.get<DeadLetter[]>(`/sites/${encodeURIComponent(slug)}/dead-letters?state=settled`),
+    staleTime: 0,
+  });
+
 export interface Settling {
   letter: DeadLetter;
   what: "retry" | "drop";
