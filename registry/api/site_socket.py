@@ -50,7 +50,7 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         await self.accept()
         try:
             if session := session_of_socket(self.scope):
-                self._seat = await watch_of_this_loop().join(session, self._review)
+                self._seat = await watch_of_this_loop().join(session, self._review, self.site)
         except Error:
             await self.close(COME_AGAIN)
             return

@@ -8,6 +8,9 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from django.db.models import Q
+from django.utils import timezone
+
 from registry.errors import RegistryError
 from registry.models import Membership, Site, User
 
@@ -70,11 +73,17 @@ def scope_of(role: str) -> str:
     return SCOPES[ROLES.index(role)]
 
 
+def has_not_ended(prefix: str = "") -> Q:
+    """Return what holds for memberships, reached by this path, whose access has not ended."""
+    return Q(**{f"{prefix}ends_at": None}) | Q(**{f"{prefix}ends_at__gt": timezone.now()})
+
+
 def list_memberships(user: AbstractBaseUser | AnonymousUser) -> QuerySet[Membership]:
     """Return where the user belongs to; a token belongs to one site alone."""
     if not user.is_authenticated or not isinstance(user, User):
         return Membership.objects.none()
-    memberships = Membership.objects.filter(user_id=user.pk, user__is_active=True).select_related("site")
+    rows = Membership.objects.select_related("site")
+    memberships = rows.filter(has_not_ended(), user_id=user.pk, user__is_active=True)
     return memberships.filter(site_id=user.grant.site_id) if user.grant else memberships
 
 
