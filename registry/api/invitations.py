@@ -173,7 +173,7 @@ def join_as_new(request: HttpRequest, response: HttpResponse, body: NewPerson) -
 
 def _with_backend(user: User) -> User:
     """Say by which of Django's ways somebody has come in, which `login` keeps."""
-    user.backend = "django.contrib.auth.backends.ModelBackend"  # type: ignore[attr-defined] # Django sets it so
+    user.backend = "django.contrib.auth.backends.ModelBackend"
     return user
 
 
