@@ -5,6 +5,7 @@ No code changes a line, and the database refuses it (migration 0020); old ones a
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from datetime import datetime, timedelta
 
@@ -19,7 +20,13 @@ LEAST_DAYS = 30
 
 
 def note_act(
-    *, site_id: int, code: str, actor: Actor | None = None, by: str = "", at: datetime | None = None, **facts: object
+    *,
+    site_id: int,
+    code: str,
+    facts: Mapping[str, object] | None = None,
+    actor: Actor | None = None,
+    by: str = "",
+    at: datetime | None = None,
 ) -> None:
     """Write what is being done at a site; `facts` are what its sentence names.
 
@@ -41,7 +48,7 @@ def note_act(
         person_id=who.person,
         address=who.address,
         agent=who.agent,
-        facts=facts,
+        facts=dict(facts or {}),
     )
 
 

@@ -72,7 +72,7 @@ def enrol_device(*, site: str, device_id: str, payload: bytes, at: datetime) -> 
             forget_starts(device)
             device.save(update_fields=["credential_hash", "broker_hash", *STARTS])
             write_event(device, at, "knocked", history_text("knocked"))
-            note_act(site_id=row.pk, code="device_asked", actor=device_acts(device_id), device=device_id)
+            note_act(site_id=row.pk, code="device_asked", actor=device_acts(device_id))
     accounts().put(Account(device_id, key, site=site))
     return not is_known
 

@@ -185,4 +185,4 @@ def _forget_old(device_id: str) -> None:
 
 def note_decision(device: Device, code: str) -> None:
     """Write into the record of the site what somebody has decided about a device; whoever acts now did."""
-    note_act(site_id=device.site_id, code=code, device=device.id)
+    note_act(site_id=device.site_id, code=code, facts={"device": device.id})

@@ -192,7 +192,7 @@ def save_map(
             by=by,
         )
         SiteMap.objects.filter(site=row, version__lte=saved.version - MOST_VERSIONS).delete()
-        note_act(site_id=row.pk, code="map_published", version=saved.version, source=source)
+        note_act(site_id=row.pk, code="map_published", facts={"version": saved.version, "source": source})
         transaction.on_commit(lambda: publish(site, {"type": "map", "version": saved.version}))
     return MapView(site, saved.version, grid)
 

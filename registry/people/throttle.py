@@ -94,8 +94,7 @@ def _note_locked(email: str, now: datetime) -> None:
                 code="sign_in_locked",
                 actor=who,
                 at=now,
-                person=member.user.display_name,
-                minutes=minutes,
+                facts={"person": member.user.display_name, "minutes": minutes},
             )
 
 

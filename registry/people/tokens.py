@@ -125,7 +125,9 @@ def keep_token(
             expires_at=now + timedelta(days=days),
             broker_hash=broker_hash(text) if BROKER in scopes else "",
         )
-        note_act(site_id=member.site_id, code="token_made", name=name, scopes=sorted(scopes), days=days)
+        note_act(
+            site_id=member.site_id, code="token_made", facts={"name": name, "scopes": sorted(scopes), "days": days}
+        )
     return _view(row), text
 
 
@@ -183,7 +185,7 @@ def drop_token(*, token_id: str, site: str = "", user: User | None = None) -> To
     with transaction.atomic():
         if not ApiToken.objects.filter(public_id=view.id).delete()[0]:
             raise NoSuchToken(_ABSENT)
-        note_act(site_id=view.site_id, code="token_revoked", name=view.name, person=view.person)
+        note_act(site_id=view.site_id, code="token_revoked", facts={"name": view.name, "person": view.person})
         transaction.on_commit(lambda: publish(view.site, {"type": "members"}))
     return view
 

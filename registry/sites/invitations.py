@@ -145,7 +145,7 @@ def make_invitation(*, site: str, by: User, wanted: Wanted, now: datetime) -> tu
             expires_at=now + timedelta(days=wanted.days),
             uses=wanted.uses,
         )
-        note_act(site_id=row.pk, code="invitation_made", **asdict(wanted))
+        note_act(site_id=row.pk, code="invitation_made", facts=asdict(wanted))
     return _view(made, now), code
 
 
@@ -182,7 +182,7 @@ def revoke_invitation(*, site: str, invitation: int, now: datetime) -> None:
         if _state(row, now) == "open":
             row.revoked_at = now
             row.save(update_fields=["revoked_at"])
-            note_act(site_id=row.site_id, code="invitation_revoked", role=row.role, used=row.used)
+            note_act(site_id=row.site_id, code="invitation_revoked", facts={"role": row.role, "used": row.used})
 
 
 def look_at_link(*, code: str, address: str, now: datetime) -> Offer:
@@ -267,7 +267,8 @@ def _take_in(row: Invitation, user: User, now: datetime) -> str:
     )
     Invitation.objects.filter(pk=row.pk).update(used=F("used") + 1)
     maker = row.made_by.display_name if row.made_by else ""
-    note_act(site_id=row.site_id, code="joined", by=user.display_name, role=member.role, invited_by=maker)
+    facts = {"role": member.role, "invited_by": maker}
+    note_act(site_id=row.site_id, code="joined", by=user.display_name, facts=facts)
     transaction.on_commit(lambda: publish(row.site.slug, {"type": "members"}))
     return row.site.slug
 

@@ -108,7 +108,11 @@ def change_member(
             member.ends_at = ends_at
             member.save(update_fields=["ends_at"])
             until = ends_at.isoformat(timespec="minutes") if ends_at else None
-            note_act(site_id=member.site_id, code="access_end_set", person=member.user.display_name, until=until)
+            note_act(
+                site_id=member.site_id,
+                code="access_end_set",
+                facts={"person": member.user.display_name, "until": until},
+            )
         _tell(site)
     return _view(member)
 
@@ -154,7 +158,7 @@ def set_member(*, site: str, email: str, role: str) -> None:
         member = _rows(site).select_for_update(of=("self",)).filter(user_id=user.pk).first()
         if member is None:
             Membership.objects.create(site=row, user=user, role=role, joined_at=timezone.now())
-            note_act(site_id=row.pk, code="member_added", person=user.display_name, role=role)
+            note_act(site_id=row.pk, code="member_added", facts={"person": user.display_name, "role": role})
         else:
             _set_role(member, role)
             _rows(site).filter(pk=member.pk, ends_at__lte=timezone.now()).update(ends_at=None)
@@ -206,14 +210,15 @@ def _set_role(member: Membership, role: str) -> None:
         return
     member.role = role
     member.save(update_fields=["role"])
-    note_act(site_id=member.site_id, code="role_changed", person=member.user.display_name, before=before, after=role)
+    facts = {"person": member.user.display_name, "before": before, "after": role}
+    note_act(site_id=member.site_id, code="role_changed", facts=facts)
     if not allows(role, Membership.Role.ADMIN):
         _revoke_invitations(member)
 
 
 def _remove(member: Membership, code: str, *, tokens: list[str]) -> None:
     _revoke_invitations(member)
-    note_act(site_id=member.site_id, code=code, person=member.user.display_name, tokens=tokens)
+    note_act(site_id=member.site_id, code=code, facts={"person": member.user.display_name, "tokens": tokens})
     _tell(member.site.slug)
     Membership.objects.filter(pk=member.pk).delete()
 

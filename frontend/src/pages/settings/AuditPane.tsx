@@ -7,6 +7,7 @@ import type { AuditEntry } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
 import { Chip } from "@/design/Chip";
 import { useNow } from "@/design/useNow";
+import { formatTime } from "@/i18n/format";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { TableSkeleton } from "../TableSkeleton";
 import { actorWords, byDay, deedWords, placeWords } from "./auditWords";
@@ -27,8 +28,6 @@ function Sign({ line }: { line: AuditEntry }) {
 }
 
 function Line({ line }: { line: AuditEntry }) {
-  const { i18n } = useTranslation();
-  const time = new Intl.DateTimeFormat(i18n.language, { timeStyle: "short" }).format(new Date(line.at));
   return (
     <li className={styles.line}>
       <Sign line={line} />
@@ -36,7 +35,7 @@ function Line({ line }: { line: AuditEntry }) {
         <p>
           <strong>{actorWords(line)}</strong> {deedWords(line)}
         </p>
-        <small>{[time, placeWords(line)].filter(Boolean).join(", ")}</small>
+        <small>{[formatTime(line.at), placeWords(line)].filter(Boolean).join(", ")}</small>
       </div>
     </li>
   );

@@ -1,7 +1,7 @@
 /** What was done as a sentence without its subject, and who did it from where; in the language of the screen. */
 import i18next from "i18next";
 import type { AuditEntry } from "@/api/types";
-import { formatMoment } from "@/i18n/format";
+import { formatDay, formatMoment } from "@/i18n/format";
 
 const ROLES = ["role", "before", "after"];
 
@@ -43,7 +43,7 @@ export function dayWords(at: string, now: number): string {
   const of = new Date(at).getTime();
   if (day(of) === day(now)) return i18next.t("people.audit.today");
   if (day(of) === day(now - 24 * 3600 * 1000)) return i18next.t("people.audit.yesterday");
-  return new Intl.DateTimeFormat(i18next.language, { dateStyle: "long" }).format(of);
+  return formatDay(at);
 }
 
 /** Lines with the same day together, in their order. */
