@@ -13,13 +13,14 @@ from django.utils import timezone
 
 from registry.errors import RegistryError
 from registry.models import Membership, Site, User
+from registry.people.roles import ROLES as ROLES
+from registry.people.roles import allows as allows
 
 if TYPE_CHECKING:
     from django.contrib.auth.base_user import AbstractBaseUser
     from django.contrib.auth.models import AnonymousUser
     from django.db.models import QuerySet
 
-ROLES = ("viewer", "operator", "author", "admin")
 SCOPES = ("read", "operate", "run", "admin")
 """What a token may be for. Each stretches to the role at the same place of ROLES; `read` is part of all others, and
 `admin` has all others in it, but `operate` (devices, stop, alerts) and `run` (programs and runs) stand side by side."""
@@ -43,11 +44,6 @@ class OutOfScope(NotAllowed):
     """The person may do this, but has not given the token that right (RFC 6750)."""
 
     code = "insufficient_scope"
-
-
-def allows(has: str, role: str) -> bool:
-    """Tell whether somebody who has one role may do what another one may."""
-    return ROLES.index(has) >= ROLES.index(role)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from registry.people.access import ROLES
+from registry.people.roles import ROLES
 
 Role = Literal["anybody", "person", "maker", "viewer", "operator", "author", "admin"]
 Scope = Literal["anybody", "session", "read", "operate", "run", "admin"]
