@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from registry.people.roles import ROLES
 from registry.people.rights import DEEDS
+from registry.people.roles import ROLES
 
 ROOT = Path(__file__).resolve().parent.parent
 GUIDE = ROOT / "docs" / "administration.md"
@@ -21,7 +21,7 @@ def print_rights() -> str:
     lines = [_row(heads), _row(["---"] * len(heads))]
     for deed in DEEDS:
         if deed.roles:
-            marks = ["yes" if role in deed.roles else "–" for role in ROLES]
+            marks = ["yes" if role in deed.roles else "no" for role in ROLES]
             scope = "none" if deed.right.scope == "session" else f"`{deed.right.scope}`"
             lines.append(_row([words["deed"][deed.name], *marks, scope]))
     return "\n".join(lines)
