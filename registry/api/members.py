@@ -98,7 +98,12 @@ def change_member(request: HttpRequest, slug: str, person: int, body: MemberChan
     user = signed_in(request)
     require(user, slug, "admin")
     changed = members.change_member(
-        site=slug, person=person, role=body.role, ends_at=body.ends_at, sets_end="ends_at" in body.model_fields_set
+        site=slug,
+        person=person,
+        by=user,
+        role=body.role,
+        ends_at=body.ends_at,
+        sets_end="ends_at" in body.model_fields_set,
     )
     return _to_json(changed, user)
 
@@ -106,8 +111,9 @@ def change_member(request: HttpRequest, slug: str, person: int, body: MemberChan
 @router.delete("/sites/{slug}/members/{int:person}", response=EndingShape, auth=session_only)
 def remove_member(request: HttpRequest, slug: str, person: int) -> dict[str, Any]:
     """Remove a member, and say what has ended with that; the last admin stays (409)."""
-    require(signed_in(request), slug, "admin")
-    return asdict(members.drop_member(site=slug, person=person))
+    user = signed_in(request)
+    require(user, slug, "admin")
+    return asdict(members.drop_member(site=slug, person=person, by=user))
 
 
 @router.post("/sites/{slug}/leave", response={204: None}, auth=session_only)

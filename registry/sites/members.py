@@ -1,7 +1,8 @@
 """The members of a site: who they are, what they may do and until when; changed, removed, left.
 
-Whoever changes it locks the site's row first, so that of two admins who lower each other at once one is told. A site
-that has an admin whose access does not end keeps one: only who serves VIPO may take the last one away (`by_server`).
+Whoever changes it locks the site's row first and is looked at again then, so that of two admins who lower each other
+at once one is told. A site that has an admin whose access does not end keeps one: only who serves VIPO may take the
+last one away (`set_member`, `remove_member`).
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from registry.audit.record import note_act
 from registry.errors import RegistryError
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import ApiToken, Invitation, Membership, Site, User
-from registry.people.access import ROLES, NotAMember, allows
+from registry.people.access import ROLES, NotAMember, allows, require
 from registry.sites.sites import BadName, UnknownPerson, find_site
 
 LONGEST = timedelta(days=3660)
@@ -88,17 +89,24 @@ def what_ends(*, site: str, person: int) -> Ending:
 
 
 def change_member(
-    *, site: str, person: int, role: str | None = None, ends_at: datetime | None = None, sets_end: bool = False
+    *,
+    site: str,
+    person: int,
+    by: User,
+    role: str | None = None,
+    ends_at: datetime | None = None,
+    sets_end: bool = False,
 ) -> MemberView:
     """Give a member another role, or another end of access (with `sets_end`; None: no end), at once.
 
-    Raises NoSuchMember, LastAdmin, BadEnd.
+    Raises NoSuchMember, LastAdmin, BadEnd; NotAMember and NotAllowed if `by` is no admin any more.
     """
     now = timezone.now()
     if sets_end and ends_at is not None and not now < ends_at < now + LONGEST:
         raise BadEnd("The end of access lies in the future, and at most ten years ahead. Choose another day.")
     with transaction.atomic():
         _lock(site)
+        require(by, site, "admin")
         member = _find(_rows(site).select_for_update(of=("self",)), person)
         if (role is not None and role != Membership.Role.ADMIN) or (sets_end and ends_at is not None):
             _require_other_admin(member)
@@ -117,13 +125,15 @@ def change_member(
     return _view(member)
 
 
-def drop_member(*, site: str, person: int) -> Ending:
+def drop_member(*, site: str, person: int, by: User) -> Ending:
     """Remove a member with all that they have open here; their name stays where it stood.
 
-    Of whom it was the only site the sessions end, too. Raises NoSuchMember, LastAdmin.
+    Of whom it was the only site the sessions end, too. Raises NoSuchMember, LastAdmin; NotAMember and NotAllowed if
+    `by` is no admin any more.
     """
     with transaction.atomic():
         _lock(site)
+        require(by, site, "admin")
         member = _find(_rows(site).select_for_update(of=("self",)), person)
         _require_other_admin(member)
         ending = _ending(member)
