@@ -4,7 +4,7 @@ import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { CircleAlert } from "lucide-react";
 import { useEffect, useState, type FormEvent, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
-import { Link, useLocation, useNavigate } from "react-router-dom";
+import { Link, useLocation, useNavigate, type To } from "react-router-dom";
 import { api, ApiProblem } from "@/api/client";
 import { keys, useMe } from "@/api/queries";
 import type { Me, NewPerson, Offer, User } from "@/api/types";
@@ -105,11 +105,15 @@ function AsNew({ code }: { code: string }) {
   );
 }
 
+/** Signing in, and from there back here. The code stays behind the sign #: no log of a server or proxy has it. */
+function useWayToSignIn(): To {
+  const { pathname, hash } = useLocation();
+  return { pathname: "/sign-in", search: `?next=${pathname}`, hash };
+}
+
 function WithAccount() {
   const { t } = useTranslation();
-  const { pathname, hash } = useLocation();
-  // The code stays behind the sign #, also on the way: no log of a server or proxy has it.
-  const to = { pathname: "/sign-in", search: `?next=${pathname}`, hash };
+  const to = useWayToSignIn();
   return (
     <section className={styles.way} aria-labelledby="with-account">
       <h2 id="with-account">{t("people.join.have")}</h2>
@@ -128,7 +132,7 @@ function AsMyself({ code, user }: { code: string; user: User }) {
     mutationFn: () => api.post<{ site: string }>("/invitations/accept", { code }),
     onSuccess: enter,
   });
-  const other = useSignOut("/sign-out");
+  const other = useSignOut("/sign-out", useWayToSignIn());
   return (
     <section className={sign.form}>
       <SignOutQuestion signOut={other} />
