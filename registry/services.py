@@ -14,6 +14,8 @@ from registry.alerts.inbox import (
 )
 from registry.alerts.views import AlertView, alert_to_json
 from registry.alerts.watch import watch_devices
+from registry.audit.acting import VIPO, acting
+from registry.audit.record import note_act, prune_audit
 from registry.bounds.parts import FIRST, Listed, Part, take_part
 from registry.bounds.places import Claim, Places
 from registry.broker.accounts import wait_account_change
@@ -122,6 +124,8 @@ from registry.processes.counters import BOUNDS_S, MEASURES, Measure, count, coun
 from registry.processes.findings import Finding, find_trouble
 from registry.processes.heart import Heart
 from registry.processes.heartbeats import ProcessView, list_processes, prune_processes, read_time
+from registry.sites.invitations import prune_invitations
+from registry.sites.members import remove_member, set_member
 from registry.sites.quota import set_site_quota
 from registry.sites.sites import (
     create_site,
@@ -130,10 +134,8 @@ from registry.sites.sites import (
     list_places,
     list_sites,
     list_slugs,
-    remove_member,
     save_places,
     set_enrolment_key,
-    set_member,
     set_site_stop,
 )
 from registry.sites.views import PlaceView, SiteView, StopView, site_to_json
@@ -145,6 +147,7 @@ __all__ = [
     "EVERY_SITE",
     "FIRST",
     "MEASURES",
+    "VIPO",
     "Access",
     "AlertCode",
     "AlertView",
@@ -198,6 +201,7 @@ __all__ = [
     "TopicNotAsked",
     "TopicTaken",
     "account_file",
+    "acting",
     "add_place",
     "alert_to_json",
     "approve_device",
@@ -277,10 +281,13 @@ __all__ = [
     "mark_alert_seen",
     "mark_all_seen",
     "mark_stale",
+    "note_act",
     "note_alert",
     "note_mended",
     "note_samples",
     "prune_alerts",
+    "prune_audit",
+    "prune_invitations",
     "prune_keyed_requests",
     "prune_processes",
     "prune_samples",

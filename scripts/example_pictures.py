@@ -46,7 +46,8 @@ def _make_site(site: Example) -> None:
     from registry.demo.factory import make_grid
     from registry.maps.site_maps import save_map
     from registry.models import Device, Site
-    from registry.sites.sites import create_site, save_places, set_member
+    from registry.sites.members import set_member
+    from registry.sites.sites import create_site, save_places
     from registry.sites.views import PlaceView
 
     create_site(name=site.id.capitalize(), slug=site.id)

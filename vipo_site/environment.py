@@ -141,6 +141,28 @@ def log_words() -> tuple[str, str]:
     return level, form
 
 
+def mail_tls() -> str:
+    """Return how the way to the mail server is kept from others, from VIPO_MAIL_TLS: `starttls`, `tls` or `none`."""
+    value = os.environ.get("VIPO_MAIL_TLS", "") or "starttls"
+    if value not in ("starttls", "tls", "none"):
+        raise ImproperlyConfigured(f"VIPO_MAIL_TLS is {value[:20]!r}; set it to starttls, tls or none.")
+    host = os.environ.get("VIPO_MAIL_HOST", "")
+    if value == "none" and host and not is_local(host):
+        raise ImproperlyConfigured(
+            "VIPO_MAIL_TLS is none and VIPO_MAIL_HOST another machine: invitations would travel where others read "
+            "them. Set VIPO_MAIL_TLS=starttls or tls."
+        )
+    return value
+
+
+def mail_sender(host: str) -> str:
+    """Return from whom mail comes, VIPO_MAIL_FROM, which a server that sends any must say."""
+    sender = os.environ.get("VIPO_MAIL_FROM", "")
+    if host and not sender:
+        raise ImproperlyConfigured("VIPO_MAIL_FROM is not set; with VIPO_MAIL_HOST it names the sender of mail.")
+    return sender or "vipo@localhost"
+
+
 def whole_number(name: str, default: int, least: int = 1) -> int:
     """Return a setting that counts something; nonsense and what is below the least stop the start."""
     value = os.environ.get(name, "") or str(default)

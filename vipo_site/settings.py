@@ -16,6 +16,8 @@ from vipo_site.environment import (
     is_local,
     local_secret,
     log_words,
+    mail_sender,
+    mail_tls,
     named_proxies,
     open_state,
     private_database,
@@ -84,6 +86,7 @@ MIDDLEWARE = [
     "django.middleware.common.CommonMiddleware",
     "django.middleware.csrf.CsrfViewMiddleware",
     "django.contrib.auth.middleware.AuthenticationMiddleware",
+    "vipo_site.http.acting.NotesWhoActs",
     "django.middleware.clickjacking.XFrameOptionsMiddleware",
 ]
 ROOT_URLCONF = "vipo_site.urls"
@@ -218,6 +221,19 @@ VIPO_KEEP_CALLS_DAYS = whole_number("VIPO_KEEP_CALLS_DAYS", 365, least=0)
 """For so many days what has ended stays in the database, 0: for ever; each site may choose others."""
 VIPO_ARCHIVE_DIR = Path(os.environ.get("VIPO_ARCHIVE_DIR", VIPO_STATE_DIR / "archive"))
 """Where what is older lies as files; the workers of upkeep write it, the web processes read it."""
+VIPO_AUDIT_DAYS = whole_number("VIPO_AUDIT_DAYS", 730, least=30)
+"""For so many days the record of what was done at each site is kept."""
+
+EMAIL_HOST = os.environ.get("VIPO_MAIL_HOST", "")
+"""The server that takes mail; without one invitations are links alone."""
+_MAIL_TLS = mail_tls()
+EMAIL_USE_TLS, EMAIL_USE_SSL = _MAIL_TLS == "starttls", _MAIL_TLS == "tls"
+EMAIL_PORT = whole_number("VIPO_MAIL_PORT", {"starttls": 587, "tls": 465, "none": 25}[_MAIL_TLS])
+EMAIL_HOST_USER = os.environ.get("VIPO_MAIL_USER", "")
+EMAIL_HOST_PASSWORD = secret("VIPO_MAIL_PASSWORD") if EMAIL_HOST and _SIGNS else ""
+EMAIL_TIMEOUT = 10
+DEFAULT_FROM_EMAIL = mail_sender(EMAIL_HOST)
+
 VIPO_DEMO = has_demo(ALLOWED_HOSTS)
 VIPO_DEMO_SIGN_IN = VIPO_DEMO and not SERVED
 """Whether the sign-in page offers the demo's accounts, which tells their passwords to who asks."""

@@ -86,6 +86,7 @@ def delete_program(*, program_id: UUID | str) -> None:
     program = _find(program_id)
     site = program.site.slug
     with transaction.atomic():
+        registry.note_act(site_id=program.site_id, code="program_deleted", facts={"program": program.name})
         program.delete()
         transaction.on_commit(lambda: publish(site, {"type": "programs"}))
 

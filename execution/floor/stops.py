@@ -145,9 +145,25 @@ def _follow_alone(site: str) -> bool:
             return False
         stop = get_stop(site=site)
         if told.fence != stop.fence:
+            _note(stop, told)
             _follow(stop)
             StopFollowed.objects.filter(pk=told.pk).update(fence=stop.fence)
     return True
+
+
+def _note(stop: StopView, told: StopFollowed) -> None:
+    """Write into the site's record what was pressed since it was told last; by whom is known of the latest alone.
+
+    Not with the latch itself, which waits for nothing.
+    """
+    shown = told.site
+    if stop.active and (not shown.stop_active or shown.stop_at != stop.at):
+        registry.note_act(site_id=shown.pk, code="stop_pressed", by=stop.by, at=stop.at)
+    elif not stop.active:
+        if not shown.stop_active and stop.pressed > told.fence:
+            registry.note_act(site_id=shown.pk, code="stop_pressed", actor=registry.VIPO)
+        if shown.stop_active or stop.pressed > told.fence:
+            registry.note_act(site_id=shown.pk, code="stop_reset", by=stop.by, at=stop.at)
 
 
 def _follow(stop: StopView) -> None:

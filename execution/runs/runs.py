@@ -78,6 +78,8 @@ def _create_numbered(prepared: Prepared, begin: _Beginning) -> Run:
 def _create(prepared: Prepared, begin: _Beginning) -> Run:
     site = registry.get_site_id(site=prepared.site)
     last = Run.objects.filter(site_id=site).aggregate(last=Max("number"))["last"] or 0
+    facts = {"number": last + 1, "program": prepared.name, "armed": begin.entry > 0}
+    registry.note_act(site_id=site, code="run_started", by=begin.by, facts=facts)
     return Run.objects.create(
         site_id=site,
         number=last + 1,
@@ -125,7 +127,10 @@ def resume_run(*, run_id: UUID | str, by: str) -> RunView:
 def cancel_run(*, run_id: UUID | str, by: str) -> RunView:
     """Ask a run to end: what machines do for it is called off, its robots stop at the next safe point."""
     row = _find_open(run_id)
-    return _order(row, CancelAsked(f"{by} cancelled it"))
+    with transaction.atomic():
+        facts = {"number": row.number, "program": row.program_name}
+        registry.note_act(site_id=row.site_id, code="run_cancelled", by=by, facts=facts)
+        return _order(row, CancelAsked(f"{by} cancelled it"))
 
 
 def _order(row: Run, order: ToRun) -> RunView:

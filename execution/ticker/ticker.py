@@ -69,6 +69,8 @@ class Ticker:
             registry.prune_samples(now=now)
             registry.prune_alerts(now=now)
             registry.prune_tokens(now=now)
+            registry.prune_invitations(now=now)
+            registry.prune_audit(now=now)
             registry.prune_keyed_requests(now=now)
             registry.drop_expired(now=now)
             registry.forget_attempts(now=now)

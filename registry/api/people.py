@@ -20,6 +20,7 @@ from ninja.responses import Status
 from ninja.utils import check_csrf
 
 from registry.api.authentication import session_only
+from registry.audit.acting import client_address
 from registry.demo.accounts import read_accounts
 from registry.devices.things import call_listeners
 from registry.live.fanout import EVERY_SITE, publish
@@ -75,6 +76,12 @@ def sign_in(request: HttpRequest, response: HttpResponse, body: SignIn) -> dict[
         now=timezone.now(),
         device=find_device(request, body.email),
     )
+    begin_session(request, response, user)
+    return _me(request)
+
+
+def begin_session(request: HttpRequest, response: HttpResponse, user: User) -> None:
+    """Let somebody be signed in from here on, and this browser be known to be theirs."""
     login(request, user)
     request.session.save()
     note_session(
@@ -84,12 +91,6 @@ def sign_in(request: HttpRequest, response: HttpResponse, body: SignIn) -> dict[
         now=timezone.now(),
     )
     remember_browser(request, response, user.email)
-    return _me(request)
-
-
-def client_address(request: HttpRequest) -> str:
-    """Return where a request comes from, as the server that took it says; no header that a client sends counts."""
-    return str(request.META.get("REMOTE_ADDR", ""))
 
 
 @router.post("/sign-out", response=Me, auth=session_only)

@@ -36,6 +36,7 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
     """
 
     _claim: Claim | None = None
+    _role = ""
     _seat: Seat | None = None
     _closing: asyncio.Task[None] | None = None
     _reader: asyncio.Task[None] | None = None
@@ -50,7 +51,7 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         await self.accept()
         try:
             if session := session_of_socket(self.scope):
-                self._seat = await watch_of_this_loop().join(session, self._review)
+                self._seat = await watch_of_this_loop().join(session, self._review, self.site)
         except Error:
             await self.close(COME_AGAIN)
             return
@@ -62,6 +63,7 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
             await self.close(TOO_MANY)
             return
         self._claim = claim
+        self._role = self._role_now()
         self._reader = asyncio.create_task(self._read())
         self._writer = asyncio.create_task(self._write())
 
@@ -94,6 +96,13 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
                 if task:
                     task.cancel()
             self._closing = asyncio.create_task(self.close(code))
+        elif self._claim and (role := self._role_now()) != self._role:
+            self._role = role
+            self._put({"type": "role", "role": role})
+
+    def _role_now(self) -> str:
+        standing = self._seat and self._seat.standing
+        return standing.roles.get(self.site, "") if standing else ""
 
     async def _read(self) -> None:
         async with subscribe(self.site, limit=10 * MOST_WAITING) as messages:

@@ -17,8 +17,9 @@ from registry.floorplan.map_server import read_map
 from registry.maps.site_maps import save_map
 from registry.models import Site, SiteMap, User
 from registry.people.sign_in import create_user
+from registry.sites.members import set_member
 from registry.sites.quota import USUAL_SITES, set_site_quota
-from registry.sites.sites import create_site, save_places, set_enrolment_key, set_member
+from registry.sites.sites import create_site, save_places, set_enrolment_key
 from registry.sites.views import PlaceView
 
 SITE_NAME = "Painting Factory"

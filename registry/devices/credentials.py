@@ -17,16 +17,17 @@ from datetime import datetime, timedelta
 from django.conf import settings
 from django.db import transaction
 
+from registry.audit.record import note_act
 from registry.broker.accounts import Account, accounts
 from registry.broker.mosquitto_file import ENROLMENT
 from registry.devices.authentication import list_broker_hashes
 from registry.devices.enrolment import JUST_NOW
-from registry.devices.history import history_text, write_event
+from registry.devices.history import history_text, note_decision, write_event
 from registry.devices.rows import STARTS, announce, forget_starts, lock_device
 from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
 from registry.models import Device, User
-from registry.sites.sites import get_enrolment_key, has_enrolment_key, replace_enrolment_key
+from registry.sites.sites import find_site, get_enrolment_key, has_enrolment_key, replace_enrolment_key
 from vipo_device.protocol.credentials import broker_hash, make_credential, secret_hash
 from vipo_device.protocol.messages import BadMessage, down_topic, parse_ack, up_topic
 from vipo_device.protocol.mqtt_client import MqttClient, MqttError
@@ -119,6 +120,7 @@ def revoke_credential(*, site: str, device_id: str, by: User | None, at: datetim
         lock_out(device, at)
         device.save(update_fields=["credential_hash", "broker_hash", "ends_before", "online"])
         write_event(device, at, "revoked", history_text("revoked"), by)
+        note_decision(device, "device_key_revoked")
         after = view_of(device, site)
         announce(before, after)
     return after
@@ -131,6 +133,7 @@ def renew_enrolment_key(*, site: str) -> str:
     """
     with transaction.atomic():
         key = replace_enrolment_key(site=site, key=make_credential())
+        note_act(site_id=find_site(site).pk, code="enrolment_key_renewed")
         accounts().put(Account(ENROLMENT + site, key))
     return key
 
@@ -205,6 +208,7 @@ def replace_key(site: str, device_id: str, credential: str, by: User | None, at:
             forget_starts(device)
         device.save(update_fields=["credential_hash", "broker_hash", "ends_before", "key_told_at", *STARTS])
         write_event(device, at, "credential", history_text("credential"), by)
+        note_decision(device, "device_key_given")
         after = view_of(device, site)
         announce(before, after)
     return after

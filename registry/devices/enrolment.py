@@ -15,6 +15,7 @@ from django.conf import settings
 from django.db import transaction
 
 from registry.alerts.buffer import note_alert
+from registry.audit.record import device_acts, note_act
 from registry.broker.accounts import Account, accounts
 from registry.devices.history import history_text, write_event
 from registry.devices.rows import STARTS, BadDevice, check_id, forget_starts
@@ -71,6 +72,7 @@ def enrol_device(*, site: str, device_id: str, payload: bytes, at: datetime) -> 
             forget_starts(device)
             device.save(update_fields=["credential_hash", "broker_hash", *STARTS])
             write_event(device, at, "knocked", history_text("knocked"))
+            note_act(site_id=row.pk, code="device_asked", actor=device_acts(device_id))
     accounts().put(Account(device_id, key, site=site))
     return not is_known
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from django.db.models import Count
 
+from registry.audit.record import note_act
 from registry.models import Device, DeviceEvent, User
 from vipo_device.descriptions.changes import Change
 from vipo_device.protocol.description import Description
@@ -180,3 +181,8 @@ def _forget_old(device_id: str) -> None:
     own = DeviceEvent.objects.filter(device=device_id)
     for key in list(own.order_by("-pk").values_list("pk", flat=True)[MOST_EVENTS:][:1]):
         own.filter(pk__lte=key).delete()
+
+
+def note_decision(device: Device, code: str) -> None:
+    """Write into the record of the site what somebody has decided about a device; whoever acts now did."""
+    note_act(site_id=device.site_id, code=code, facts={"device": device.id})

@@ -21,7 +21,7 @@ from registry.devices.credentials import (
     replace_key,
     require_approved,
 )
-from registry.devices.history import HistoryText, history_text, write_event
+from registry.devices.history import HistoryText, history_text, note_decision, write_event
 from registry.devices.legacy_topics import claim_again, release_topics
 from registry.devices.rows import STARTS, BadDevice, announce, forget_starts, lock_device
 from registry.devices.things import record_thing
@@ -68,6 +68,7 @@ def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) 
         device.key_told_at = at if device.online else None
         device.save(update_fields=["lifecycle", "credential_hash", "broker_hash", "key_told_at"])
         write_event(device, at, "approved", history_text("approved"), by)
+        note_decision(device, "device_approved")
         after = view_of(device, site)
         announce(before, after)
     taken = after.online and deliver_key(device_id=device_id, credential=credential)
@@ -98,6 +99,7 @@ def readmit_device(*, site: str, device_id: str, by: User | None, at: datetime) 
         forget_starts(device)
         device.save(update_fields=["lifecycle", "ends_before", *STARTS])
         write_event(device, at, "readmitted", history_text("readmitted"), by)
+        note_decision(device, "device_readmitted")
         claim_again(device, at)
         after = view_of(device, site)
         announce(None, after)
@@ -116,6 +118,7 @@ def _take_out(
         device.save(update_fields=["lifecycle", "credential_hash", "broker_hash", "ends_before", "online"])
         release_topics(device, at)
         write_event(device, at, "retired", history_text(word), by)
+        note_decision(device, f"device_{word}")
         transaction.on_commit(lambda: publish(site, {"type": "device_removed", "id": device_id}))
         after = view_of(device, site)
         record_thing(before, after)

@@ -11,6 +11,7 @@ from datetime import datetime
 
 from django.db import models, transaction
 
+from registry.audit.record import note_act
 from registry.bounds.places import Claim, Places
 from registry.devices.queries import list_devices
 from registry.devices.views import effective_description
@@ -191,6 +192,7 @@ def save_map(
             by=by,
         )
         SiteMap.objects.filter(site=row, version__lte=saved.version - MOST_VERSIONS).delete()
+        note_act(site_id=row.pk, code="map_published", facts={"version": saved.version, "source": source})
         transaction.on_commit(lambda: publish(site, {"type": "map", "version": saved.version}))
     return MapView(site, saved.version, grid)
 

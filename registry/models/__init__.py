@@ -1,12 +1,14 @@
-"""The tables of the registry: people, sites, maps, devices, alerts and processes."""
+"""The tables of the registry: people, sites, what was done there, maps, devices, alerts and processes."""
 
 from registry.models.alerts import DeviceAlert as DeviceAlert
+from registry.models.audit import AuditLine as AuditLine
 from registry.models.devices import Device as Device
 from registry.models.devices import DeviceEvent as DeviceEvent
 from registry.models.devices import Sample as Sample
 from registry.models.devices import SampleClock as SampleClock
 from registry.models.devices import ThingEvent as ThingEvent
 from registry.models.devices import TopicClaim as TopicClaim
+from registry.models.invitations import Invitation as Invitation
 from registry.models.maps import Place as Place
 from registry.models.maps import RobotMap as RobotMap
 from registry.models.maps import RobotMapDraft as RobotMapDraft

@@ -27,7 +27,10 @@ class Site(models.Model):
 
 
 class Membership(models.Model):
-    """What a person may do at a site."""
+    """What a person may do at a site, until `ends_at` if that is set.
+
+    `seen_at` is when a page of theirs last showed the site, to the minute; `came_by` is the link that they joined by.
+    """
 
     class Role(models.TextChoices):
         """Each role may do all that the ones before it may."""
@@ -40,6 +43,10 @@ class Membership(models.Model):
     user = models.ForeignKey(User, on_delete=models.CASCADE, related_name="memberships")
     site = models.ForeignKey(Site, on_delete=models.CASCADE, related_name="memberships")
     role = models.CharField(max_length=10, choices=Role.choices)
+    joined_at = models.DateTimeField(null=True)
+    ends_at = models.DateTimeField(null=True)
+    seen_at = models.DateTimeField(null=True)
+    came_by = models.ForeignKey("Invitation", null=True, on_delete=models.SET_NULL, related_name="came")
 
     class Meta:
         """One role for each person at each site."""

@@ -8,15 +8,19 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from django.db.models import Q
+from django.utils import timezone
+
 from registry.errors import RegistryError
 from registry.models import Membership, Site, User
+from registry.people.roles import ROLES as ROLES
+from registry.people.roles import allows as allows
 
 if TYPE_CHECKING:
     from django.contrib.auth.base_user import AbstractBaseUser
     from django.contrib.auth.models import AnonymousUser
     from django.db.models import QuerySet
 
-ROLES = ("viewer", "operator", "author", "admin")
 SCOPES = ("read", "operate", "run", "admin")
 """What a token may be for. Each stretches to the role at the same place of ROLES; `read` is part of all others, and
 `admin` has all others in it, but `operate` (devices, stop, alerts) and `run` (programs and runs) stand side by side."""
@@ -42,11 +46,6 @@ class OutOfScope(NotAllowed):
     code = "insufficient_scope"
 
 
-def allows(has: str, role: str) -> bool:
-    """Tell whether somebody who has one role may do what another one may."""
-    return ROLES.index(has) >= ROLES.index(role)
-
-
 @dataclass(frozen=True, slots=True)
 class Access:
     """A user's standing at a site; `scopes` are those of the token that was shown, None without one."""
@@ -70,11 +69,17 @@ def scope_of(role: str) -> str:
     return SCOPES[ROLES.index(role)]
 
 
+def has_not_ended(prefix: str = "") -> Q:
+    """Return what holds for memberships, reached by this path, whose access has not ended."""
+    return Q(**{f"{prefix}ends_at": None}) | Q(**{f"{prefix}ends_at__gt": timezone.now()})
+
+
 def list_memberships(user: AbstractBaseUser | AnonymousUser) -> QuerySet[Membership]:
     """Return where the user belongs to; a token belongs to one site alone."""
     if not user.is_authenticated or not isinstance(user, User):
         return Membership.objects.none()
-    memberships = Membership.objects.filter(user_id=user.pk, user__is_active=True).select_related("site")
+    rows = Membership.objects.select_related("site")
+    memberships = rows.filter(has_not_ended(), user_id=user.pk, user__is_active=True)
     return memberships.filter(site_id=user.grant.site_id) if user.grant else memberships
 
 

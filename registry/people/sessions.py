@@ -81,11 +81,13 @@ def _read_cookies(sessions: Collection[Session]) -> dict[Session, Standing]:
     rows = User.objects.filter(pk__in={session.person for session in sessions}, is_active=True)
     people: dict[int, User] = {}
     roles: defaultdict[int, dict[str, str]] = defaultdict(dict)
-    for person, password, generation, site, role in rows.values_list(
-        "pk", "password", "session_generation", "memberships__site__slug", "memberships__role"
+    now = timezone.now()
+    for person, password, generation, site, role, ends_at in rows.values_list(
+        *("pk", "password", "session_generation"),
+        *("memberships__site__slug", "memberships__role", "memberships__ends_at"),
     ):
         people[person] = User(pk=person, password=password, session_generation=generation)
-        if site is not None:
+        if site is not None and (ends_at is None or ends_at > now):
             roles[person][site] = role
     return {
         session: Standing(roles[session.person])

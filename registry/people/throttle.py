@@ -12,13 +12,22 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from math import ceil
+from typing import Literal
 
 from django.db.models import QuerySet
 
+from registry.audit.acting import Actor, who_acts
+from registry.audit.record import note_act
 from registry.errors import RegistryError
-from registry.models import SignInFailure
+from registry.models import AuditLine, Membership, SignInFailure
 
 WINDOW = timedelta(minutes=15)
+Tried = Literal["wait", "link"]
+"""What is tried: a password, or the link of an invitation."""
+_TRIED: dict[Tried, str] = {
+    "wait": "Too many sign-ins failed.",
+    "link": "Too many links that are none were tried from here.",
+}
 MOST_FOR_PAIR, MOST_FOR_EMAIL, MOST_FOR_ADDRESS = 8, 50, 200
 
 
@@ -51,7 +60,7 @@ def network_of(address: str) -> str:
 
 
 @contextmanager
-def counted(attempt: Attempt, now: datetime) -> Iterator[None]:
+def counted(attempt: Attempt, now: datetime, what: Tried = "wait") -> Iterator[None]:
     """Count an attempt, then let it be made; it is forgotten, with those before it, if the block ends well.
 
     Of any number at once no more are let through than one after the other. Raises TooManyAttempts.
@@ -61,12 +70,32 @@ def counted(attempt: Attempt, now: datetime) -> Iterator[None]:
     wait_s = _wait_s(attempt, address, now)
     if wait_s:
         row.delete()
+        if what == "wait":
+            _note_locked(attempt.email, now)
         raise TooManyAttempts(
-            f"Too many sign-ins failed. Try again in {ceil(wait_s / 60)} min.",
-            {"why": "wait", "minutes": ceil(wait_s / 60), "retry_after_s": wait_s},
+            f"{_TRIED[what]} Try again in {ceil(wait_s / 60)} min.",
+            {"why": what, "minutes": ceil(wait_s / 60), "retry_after_s": wait_s},
         )
     yield
     _same(attempt, address).delete()
+
+
+def _note_locked(email: str, now: datetime) -> None:
+    """Tell the sites of somebody that guessing their password is held up; once while it lasts."""
+    members = Membership.objects.filter(user__email=email).select_related("user")
+    for member in members:
+        lines = AuditLine.objects.filter(site_id=member.site_id, kind="sign_in", at__gt=now - WINDOW)
+        if not lines.filter(person_id=member.user_id).exists():
+            address = who_acts().address
+            who = Actor("vipo", person=member.user_id, address=address)
+            minutes = round(WINDOW.total_seconds() / 60)
+            note_act(
+                site_id=member.site_id,
+                code="sign_in_locked",
+                actor=who,
+                at=now,
+                facts={"person": member.user.display_name, "minutes": minutes},
+            )
 
 
 def _same(attempt: Attempt, address: str) -> QuerySet[SignInFailure]:

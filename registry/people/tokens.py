@@ -12,11 +12,12 @@ from datetime import datetime, timedelta
 from django.db import transaction
 from django.db.models import Q, QuerySet
 
+from registry.audit.record import note_act
 from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import ApiToken, Membership, User
 from registry.models.people import Grant
-from registry.people.access import ROLES, SCOPES, NotAllowed, NotAMember, access_of
+from registry.people.access import ROLES, SCOPES, NotAllowed, NotAMember, access_of, has_not_ended
 from vipo_device.protocol.credentials import broker_hash
 from vipo_device.protocol.topics import reader_name
 
@@ -70,6 +71,7 @@ class TokenView:
 
     id: str
     site: str
+    site_id: int
     name: str
     scopes: tuple[str, ...]
     person_id: int
@@ -123,12 +125,15 @@ def keep_token(
             expires_at=now + timedelta(days=days),
             broker_hash=broker_hash(text) if BROKER in scopes else "",
         )
+        note_act(
+            site_id=member.site_id, code="token_made", facts={"name": name, "scopes": sorted(scopes), "days": days}
+        )
     return _view(row), text
 
 
 def _lock_member(user: User, site: str) -> Membership:
     rows = Membership.objects.select_for_update(of=("self",)).select_related("site", "user")
-    member = rows.filter(user_id=user.pk, user__is_active=True, site__slug=site).first()
+    member = rows.filter(has_not_ended(), user_id=user.pk, user__is_active=True, site__slug=site).first()
     if member is None:
         raise NotAMember("There is no such site, or you are not one of its members. Ask its admin to add you.")
     return member
@@ -177,9 +182,11 @@ def find_token(*, token_id: str, site: str = "", user: User | None = None) -> To
 def drop_token(*, token_id: str, site: str = "", user: User | None = None) -> TokenView:
     """End a token at once, with the streams opened by it; of one site or person only, if named. Raises NoSuchToken."""
     view = find_token(token_id=token_id, site=site, user=user)
-    if not ApiToken.objects.filter(public_id=view.id).delete()[0]:
-        raise NoSuchToken(_ABSENT)
-    transaction.on_commit(lambda: publish(view.site, {"type": "members"}))
+    with transaction.atomic():
+        if not ApiToken.objects.filter(public_id=view.id).delete()[0]:
+            raise NoSuchToken(_ABSENT)
+        note_act(site_id=view.site_id, code="token_revoked", facts={"name": view.name, "person": view.person})
+        transaction.on_commit(lambda: publish(view.site, {"type": "members"}))
     return view
 
 
@@ -243,7 +250,8 @@ def _rows() -> QuerySet[ApiToken]:
 
 
 def _standing(now: datetime) -> QuerySet[ApiToken]:
-    return _rows().filter(expires_at__gt=now, membership__user__is_active=True)
+    standing = has_not_ended("membership__")
+    return _rows().filter(standing, expires_at__gt=now, membership__user__is_active=True)
 
 
 def _note_use(row: ApiToken, now: datetime) -> None:
@@ -268,6 +276,7 @@ def _view(row: ApiToken) -> TokenView:
     return TokenView(
         id=row.public_id,
         site=member.site.slug,
+        site_id=member.site_id,
         name=row.name,
         scopes=(*row.scopes.split(), *((BROKER,) if row.broker_hash else ())),
         person_id=member.user_id,

@@ -17,6 +17,7 @@ from contextlib import asynccontextmanager, suppress
 from django.db import Error, connection
 
 from registry.live.fanout import Message, listen
+from registry.people.seen import Seen, note_seen
 from registry.people.sessions import Session, Standing, read_standings
 
 log = logging.getLogger(__name__)
@@ -28,10 +29,14 @@ STALE_AFTER_S = 3.0
 
 
 class Seat:
-    """A socket or a stream that is open; `standing` is what its session is good for, None once it has ended."""
+    """A socket or a stream that is open; `standing` is what its session is good for, None once it has ended.
 
-    def __init__(self, session: Session, on_change: Callable[[], None]) -> None:
+    `site` is the one that somebody looks at by it, empty for streams of programs.
+    """
+
+    def __init__(self, session: Session, on_change: Callable[[], None], site: str = "") -> None:
         self.session = session
+        self.site = site
         self.standing: Standing | None = None
         self.on_change = on_change
         self._asked_at = float("-inf")
@@ -59,14 +64,15 @@ class Watch:
         self._rung = asyncio.Event()
         self._task: asyncio.Task[None] | None = None
         self._thread = ThreadPoolExecutor(1, "vipo-sessions")
+        self._seen = Seen()
         self._is_away = False
 
-    async def join(self, session: Session, on_change: Callable[[], None]) -> Seat:
+    async def join(self, session: Session, on_change: Callable[[], None], site: str = "") -> Seat:
         """Watch a session: `on_change` is called on this loop whenever its standing has changed.
 
-        Raises django.db.Error while the database does not answer.
+        That its person looks at `site` is noted. Raises django.db.Error while the database does not answer.
         """
-        seat = Seat(session, on_change)
+        seat = Seat(session, on_change, site)
         self._seats.add(seat)
         try:
             await self._look([seat])
@@ -122,6 +128,9 @@ class Watch:
             found = await self._loop.run_in_executor(self._thread, read_standings, sessions)
             for seat in seats:
                 seat.take(found.get(seat.session), asked_at)
+        seen = {(seat.session.person, seat.site) for seat in seats if seat.standing and seat.site}
+        if due := self._seen.take_due(seen):
+            await self._loop.run_in_executor(self._thread, note_seen, due)
 
 
 def _close_connection() -> None:

@@ -1,4 +1,4 @@
-"""Sites, their members and places, the key for enrolment, and the stop that holds at a site."""
+"""Sites and their places, the key for enrolment, and the stop that holds at a site."""
 
 from __future__ import annotations
 
@@ -14,9 +14,8 @@ from django.utils import timezone
 from django.utils.text import slugify
 
 from registry.errors import RegistryError
-from registry.live.fanout import publish
 from registry.models import Device, Membership, Place, Site, SiteMap, User
-from registry.people.access import ROLES, NotAMember, access_of, list_memberships
+from registry.people.access import NotAMember, access_of, list_memberships
 from registry.sites.namespaces import is_in_use
 from registry.sites.views import PlaceView, SiteView, StopView
 from vipo_device.protocol.credentials import broker_hash, secret_hash
@@ -103,7 +102,7 @@ def create_site(*, name: str, admin: User | None = None, slug: str = "") -> Site
     with transaction.atomic():
         site = _new_site(name, slug or slugify(name)[:50] or "site", admin, exact=bool(slug))
         if admin:
-            Membership.objects.create(site=site, user=admin, role=Membership.Role.ADMIN)
+            Membership.objects.create(site=site, user=admin, role=Membership.Role.ADMIN, joined_at=timezone.now())
     return _site_view(site, Membership.Role.ADMIN if admin else "")
 
 
@@ -146,29 +145,6 @@ def list_places(*, site: str) -> tuple[PlaceView, ...]:
     return tuple(
         PlaceView(p.key, p.name, p.kind, p.x, p.y, p.theta, (p.label[0], p.label[1]) if p.label else None) for p in rows
     )
-
-
-def set_member(*, site: str, email: str, role: str) -> None:
-    """Make a person a member, or change their role. Raises UnknownPerson."""
-    if role not in ROLES:
-        raise BadName(f"There is no role {role[:20]!r}. Choose {', '.join(ROLES)}.")
-    person = User.objects.filter(email=email.strip().lower()).first()
-    if person is None:
-        raise UnknownPerson(f"Nobody signs in as {email[:100]!r}. Check the address.")
-    Membership.objects.update_or_create(site=find_site(site), user=person, defaults={"role": role})
-    transaction.on_commit(lambda: publish(site, {"type": "members"}))
-
-
-def remove_member(*, site: str, email: str) -> None:
-    """End a membership and its tokens; the person's open pages of the site are closed.
-
-    The row is locked before its tokens are looked for: one that is being made meanwhile ends, too.
-    """
-    members = Membership.objects.filter(site=find_site(site), user__email=email.strip().lower())
-    with transaction.atomic():
-        locked = list(members.select_for_update(of=("self",)).values_list("pk", flat=True))
-        Membership.objects.filter(pk__in=locked).delete()
-        transaction.on_commit(lambda: publish(site, {"type": "members"}))
 
 
 def set_site_stop(*, site: str, active: bool, by: str, at: datetime) -> None:

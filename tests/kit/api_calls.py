@@ -18,7 +18,8 @@ from django.test import Client
 from editor import services as editor
 from execution.models import Command, DeadLetter, Question, Rehearsal, Run
 from registry import services
-from registry.models import Device, DeviceAlert, Site
+from registry.models import Device, DeviceAlert, Site, User
+from registry.sites.invitations import Wanted, make_invitation
 from tests.kit.api_rights import OPERATIONS
 from tests.kit.programs import document
 from tests.kit.sites import NOW, ROBOT, describe
@@ -48,6 +49,11 @@ BODIES: dict[str, dict[str, Any]] = {
     "reserve_device": {"id": "mixer-9"},
     "create_program": {"name": "New"},
     "create_token": {"name": "Other", "scopes": ["read"]},
+    "change_member": {"role": "operator"},
+    "make_invitation": {"role": "viewer"},
+    "look_at_invitation": {"code": "{code}"},
+    "accept_invitation": {"code": "{code}"},
+    "join_as_new": {"code": "{code}", "name": "New One", "email": "new-one@vipo.example", "password": "four odd words"},
     "sign_in": {"email": "a", "password": "b"},
     "change_my_password": {"old": "not this one", "new": "another-horse-9"},
 }
@@ -86,7 +92,20 @@ def make_one_of_each(slug: str) -> dict[str, str]:
     }
     named = {"device_id": device, "device": device, "thing": device, "slug": slug, "site": slug, "number": "1"}
     named |= {"name": "jobStatus", "action": "mix", "session": "0"}
+    named |= _make_guest(site)
     return {**named, **{name: str(key) for name, key in made.items()}}
+
+
+def _make_guest(site: Site) -> dict[str, str]:
+    """Make a member of a site, and an invitation to it; return what addresses and bodies name them by."""
+    email = f"guest-{site.slug}@vipo.example"
+    guest = services.create_user(email=email, password="correct-horse-9", display_name=f"Guest of {site.name}")
+    services.set_member(site=site.slug, email=guest.email, role="viewer")
+    maker = User.objects.filter(memberships__site=site, memberships__role="admin").first()
+    assert maker is not None
+    now = datetime.now(UTC)
+    made, code = make_invitation(site=site.slug, by=maker, wanted=Wanted("viewer", 7, 5), now=now)
+    return {"person": str(guest.pk), "invitation": str(made.id), "code": code}
 
 
 def _make_robot(name: str, site: str) -> None:

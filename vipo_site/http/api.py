@@ -14,9 +14,12 @@ from editor.api import router as editor_router
 from execution.api import router as execution_router
 from execution.dead_letters_api import router as dead_letters_router
 from registry.api.alerts import router as alerts_router
+from registry.api.audit import router as audit_router
 from registry.api.authentication import token_or_session
 from registry.api.devices import router as devices_router
+from registry.api.invitations import router as invitations_router
 from registry.api.maps import router as maps_router
+from registry.api.members import router as members_router
 from registry.api.mtconnect import router as mtconnect_router
 from registry.api.onboarding import router as onboarding_router
 from registry.api.once import begin_once, watch_request
@@ -114,6 +117,9 @@ api.add_decorator(watch_request, mode="view")
 api.add_router("", people_router)
 api.add_router("", sites_router)
 api.add_router("", tokens_router)
+api.add_router("", members_router)
+api.add_router("", invitations_router)
+api.add_router("", audit_router)
 api.add_router("", devices_router)
 api.add_router("", alerts_router)
 api.add_router("", onboarding_router)

@@ -103,6 +103,19 @@ async function receiveAll<T>(path: string): Promise<T[]> {
   return all;
 }
 
+export interface ListPart<T> {
+  items: T[];
+  /** The path of the part behind it; undefined where nothing follows. */
+  next: string | undefined;
+  headers: Headers;
+}
+
+/** One part of a list that may be long. */
+async function receivePart<T>(path: string): Promise<ListPart<T>> {
+  const response = await send("GET", path);
+  return { items: await receive<T[]>(response), next: nextOf(response), headers: response.headers };
+}
+
 /** Put something in the place of what is there, if nobody changes that meanwhile. */
 async function replace(path: string, body: unknown): Promise<void> {
   const known = await send("GET", path);
@@ -113,6 +126,7 @@ async function replace(path: string, body: unknown): Promise<void> {
 export const api = {
   get: <T>(path: string) => sendJson<T>("GET", path),
   all: receiveAll,
+  part: receivePart,
   post: <T = void>(path: string, body?: unknown) => sendJson<T>("POST", path, body),
   postOnce,
   put: <T = void>(path: string, body: unknown) => sendJson<T>("PUT", path, body),

@@ -64,6 +64,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/invitations/accept": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Accept Invitation
+         * @description Join a site by a link as who is signed in.
+         */
+        post: operations["accept_invitation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/invitations/join": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Join As New
+         * @description Make an account by a link, join the site, and begin a session.
+         */
+        post: operations["join_as_new"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/invitations/look": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Look At Invitation
+         * @description Say what a link offers; one that has ended says so (410), and one that is none tells of no site (404).
+         */
+        post: operations["look_at_invitation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/library": {
         parameters: {
             query?: never;
@@ -526,6 +586,26 @@ export interface paths {
          * @description End a rehearsal that waits or is under way; for who has started it, and for operators.
          */
         post: operations["cancel_rehearsal"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/rights": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Rights
+         * @description Say which role may do what at a site.
+         */
+        get: operations["list_rights"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -1126,6 +1206,48 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/audit": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Audit
+         * @description List what was done at a site, the newest first; the header `Link` names the next part.
+         *
+         *     `X-Total-Count` says how many there are of the kind, `X-Kept-Days` for how long they are kept.
+         */
+        get: operations["list_audit"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/audit.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Audit
+         * @description Give the record as a table (CSV), the newest first.
+         */
+        get: operations["export_audit"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/describe": {
         parameters: {
             query?: never;
@@ -1514,6 +1636,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/invitations": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Invitations
+         * @description List a site's invitations, also those that ended within the last 30 days.
+         */
+        get: operations["list_invitations"];
+        put?: never;
+        /**
+         * Make Invitation
+         * @description Make a link by which people join a site, tell it this once, and send it by e-mail if that is asked for.
+         */
+        post: operations["make_invitation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/invitations/{invitation}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Revoke Invitation
+         * @description End an invitation at once; who came by it stays.
+         */
+        delete: operations["revoke_invitation"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/join-key": {
         parameters: {
             query?: never;
@@ -1528,6 +1694,26 @@ export interface paths {
          * @description Make a new enrolment key for devices that come to a site, and tell it this once; the old one ends.
          */
         post: operations["renew_enrolment_key"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/leave": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Leave Site
+         * @description Leave a site, with one's tokens; the last admin stays (409).
+         */
+        post: operations["leave_site"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1692,6 +1878,54 @@ export interface paths {
         options?: never;
         head?: never;
         patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/members": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Members
+         * @description List the members of a site by name; to others than its admins themselves alone.
+         */
+        get: operations["list_members"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/members/{person}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Member
+         * @description Show a member, and what ends when they are removed.
+         */
+        get: operations["show_member"];
+        put?: never;
+        post?: never;
+        /**
+         * Remove Member
+         * @description Remove a member, and say what has ended with that; the last admin stays (409).
+         */
+        delete: operations["remove_member"];
+        options?: never;
+        head?: never;
+        /**
+         * Change Member
+         * @description Give a member another role or end of access, at once and in open pages, too; the last admin stays one (409).
+         */
+        patch: operations["change_member"];
         trace?: never;
     };
     "/api/sites/{slug}/mtconnect/current": {
@@ -2277,6 +2511,41 @@ export interface components {
         AskRoutes: {
             pairs: components["schemas"]["AskRoute"][];
         };
+        /** @description Which part of the record is asked for. */
+        AuditAsked: {
+            /** @default  */
+            before: string;
+            kind?: ("roles" | "invitations" | "tokens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
+            /** @default 200 */
+            limit: number;
+        };
+        /** @description Which kind of deeds is asked for; all of them if none is named. */
+        AuditOfKind: {
+            kind?: ("roles" | "invitations" | "tokens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
+        };
+        /**
+         * @description One thing that was done: what (`code` of a `kind`, with the `facts` of its sentence), by whom, and from where.
+         *
+         *     `actor` is the name of a person or token or the id of a device; VIPO itself has none. `address`, `browser` and
+         *     `system` are empty where nobody asked over HTTP, or they are not known.
+         */
+        AuditShape: {
+            actor: string;
+            /** @enum {string} */
+            actor_kind: "person" | "token" | "device" | "vipo";
+            address: string;
+            /** Format: date-time */
+            at: string;
+            browser: string;
+            code: string;
+            facts: {
+                [key: string]: unknown;
+            };
+            id: number;
+            /** @enum {string} */
+            kind: "roles" | "invitations" | "tokens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in";
+            system: string;
+        };
         /** @description Who wrote something. */
         Author: {
             id: number;
@@ -2393,6 +2662,11 @@ export interface components {
         /** @description Which are asked for: all of the site, or those in one `state`; `settled` is all that is not open any more. */
         DeadLettersAsked: {
             state?: ("open" | "retried" | "dropped") | "settled" | null;
+        };
+        /** @description Something that people do at a site, and the roles that may. */
+        DeedShape: {
+            name: string;
+            roles: ("viewer" | "operator" | "author" | "admin")[];
         };
         /** @description What a library function holds; `functions` are those that it calls. */
         DefinitionShape: {
@@ -2557,6 +2831,12 @@ export interface components {
             x: number;
             y: number;
         };
+        /** @description What ends when a member is removed: tokens by name, open invitations, and whether all their sessions do. */
+        EndingShape: {
+            invitations: number;
+            signs_out: boolean;
+            tokens: string[];
+        };
         /** @description What a device is set up with; `credential` is its key, told this once, `broker` may be empty. */
         ExpectedDevice: {
             broker: string;
@@ -2649,6 +2929,33 @@ export interface components {
             /** Format: uuid */
             program: string;
         };
+        /** @description A site's invitations, the newest first; `can_mail` says whether the server may send them by e-mail. */
+        InvitationList: {
+            can_mail: boolean;
+            invitations: components["schemas"]["InvitationShape"][];
+        };
+        /** @description An invitation without its link; `people` are those who came by it and are members still. */
+        InvitationShape: {
+            email: string;
+            /** Format: date-time */
+            expires_at: string;
+            id: number;
+            /** Format: date-time */
+            made_at: string;
+            made_by: string;
+            mine: boolean;
+            people: string[];
+            /** @enum {string} */
+            role: "viewer" | "operator" | "author" | "admin";
+            /** @enum {string} */
+            state: "open" | "used_up" | "expired" | "revoked";
+            used: number;
+            uses: number;
+        };
+        /** @description The site that somebody has come in to. */
+        Joined: {
+            site: string;
+        };
         /** @description A kind's time of keeping in days (0: for ever): what holds, what the site has chosen, and the server's. */
         KeepingShape: {
             chosen: number | null;
@@ -2710,6 +3017,10 @@ export interface components {
                 [key: string]: string;
             };
         };
+        /** @description What stands behind the sign # in a link. */
+        LinkCode: {
+            code: string;
+        };
         /** @description A line of what happened: in English, and `code` with `args` for other languages. */
         LogLine: {
             args: {
@@ -2737,6 +3048,26 @@ export interface components {
         /** @description What a machine did. */
         MachineFigures: {
             busy_s: number;
+        };
+        /** @description A new invitation; `link` is told this once. `mailed` says whether the mail server took it, null for no mail. */
+        MadeInvitation: {
+            email: string;
+            /** Format: date-time */
+            expires_at: string;
+            id: number;
+            link: string;
+            /** Format: date-time */
+            made_at: string;
+            made_by: string;
+            mailed: boolean | null;
+            mine: boolean;
+            people: string[];
+            /** @enum {string} */
+            role: "viewer" | "operator" | "author" | "admin";
+            /** @enum {string} */
+            state: "open" | "used_up" | "expired" | "revoked";
+            used: number;
+            uses: number;
         };
         /** @description A new token; `token` is its text, told this once. */
         MadeToken: {
@@ -2805,6 +3136,47 @@ export interface components {
             may_create_sites: boolean;
             user: components["schemas"]["Person"] | null;
         };
+        /** @description What is to be another; what is left out stays, and `ends_at: null` takes the end of access away. */
+        MemberChange: {
+            ends_at?: string | null;
+            role?: ("viewer" | "operator" | "author" | "admin") | null;
+        };
+        /** @description A member, and what ends when they are removed. */
+        MemberDetail: {
+            came_by: string;
+            email: string;
+            ending: components["schemas"]["EndingShape"];
+            ends_at: string | null;
+            id: number;
+            initials: string;
+            is_closed: boolean;
+            joined_at: string | null;
+            me: boolean;
+            name: string;
+            /** @enum {string} */
+            role: "viewer" | "operator" | "author" | "admin";
+            seen_at: string | null;
+        };
+        /**
+         * @description A member of a site; `me` marks who asks.
+         *
+         *     `seen_at` is when a page of theirs last showed the site, to the minute; `ends_at` when their access ends, null for
+         *     no end; `came_by` who invited them, if they came by a link; `is_closed` says that they sign in no more.
+         */
+        MemberShape: {
+            came_by: string;
+            email: string;
+            ends_at: string | null;
+            id: number;
+            initials: string;
+            is_closed: boolean;
+            joined_at: string | null;
+            me: boolean;
+            name: string;
+            /** @enum {string} */
+            role: "viewer" | "operator" | "author" | "admin";
+            seen_at: string | null;
+        };
         /** @description Something a device can be told to do. */
         MethodShape: {
             message_type: string;
@@ -2828,10 +3200,28 @@ export interface components {
             again: boolean;
             id: string;
         };
+        /** @description For which role an invitation is, how many days and people; with `email` it is sent there. */
+        NewInvitation: {
+            /** @default 7 */
+            days: number;
+            /** @default  */
+            email: string;
+            /** @enum {string} */
+            role: "viewer" | "operator" | "author" | "admin";
+            /** @default 1 */
+            uses: number;
+        };
         /** @description The password that somebody has, and the one that they want. */
         NewPassword: {
             new: string;
             old: string;
+        };
+        /** @description Who comes in by a link without having an account. */
+        NewPerson: {
+            code: string;
+            email: string;
+            name: string;
+            password: string;
         };
         /** @description A place that is to be: metres and radians in the map frame; `id` is what scripts call it, made of its name. */
         NewPlace: {
@@ -2851,6 +3241,16 @@ export interface components {
             days: number;
             name: string;
             scopes: ("read" | "operate" | "run" | "admin" | "broker")[];
+        };
+        /** @description What a link offers. */
+        OfferShape: {
+            /** Format: date-time */
+            expires_at: string;
+            invited_by: string;
+            /** @enum {string} */
+            role: "viewer" | "operator" | "author" | "admin";
+            site: string;
+            site_name: string;
         };
         /** @description An operator with what it is applied to. */
         Operation: {
@@ -3893,6 +4293,130 @@ export interface operations {
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    accept_invitation: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LinkCode"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Joined"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    join_as_new: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewPerson"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Joined"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            403: components["responses"]["Refused403"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    look_at_invitation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LinkCode"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OfferShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            403: components["responses"]["Refused403"];
             409: components["responses"]["Refused409"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
@@ -5121,6 +5645,42 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_rights: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeedShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
@@ -6514,6 +7074,90 @@ export interface operations {
             };
         };
     };
+    list_audit: {
+        parameters: {
+            query?: {
+                limit?: number;
+                before?: string;
+                kind?: ("roles" | "invitations" | "tokens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
+            };
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AuditShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    export_audit: {
+        parameters: {
+            query?: {
+                kind?: ("roles" | "invitations" | "tokens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
+            };
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": string;
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     look_at_description: {
         parameters: {
             query?: never;
@@ -7421,6 +8065,134 @@ export interface operations {
             };
         };
     };
+    list_invitations: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["InvitationList"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    make_invitation: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewInvitation"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MadeInvitation"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    revoke_invitation: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                invitation: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     renew_enrolment_key: {
         parameters: {
             query?: never;
@@ -7443,6 +8215,47 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["Door"];
                 };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    leave_site: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];
@@ -7791,6 +8604,177 @@ export interface operations {
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_members: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MemberShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_member: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                person: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MemberDetail"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_member: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                person: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EndingShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_member: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                person: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["MemberChange"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MemberShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

@@ -51,6 +51,18 @@ export type TokenScope = Token["scopes"][number];
 export type NewToken = Schemas["NewToken"];
 export type MadeToken = Schemas["MadeToken"];
 
+export type Member = Schemas["MemberShape"];
+export type MemberDetail = Schemas["MemberDetail"];
+export type MemberChange = Schemas["MemberChange"];
+export type Invitation = Schemas["InvitationShape"];
+export type InvitationList = Schemas["InvitationList"];
+export type NewInvitation = Schemas["NewInvitation"];
+export type MadeInvitation = Schemas["MadeInvitation"];
+export type Offer = Schemas["OfferShape"];
+export type NewPerson = Schemas["NewPerson"];
+export type Deed = Schemas["DeedShape"];
+export type AuditEntry = Schemas["AuditShape"];
+
 export type Alert = Schemas["AlertShape"];
 export type Finding = Schemas["FindingShape"];
 export type Retention = Schemas["RetentionShape"];

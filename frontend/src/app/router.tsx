@@ -23,6 +23,7 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/library/:id?", "pages/library/LibraryPage"],
   ["/sites/:slug/runs", "pages/runs/RunsPage"],
   ["/sites/:slug/map", "pages/map/MapPage"],
+  ["/sites/:slug/people", "pages/settings/PeoplePage"],
   ["/sites/:slug/tokens", "pages/tokens/TokensPage"],
   ["/sites/:slug/operations", "pages/operations/OperationsPage"],
   ["/sites/:slug/retention", "pages/retention/RetentionPage"],
@@ -57,7 +58,13 @@ function pick(module: Record<string, ComponentType>, name: string): ComponentTyp
 
 export function makeRouter() {
   return createBrowserRouter([
-    { errorElement: <RouteProblem />, children: route("/sign-in", "pages/signin/SignInPage") },
+    {
+      errorElement: <RouteProblem />,
+      children: [
+        ...route("/sign-in", "pages/signin/SignInPage"),
+        ...route("/invitation", "pages/invitation/InvitationPage"),
+      ],
+    },
     {
       element: <RequireUser />,
       errorElement: <RouteProblem />,

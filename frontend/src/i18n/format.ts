@@ -72,9 +72,23 @@ export function formatAge(iso: string, now: number): string {
   return formatSpan(seconds < 60 ? seconds : Math.round(seconds / 60) * 60).replace(new RegExp(` 0${THIN}s$`), "");
 }
 
+/** The browser's region where it speaks the screen's language, else that language. */
+function region(): string {
+  const language = i18next.language;
+  return navigator.languages.find((name) => name.startsWith(`${language}-`)) ?? language;
+}
+
 /** Date and time of day as in the browser's region where it speaks the screen's language; for logs and details. */
 export function formatMoment(iso: string): string {
-  const language = i18next.language;
-  const region = navigator.languages.find((name) => name.startsWith(`${language}-`)) ?? language;
-  return new Intl.DateTimeFormat(region, { dateStyle: "medium", timeStyle: "short" }).format(new Date(iso));
+  return new Intl.DateTimeFormat(region(), { dateStyle: "medium", timeStyle: "short" }).format(new Date(iso));
+}
+
+/** The time of day alone, where the day stands above it. */
+export function formatTime(iso: string): string {
+  return new Intl.DateTimeFormat(region(), { timeStyle: "short" }).format(new Date(iso));
+}
+
+/** The day alone, written out. */
+export function formatDay(iso: string): string {
+  return new Intl.DateTimeFormat(region(), { dateStyle: "long" }).format(new Date(iso));
 }

@@ -1,5 +1,7 @@
 /** Writes what a site's socket says into the query caches and the live store. */
+import { notifications } from "@mantine/notifications";
 import type { QueryClient, QueryKey } from "@tanstack/react-query";
+import i18next from "i18next";
 import { keys } from "@/api/queries";
 import { mapKeys, staleWithSiteMap } from "@/api/robotMaps";
 import type {
@@ -89,6 +91,11 @@ export class SiteFeed {
         return;
       case "programs":
         return this.#caches.refresh(keys.programs(this.slug));
+      case "role":
+        notifications.show({
+          message: i18next.t("people.roleNow", { role: i18next.t(`people.role.${message.role}`) }),
+        });
+        return this.#siteChanged();
       case "checked":
         return this.#caches.write<Program[]>(keys.programs(this.slug), (programs) => applyChecked(programs, message));
     }

@@ -8,6 +8,7 @@ import type {
   RehearsalCourse,
   RehearsalStatus,
   RunEvent,
+  Role,
   RunSummary,
   SiteStop,
   WaitReason,
@@ -49,6 +50,7 @@ export type LiveMessage =
   | ({ type: "stop" } & SiteStop)
   | { type: "traffic"; robots: Record<string, RobotTraffic> }
   | { type: "programs" }
+  | { type: "role"; role: Role }
   | ({ type: "checked" } & CheckedProgram);
 
 /** How a rehearsal stands now. */

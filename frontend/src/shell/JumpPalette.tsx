@@ -26,6 +26,7 @@ function useTargets(slug: string | undefined): JumpTarget[] {
       name: t(`shell.nav.${page}`),
       to: `${at}/${page}`,
     })),
+    ...(slug ? [{ kind: "page" as const, name: t("people.title"), to: `${at}/people` }] : []),
     ...programs.map((each) => ({ kind: "program" as const, name: each.name, to: `/programs/${each.id}` })),
     ...devices.map((each) => ({
       kind: "device" as const,

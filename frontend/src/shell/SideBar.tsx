@@ -1,5 +1,5 @@
 /** The side bar of the management pages: site, pages, account. */
-import { Activity, History, LayoutGrid, Library, Map, Cpu, Workflow, type LucideIcon } from "lucide-react";
+import { Activity, History, LayoutGrid, Library, Map, Cpu, Settings, Workflow, type LucideIcon } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link, NavLink } from "react-router-dom";
 import { usePrograms } from "@/api/queries";
@@ -73,6 +73,11 @@ export function SideBar() {
           {slug ? <SiteEntries slug={slug} pending={site?.pending ?? 0} role={site?.role} /> : null}
         </ul>
       </nav>
+      {slug ? (
+        <ul className={styles.entries}>
+          <Entry to={`/sites/${slug}/people`} icon={Settings} label={t("people.settings")} />
+        </ul>
+      ) : null}
       <AccountBar role={site?.role} slug={slug} />
     </aside>
   );

@@ -4,7 +4,7 @@ import { notifications } from "@mantine/notifications";
 import { useMutation, useQueries, useQueryClient } from "@tanstack/react-query";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import { Link, useNavigate } from "react-router-dom";
+import { Link, useNavigate, type To } from "react-router-dom";
 import { api } from "@/api/client";
 import { listCopies, removeAll, type KeptCopy } from "@/api/localCopies";
 import { keys, useMe } from "@/api/queries";
@@ -22,7 +22,8 @@ export interface SigningOut {
   readonly stay: () => void;
 }
 
-export function useSignOut(path: "/sign-out" | "/me/sign-out-everywhere"): SigningOut {
+/** `to` is where one signs in again. */
+export function useSignOut(path: "/sign-out" | "/me/sign-out-everywhere", to: To = "/sign-in"): SigningOut {
   const { t } = useTranslation();
   const queries = useQueryClient();
   const navigate = useNavigate();
@@ -34,7 +35,7 @@ export function useSignOut(path: "/sign-out" | "/me/sign-out-everywhere"): Signi
       await removeAll();
     },
     onSuccess: async () => {
-      await navigate("/sign-in");
+      await navigate(to);
       queries.clear();
     },
     onError: () => notifications.show({ color: "red", message: t("shell.signOut.failed") }),

@@ -19,7 +19,17 @@ from django.test import Client
 from pytest_django import DjangoDbBlocker
 
 from registry import services
-from registry.models import ApiToken, Device, DeviceEvent, Membership, Site, ThingEvent, TopicClaim
+from registry.models import (
+    ApiToken,
+    AuditLine,
+    Device,
+    DeviceEvent,
+    Invitation,
+    Membership,
+    Site,
+    ThingEvent,
+    TopicClaim,
+)
 from tests.kit.databases import on_database
 from tests.kit.sign_in import add_person, find_person, post_json, signed_in
 from tests.kit.sites import MIXER, approve, describe, make_hall, may_come_in
@@ -32,6 +42,7 @@ SITE = "/api/sites/hall"
 MIXER_PATH = f"{SITE}/devices/{MIXER.id}"
 OF_DEVICE = f"SELECT 1 FROM registry_device WHERE id = '{MIXER.id}' FOR UPDATE"
 OF_MEMBER = "SELECT 1 FROM registry_membership FOR UPDATE"
+OF_INVITATION = "SELECT 1 FROM registry_invitation FOR UPDATE"
 OF_SITE = "SELECT 1 FROM registry_site FOR UPDATE"
 OF_PERSON = "SELECT 1 FROM registry_user FOR UPDATE"
 ANY_DEVICE = "LOCK TABLE registry_device IN EXCLUSIVE MODE"
@@ -263,6 +274,87 @@ def test_a_role_that_is_given_after_a_member_was_removed_is_given_anew_without_t
 def test_two_roles_that_are_given_at_once_are_one(url: str) -> None:
     assert press_together(url, OF_MEMBER, set_role("viewer", "author"), set_role("viewer", "operator")) == [None] * 2
     assert Membership.objects.get(user=find_person("viewer")).role == "operator"
+
+
+def change_role(who: str, whose: str, role: str) -> Press:
+    client, path = signed_in(who), f"{SITE}/members/{find_person(whose).pk}"
+    return lambda: client.patch(path, {"role": role}, content_type="application/json")
+
+
+def leave(who: str) -> Press:
+    client = signed_in(who)
+    return lambda: post_json(client, f"{SITE}/leave")
+
+
+@pytest.mark.parametrize(
+    ("way", "refusal"),
+    [
+        ("lower each other", (403, "not_allowed")),
+        ("lower themselves", (409, "last_admin")),
+        ("leave", (409, "last_admin")),
+        ("remove each other", (404, "not_found")),
+    ],
+)
+def test_of_two_admins_who_both_go_at_once_one_stays(url: str, way: str, refusal: object) -> None:
+    admin, chief = signed_in("admin"), signed_in("chief")
+    people = {who: f"{SITE}/members/{find_person(who).pk}" for who in ("admin", "chief")}
+    presses = {
+        "lower each other": (change_role("admin", "chief", "viewer"), change_role("chief", "admin", "viewer")),
+        "lower themselves": (change_role("admin", "admin", "viewer"), change_role("chief", "chief", "viewer")),
+        "leave": (leave("admin"), leave("chief")),
+        "remove each other": (lambda: admin.delete(people["chief"]), lambda: chief.delete(people["admin"])),
+    }[way]
+    answers = press_together(url, OF_SITE, *presses)
+    assert answers[0].status_code in (200, 204)
+    assert told(answers[1:]) == [refusal]
+    assert Membership.objects.filter(role="admin").count() == 1
+
+
+def use_link(who: str, code: str) -> Press:
+    client = signed_in(who)
+    return lambda: post_json(client, "/api/invitations/accept", {"code": code})
+
+
+def make_link(uses: int) -> tuple[int, str]:
+    made = post_json(signed_in("chief"), f"{SITE}/invitations", {"role": "author", "uses": uses}).json()
+    return made["id"], made["link"].partition("#")[2]
+
+
+def test_the_last_use_of_a_link_is_one_persons(url: str) -> None:
+    add_person("guest")
+    _, code = make_link(1)
+    answers = press_together(url, OF_INVITATION, use_link("stranger", code), use_link("guest", code))
+    assert told(answers) == [200, (410, "link_over")]
+    assert Invitation.objects.get().used == 1
+    assert not Membership.objects.filter(user=find_person("guest")).exists()
+
+
+def test_one_person_who_opens_a_link_twice_uses_it_once(url: str) -> None:
+    _, code = make_link(5)
+    answers = press_together(url, OF_INVITATION, use_link("stranger", code), use_link("stranger", code))
+    assert told(answers) == [200, (409, "already_member")]
+    assert (Invitation.objects.get().used, AuditLine.objects.filter(code="joined").count()) == (1, 1)
+
+
+def test_a_link_that_is_revoked_while_it_is_used_lets_nobody_in_afterwards(url: str) -> None:
+    number, code = make_link(5)
+    client = signed_in("admin")
+    answers = press_together(
+        url,
+        OF_INVITATION,
+        lambda: client.delete(f"{SITE}/invitations/{number}"),
+        use_link("stranger", code),
+    )
+    assert told(answers) == [204, (410, "link_over")]
+    assert not Membership.objects.filter(user=find_person("stranger")).exists()
+
+
+def test_who_joins_while_whoever_invited_them_is_lowered_was_first(url: str) -> None:
+    _, code = make_link(5)
+    answers = press_together(url, OF_INVITATION, use_link("stranger", code), change_role("admin", "chief", "author"))
+    assert told(answers) == [200, 200]
+    assert Membership.objects.get(user=find_person("stranger")).role == "author"
+    assert Invitation.objects.get().revoked_at is not None
 
 
 def test_who_may_make_one_more_site_makes_one(url: str) -> None:

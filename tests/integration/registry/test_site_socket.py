@@ -20,7 +20,7 @@ from registry.api import site_socket
 from registry.api.site_socket import SiteSocket
 from registry.bounds.places import Places
 from registry.live import fanout
-from registry.models import User
+from registry.models import Membership, User
 from tests.kit.sign_in import ROLES, signed_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -116,6 +116,24 @@ async def test_somebody_who_is_no_member_any_more_is_closed_out(person: Callable
             assert await close_code(leaving) == 4403
             fanout.publish("hall", {"type": "programs"})
             assert await staying.receive_json_from(5) == {"type": "programs"}
+
+
+async def test_somebody_whose_role_is_changed_is_told_and_others_are_not(person: Callable[[str], User]) -> None:
+    async with opened(await database_sync_to_async(person)("viewer")) as changed:
+        await changed.receive_json_from(5)
+        async with opened(await database_sync_to_async(person)("author")) as other:
+            await other.receive_json_from(5)
+            await database_sync_to_async(services.set_member)(site="hall", email="viewer@vipo.example", role="operator")
+            assert await changed.receive_json_from(5) == {"type": "role", "role": "operator"}
+            fanout.publish("hall", {"type": "programs"})
+            assert await other.receive_json_from(5) == {"type": "programs"}
+
+
+async def test_that_somebody_looks_at_the_site_is_noted(person: Callable[[str], User]) -> None:
+    async with opened(await database_sync_to_async(person)("viewer")) as socket:
+        await socket.receive_json_from(5)
+        seen = Membership.objects.filter(site__slug="hall", seen_at__isnull=False)
+        assert [each async for each in seen.values_list("user__email", flat=True)] == ["viewer@vipo.example"]
 
 
 async def test_who_signs_out_is_closed_out_everywhere_and_others_stay(person: Callable[[str], User]) -> None:

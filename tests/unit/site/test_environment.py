@@ -128,6 +128,9 @@ UNSAFE = {
     "VIPO_REHEARSALS_OF_SITE": ["0"],
     "VIPO_REHEARSAL_LIMIT_S": ["0", "ten"],
     "VIPO_REHEARSAL_MEMORY_MB": ["511"],
+    "VIPO_AUDIT_DAYS": ["29", "ever"],
+    "VIPO_MAIL_TLS": ["ssl"],
+    "VIPO_MAIL_PORT": ["0", "smtp"],
 }
 
 
@@ -135,6 +138,16 @@ UNSAFE = {
 def test_an_unsafe_setting_stops_the_start_and_is_named(read_settings: ReadSettings, name: str, value: str) -> None:
     shown, said = read_settings({**SERVED, name: value})
     assert (shown, said.startswith(name)) == ("", True), said
+
+
+def test_a_way_to_send_mail_is_safe_and_says_from_whom(read_settings: ReadSettings) -> None:
+    way = {**SERVED, "VIPO_MAIL_HOST": "mail.example"}
+    shown, said = read_settings(way)
+    assert (shown, said.startswith("VIPO_MAIL_FROM is not set")) == ("", True), said
+    shown, said = read_settings({**way, "VIPO_MAIL_FROM": "vipo@mail.example", "VIPO_MAIL_TLS": "none"})
+    assert (shown, said.startswith("VIPO_MAIL_TLS is none and VIPO_MAIL_HOST another machine")) == ("", True), said
+    local = {"VIPO_MAIL_HOST": "localhost", "VIPO_MAIL_FROM": "vipo@mail.example", "VIPO_MAIL_TLS": "none"}
+    assert read_settings({**SERVED, **local})[0] != ""
 
 
 def test_secrets_are_read_from_files(tmp_path: Path, read_settings: ReadSettings) -> None:

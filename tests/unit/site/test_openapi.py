@@ -70,6 +70,8 @@ def test_every_answer_has_a_shape(described):
         ("put", "/api/programs/{program}/document", "204"),
         ("put", "/api/programs/{program}/script", "204"),
         ("post", "/api/programs/{program}/stored", "204"),
+        ("delete", "/api/sites/{slug}/invitations/{invitation}", "204"),
+        ("post", "/api/sites/{slug}/leave", "204"),
         ("patch", "/api/sites/{slug}/things/{thing}", "204"),
         ("delete", "/api/sites/{slug}/tokens/{token_id}", "204"),
     ]

@@ -8,6 +8,7 @@ import { Panel } from "@/design/Panel";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import pages from "../pages.module.css";
+import { SettingsTabs } from "../settings/SettingsTabs";
 import { TableSkeleton } from "../TableSkeleton";
 import { useRetention } from "./retention";
 import { ArchiveTable, ProgramTable } from "./Tables";
@@ -28,6 +29,7 @@ function RetentionOfSite({ slug }: { slug: string }) {
   const isForOthers = site.data !== undefined && !isAdmin;
   return (
     <PageShell title={t("retention.title")}>
+      <SettingsTabs slug={slug} role={site.data?.role} />
       <div className={pages.stack}>
         {problem ? (
           <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), retention.refetch()])} />

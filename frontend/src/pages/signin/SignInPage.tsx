@@ -4,7 +4,7 @@ import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { ArrowRight, CircleAlert } from "lucide-react";
 import { useEffect, useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
-import { Navigate, useSearchParams } from "react-router-dom";
+import { Navigate, useLocation, useSearchParams } from "react-router-dom";
 import { LoadProblem, problemText, Waiting } from "@/shell/LoadProblem";
 import { api, rememberCsrf } from "@/api/client";
 import { keys, useMe } from "@/api/queries";
@@ -124,12 +124,13 @@ export function SignInPage() {
   const { t } = useTranslation();
   const me = useMe();
   const next = safeNext(useSearchParams()[0].get("next"));
+  const { hash } = useLocation();
   useEffect(() => {
     document.title = `${t("pages.signIn.go")} · VIPO`;
   }, [t]);
   if (me.isPending) return <Waiting />;
   if (me.isLoadingError) return <LoadProblem error={me.error} again={() => void me.refetch()} />;
-  if (me.data.user) return <Navigate to={next} replace />;
+  if (me.data.user) return <Navigate to={next + hash} replace />;
   return (
     <main className={styles.page}>
       <SignInForm me={me.data} />

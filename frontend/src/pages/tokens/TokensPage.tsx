@@ -17,6 +17,7 @@ import { formatAgo, formatMoment } from "@/i18n/format";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import pages from "../pages.module.css";
+import { SettingsTabs } from "../settings/SettingsTabs";
 import { TableSkeleton } from "../TableSkeleton";
 import { NewToken, TokenShown } from "./NewToken";
 import { useRevokeToken, useTokens } from "./tokens";
@@ -132,6 +133,7 @@ export function TokensPage() {
   };
   return (
     <PageShell title={t("tokens.title")} actions={tokens.data?.length ? begin : null}>
+      <SettingsTabs slug={slug} role={site.data?.role} />
       <div className={pages.stack}>
         <p className={styles.intro}>{t("tokens.intro")}</p>
         {problem ? (

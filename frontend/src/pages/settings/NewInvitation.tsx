@@ -1,0 +1,154 @@
+/** The form for a new invitation, and its link, shown this one time. */
+import { Button, CopyButton, Modal, NativeSelect, Radio, TextInput } from "@mantine/core";
+import { Check, Copy } from "lucide-react";
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import type { MadeInvitation, Role } from "@/api/types";
+import { useReturnFocus } from "@/design/useReturnFocus";
+import { problemText } from "@/shell/LoadProblem";
+import pages from "../pages.module.css";
+import { useInvite } from "./people";
+import { ROLES } from "./RoleSelect";
+import styles from "./settings.module.css";
+
+const DAYS = [1, 7, 30, 90];
+const USES = [1, 5, 20, 100];
+const FRESH: { role: Role; days: number; uses: number; email: string } = {
+  role: "author",
+  days: 7,
+  uses: 1,
+  email: "",
+};
+
+interface Props {
+  slug: string;
+  canMail: boolean;
+  onMade: (invitation: MadeInvitation) => void;
+  onClose: () => void;
+}
+
+interface FieldsProps {
+  wanted: typeof FRESH;
+  set: (some: Partial<typeof FRESH>) => void;
+  canMail: boolean;
+}
+
+function Fields({ wanted, set, canMail }: FieldsProps) {
+  const { t } = useTranslation();
+  const counts = (name: "days" | "uses", all: readonly number[]) => (
+    <NativeSelect
+      label={t(`people.new.${name}`)}
+      value={String(wanted[name])}
+      data={all.map((count) => ({ value: String(count), label: t(`people.new.${name}Of`, { count }) }))}
+      onChange={(event) => set({ [name]: Number(event.currentTarget.value) })}
+    />
+  );
+  return (
+    <>
+      <Radio.Group label={t("people.new.role")} value={wanted.role} onChange={(role) => set({ role })}>
+        <div className={styles.roles}>
+          {ROLES.map((role) => (
+            <Radio
+              key={role}
+              value={role}
+              label={t(`people.role.${role}`)}
+              description={t(`people.new.about.${role}`)}
+              data-autofocus={role === wanted.role || undefined}
+            />
+          ))}
+        </div>
+      </Radio.Group>
+      <div className={styles.two}>
+        {counts("days", DAYS)}
+        {counts("uses", USES)}
+      </div>
+      {canMail ? (
+        <TextInput
+          type="email"
+          label={t("people.new.email")}
+          description={t("people.new.emailHint")}
+          maxLength={254}
+          value={wanted.email}
+          onChange={(event) => set({ email: event.currentTarget.value })}
+        />
+      ) : (
+        <p className={styles.hint}>{t("people.new.noMail")}</p>
+      )}
+    </>
+  );
+}
+
+export function NewInvitation({ slug, canMail, onMade, onClose }: Props) {
+  const { t } = useTranslation();
+  useReturnFocus();
+  const [wanted, setWanted] = useState(FRESH);
+  const invite = useInvite(slug);
+  return (
+    <Modal opened onClose={onClose} title={t("people.new.title")} size={480}>
+      <form
+        className={pages.form}
+        onSubmit={(event) => {
+          event.preventDefault();
+          invite.mutate({ ...wanted, email: wanted.email.trim() }, { onSuccess: onMade });
+        }}
+      >
+        <Fields wanted={wanted} set={(some) => setWanted({ ...wanted, ...some })} canMail={canMail} />
+        {invite.error ? <p role="alert">{problemText(invite.error, t("shell.problem.screen"))}</p> : null}
+        <div className={pages.buttons}>
+          <Button variant="default" onClick={onClose}>
+            {t("people.cancel")}
+          </Button>
+          <Button type="submit" loading={invite.isPending}>
+            {t(wanted.email.trim() ? "people.new.send" : "people.new.make")}
+          </Button>
+        </div>
+      </form>
+    </Modal>
+  );
+}
+
+export function LinkShown({ made, onClose }: { made: MadeInvitation; onClose: () => void }) {
+  const { t } = useTranslation();
+  const role = t(`people.role.${made.role}`);
+  return (
+    <Modal
+      opened
+      onClose={onClose}
+      closeOnClickOutside={false}
+      closeOnEscape={false}
+      title={t("people.shown.title", { role })}
+      size={560}
+    >
+      <div className={pages.form}>
+        {made.mailed === null ? null : (
+          <p role="status">
+            {t(made.mailed ? "people.shown.mailed" : "people.shown.notMailed", { email: made.email })}
+          </p>
+        )}
+        <p>{t("people.shown.once")}</p>
+        <div className={styles.shown}>
+          <TextInput
+            classNames={{ input: styles.mono }}
+            label={t("people.shown.field")}
+            readOnly
+            data-autofocus
+            value={made.link}
+            onFocus={(event) => event.currentTarget.select()}
+          />
+          <CopyButton value={made.link} timeout={4000}>
+            {({ copied, copy }) => (
+              <Button
+                variant="default"
+                onClick={copy}
+                leftSection={copied ? <Check size={16} aria-hidden="true" /> : <Copy size={16} aria-hidden="true" />}
+              >
+                {t(copied ? "people.shown.copied" : "people.shown.copy")}
+              </Button>
+            )}
+          </CopyButton>
+        </div>
+        <Button onClick={onClose}>{t("people.shown.close")}</Button>
+      </div>
+    </Modal>
+  );
+}

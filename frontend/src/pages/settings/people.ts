@@ -1,0 +1,110 @@
+/** The people of a site: members, invitations, who may do what, and what was done; read and changed. */
+import { useInfiniteQuery, useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
+import { api } from "@/api/client";
+import type {
+  AuditEntry,
+  Deed,
+  InvitationList,
+  MadeInvitation,
+  Member,
+  MemberChange,
+  MemberDetail,
+  NewInvitation,
+} from "@/api/types";
+
+const EVERY_MS = 15_000;
+const PART = 50;
+const siteOf = (slug: string) => `/sites/${encodeURIComponent(slug)}`;
+const keyOf = (slug: string) => ["people", slug] as const;
+
+export const useMembers = (slug: string) =>
+  useQuery({
+    queryKey: [...keyOf(slug), "members"],
+    queryFn: () => api.get<Member[]>(`${siteOf(slug)}/members`),
+    refetchInterval: EVERY_MS,
+  });
+
+/** A member with what ends when they are removed; always asked for anew. */
+export const useMember = (slug: string, id: number) =>
+  useQuery({
+    queryKey: [...keyOf(slug), "member", id],
+    queryFn: () => api.get<MemberDetail>(`${siteOf(slug)}/members/${id}`),
+    gcTime: 0,
+    staleTime: 0,
+  });
+
+export const useInvitations = (slug: string) =>
+  useQuery({
+    queryKey: [...keyOf(slug), "invitations"],
+    queryFn: () => api.get<InvitationList>(`${siteOf(slug)}/invitations`),
+    refetchInterval: EVERY_MS,
+  });
+
+export const useRights = () =>
+  useQuery({ queryKey: ["rights"], queryFn: () => api.get<Deed[]>("/rights"), staleTime: Infinity });
+
+export const KINDS = [
+  "roles",
+  "invitations",
+  "tokens",
+  "runs",
+  "stops",
+  "devices",
+  "programs",
+  "map",
+  "sign_in",
+] as const satisfies readonly AuditEntry["kind"][];
+export type AuditFilter = AuditEntry["kind"] | "all";
+
+const ofKind = (filter: AuditFilter) => (filter === "all" ? "" : `kind=${filter}`);
+
+export const exportPath = (slug: string, filter: AuditFilter) => `/api${siteOf(slug)}/audit.csv?${ofKind(filter)}`;
+
+/** What was done, the newest first, as far back as was asked for. */
+export const useAudit = (slug: string, filter: AuditFilter) =>
+  useInfiniteQuery({
+    queryKey: [...keyOf(slug), "audit", filter],
+    queryFn: ({ pageParam }) => api.part<AuditEntry>(pageParam),
+    initialPageParam: `${siteOf(slug)}/audit?limit=${PART}&${ofKind(filter)}`,
+    getNextPageParam: (last) => last.next,
+    refetchInterval: EVERY_MS,
+  });
+
+/** Something that is changed about the people of a site; all of it is read anew afterwards. */
+function useChange<Wanted, Told>(slug: string, change: (wanted: Wanted) => Promise<Told>) {
+  const queries = useQueryClient();
+  return useMutation({
+    mutationFn: change,
+    onSettled: () => queries.invalidateQueries({ queryKey: keyOf(slug) }),
+  });
+}
+
+export const useChangeMember = (slug: string) =>
+  useChange(slug, ({ id, ...change }: MemberChange & { id: number }) =>
+    api.patch<Member>(`${siteOf(slug)}/members/${id}`, change),
+  );
+export const useRemoveMember = (slug: string) =>
+  useChange(slug, (id: number) => api.delete(`${siteOf(slug)}/members/${id}`));
+export const useLeave = (slug: string) => useChange(slug, () => api.post(`${siteOf(slug)}/leave`));
+export const useInvite = (slug: string) =>
+  useChange(slug, (wanted: NewInvitation) => api.post<MadeInvitation>(`${siteOf(slug)}/invitations`, wanted));
+export const useRevoke = (slug: string) =>
+  useChange(slug, (id: number) => api.delete(`${siteOf(slug)}/invitations/${id}`));
+
+/** Whether a member is the only one who looks after the site for good: the server lets such a one not go. */
+export function isLastAdmin(member: Member, members: readonly Member[]): boolean {
+  const lasting = members.filter((each) => each.role === "admin" && each.ends_at === null && !each.is_closed);
+  return lasting.length === 1 && lasting[0]?.id === member.id;
+}
+
+/** Members whose name or address holds what was typed. */
+export function findMembers(members: readonly Member[], typed: string): Member[] {
+  const wanted = typed.trim().toLowerCase();
+  return members.filter((each) => `${each.name} ${each.email}`.toLowerCase().includes(wanted));
+}
+
+/** The last moment of a day as a field of dates says it, here where people look; undefined for what is no day. */
+export function endOfDay(typed: string): string | undefined {
+  const end = new Date(`${typed}T23:59:59`);
+  return Number.isNaN(end.getTime()) ? undefined : end.toISOString();
+}

@@ -1,0 +1,22 @@
+"""What the record of a site tells of: each code has a kind, by which people look for it."""
+
+from __future__ import annotations
+
+from typing import Literal, get_args
+
+Kind = Literal["roles", "invitations", "tokens", "runs", "stops", "devices", "programs", "map", "sign_in"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
+
+_CODES: dict[Kind, str] = {
+    "roles": "role_changed access_end_set member_added member_removed member_left joined",
+    "invitations": "invitation_made invitation_revoked",
+    "tokens": "token_made token_revoked",
+    "runs": "run_started run_cancelled",
+    "stops": "stop_pressed stop_reset",
+    "devices": """device_asked device_approved device_rejected device_retired device_readmitted device_key_given
+        device_key_revoked enrolment_key_renewed""",
+    "programs": "program_deleted",
+    "map": "map_published",
+    "sign_in": "sign_in_locked",
+}
+KIND_OF: dict[str, Kind] = {code: kind for kind, codes in _CODES.items() for code in codes.split()}
