@@ -16,7 +16,7 @@ _CODES: dict[Kind, str] = {
     "devices": """device_asked device_approved device_rejected device_retired device_readmitted device_key_given
         device_key_revoked enrolment_key_renewed""",
     "programs": "program_deleted",
-    "map": "map_published",
+    "map": "map_published place_added place_changed place_removed",
     "sign_in": "sign_in_locked",
 }
 KIND_OF: dict[str, Kind] = {code: kind for kind, codes in _CODES.items() for code in codes.split()}

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from django.db import transaction
 from django.utils.text import slugify
 
+from registry.audit.record import note_act
 from registry.errors import RegistryError
 from registry.floorplan.plan import Grid
 from registry.live.fanout import publish
@@ -75,6 +76,7 @@ def add_place(*, site: str, place: PlaceChange, place_id: str = "") -> PlaceView
         made = Place(site=row, key=_new_key(place_id, place.name or "", keys), kind=Place.Kind.POINT, x=0.0, y=0.0)
         _change(made, place, grid)
         made.save(force_insert=True)
+        note_act(site_id=row.pk, code="place_added", facts={"place": made.name})
         _tell(site, version)
     return find_place(site=site, place_id=made.key)
 
@@ -87,6 +89,7 @@ def change_place(*, site: str, place_id: str, place: PlaceChange) -> PlaceView:
         row = _lock(site, place_id)
         _change(row, place, grid)
         row.save()
+        note_act(site_id=row.site_id, code="place_changed", facts={"place": row.name})
         _tell(site, version)
     return find_place(site=site, place_id=place_id)
 
@@ -94,7 +97,9 @@ def change_place(*, site: str, place_id: str, place: PlaceChange) -> PlaceView:
 def remove_place(*, site: str, place_id: str) -> None:
     """Take a place away; programs that name it are told of it. Raises NoSuchPlace, NotAMember."""
     with transaction.atomic():
-        _lock(site, place_id).delete()
+        row = _lock(site, place_id)
+        note_act(site_id=row.site_id, code="place_removed", facts={"place": row.name})
+        row.delete()
         known = find_map(site=site)
         _tell(site, known.version if known else 0)
 

@@ -45,6 +45,9 @@ def test_a_place_is_made_moved_renamed_and_removed(
         assert told(admin) == [("quality_table", "Bench", "point", 2.25, 0.5)]
         assert admin.delete(made["Location"]).status_code == 204
     assert told(admin) == []
+    done = [(line["code"], line["facts"]) for line in admin.get("/api/sites/hall/audit?kind=map").json()]
+    names = (("place_removed", "Bench"), ("place_changed", "Bench"), ("place_added", "Quality table"))
+    assert done[:3] == [(code, {"place": name}) for code, name in names]
     assert heard == [("hall", {"type": "map", "version": 1})] * 3
     gone = made["Location"]
     for answer in (admin.get(gone), admin.delete(gone), patch_json(admin, gone, {})):
