@@ -76,7 +76,7 @@ def test_an_operator_sees_what_waits_at_the_own_site_alone(other: str) -> None:
     assert told["runs"] == {"pending": 0, "running": 1, "paused": 0}
     assert (told["overdue_count"], told["overdue"], told["open_alerts"]) == (0, [], 0)
     (inbox,) = [queue for queue in told["queues"] if queue["name"] == "inbox"]
-    assert 29 < inbox["oldest_s"] < 40
+    assert 29 < inbox["oldest_s"] <= (timezone.now() - at).total_seconds() + 1
     everywhere = ask(signed_in("admin"), "processes")
     assert waiting(everywhere) == {"inbox": 4, "outbox": 1, "unanswered": 1, "under_way": 1, "rehearsals": 2}
 
@@ -191,6 +191,7 @@ def test_strangers_and_operators_cannot_tell_what_was_set_aside(other: str) -> N
 
 
 def test_an_admin_sees_each_process_and_who_leads(hall: str) -> None:
+    began = timezone.now()
     make_process("ticker", "t1", activity="leads", clock_apart_s=0.01)
     make_process("web", "w1", seconds=20)
     make_process("gateway", "g1", seconds=60, ended_at=timezone.now())
@@ -201,7 +202,7 @@ def test_an_admin_sees_each_process_and_who_leads(hall: str) -> None:
         ("ticker", "beats", "leads"),
         ("web", "silent", ""),
     ]
-    assert 20 <= told["processes"][2]["age_s"] < 30
+    assert 20 <= told["processes"][2]["age_s"] <= (timezone.now() - began).total_seconds() + 21
     ((job, holder, held_s),) = [each.values() for each in told["leases"]]
     assert (job, holder, 2 < held_s <= 4) == ("ticker", "m1:7", True)
 
