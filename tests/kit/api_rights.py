@@ -39,7 +39,8 @@ _NAMES = {
     Right("person", "read"): "list_sites search_library",
     Right("viewer", "session"): "list_tokens show_token create_token revoke_token",
     Right("viewer", "read"): """show_function show_function_version show_program show_compiled show_document
-        show_script show_version list_versions wait_until_stored get_rehearsal list_rehearsals get_run list_events
+        show_script show_version list_versions export_version compare_versions
+        wait_until_stored get_rehearsal list_rehearsals get_run list_events
         list_armed get_call list_questions plan_route plan_routes list_runs show_site list_alerts look_at_description
         list_devices export_devices show_device list_device_events show_property_history show_robot_map
         download_robot_pgm download_robot_yaml
@@ -52,7 +53,8 @@ _NAMES = {
         cancel_action show_operations list_findings""",
     Right("operator", "run"): """start_rehearsal cancel_rehearsal start_run pause_run resume_run cancel_run
         answer_question arm_program""",
-    Right("author", "run"): """delete_program rename_program draw_script pin_version save_function
+    Right("author", "run"): """delete_program rename_program draw_script pin_version name_version
+        copy_version look_at_restoring restore_version make_changes save_function
         create_program put_document put_script""",
     Right("admin", "admin"): """edit_device approve_device reject_device retire_device readmit_device
         rotate_credential revoke_credential confirm_topic withdraw_topic renew_enrolment_key reserve_device

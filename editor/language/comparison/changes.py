@@ -154,11 +154,16 @@ def change_to_json(change: ValueChange) -> Json:
     return {"path": list(change.path), **{name: value for name, value in sides.items() if value is not ABSENT}}
 
 
-def change_from_json(form: Mapping[str, Any]) -> ValueChange:
-    """Read {path, old?, new?}. Raises BadChange."""
-    path = form.get("path")
-    if not isinstance(path, list) or not path or not all(isinstance(name, str) and name for name in path):
-        raise BadChange('A change has a path, a list of names that are not empty, such as ["steps", "s1"].')
-    if path[0] not in (*ROOTS, "start_pos") or (len(path) == 1 and path[0] in ROOTS):
+def read_change(form: Mapping[str, Any]) -> ValueChange:
+    """Return the change that `change_to_json` wrote."""
+    return ValueChange(tuple(form["path"]), form.get("old", ABSENT), form.get("new", ABSENT))
+
+
+def check_change(change: ValueChange) -> ValueChange:
+    """Return a change that was sent if it is one of a construct, or of where the program starts. Raises BadChange."""
+    path = change.path
+    if not path or not all(isinstance(name, str) and name for name in path):
+        raise BadChange('A change has a path: a list of names that are not empty, such as ["steps", "s1"].')
+    if path != ("start_pos",) and (path[0] not in ROOTS or len(path) == 1):
         raise BadChange(f"A change is of start_pos, or of something in {', '.join(ROOTS)}.")
-    return ValueChange(tuple(path), form.get("old", ABSENT), form.get("new", ABSENT))
+    return change

@@ -67,7 +67,7 @@ class _Restore:
                 yield name
         yield from self._left_behind(made, gone)
         yield from self._inner_of(back)
-        yield from self._circling(made, touched)
+        yield from self._circling(made)
 
     def _named_by(self, made: Mapping[str, Any], touched: Collection[Name]) -> Iterator[Name]:
         for root, key in sorted(touched):
@@ -93,21 +93,19 @@ class _Restore:
             if back and step not in steps and not back.isdisjoint(_stands_in(mapping(body))):
                 yield STEPS, step
 
-    def _circling(self, made: Mapping[str, Any], touched: Collection[Name]) -> Iterator[Name]:
-        """Yield the steps above one that would stand in itself."""
-        outline, known = make_outline(made), make_outline(self._then)
-        fallen = [s for root, s in sorted(touched) if root == STEPS and s in outline.drafts and s not in known.drafts]
-        for step in fallen:
-            here = step
-            for _ in range(len(outline.kinds)):
-                place = place_of(mapping(mapping(made.get(STEPS)).get(here)).get("place"))
-                if place is None or place[0] not in outline.kinds:
-                    break
-                here = place[0]
+    def _circling(self, made: Mapping[str, Any]) -> Iterator[Name]:
+        """Yield the steps that would stand in themselves, with those between: they went round in two edits."""
+        outline = make_outline(made)
+        known = {*make_outline(self._now).drafts, *make_outline(self._then).drafts}
+        for step in outline.drafts:
+            here: str | None = None if step in known else step
+            seen: set[str] = set()
+            while here is not None and here in outline.kinds and here not in seen:
+                seen.add(here)
                 if (STEPS, here) in self._differing:
                     yield STEPS, here
-                if here == step:
-                    break
+                place = place_of(mapping(mapping(made.get(STEPS)).get(here)).get("place"))
+                here = place[0] if place else None
 
 
 def _holds(document: Mapping[str, Any], name: Name) -> bool:
