@@ -174,6 +174,7 @@ def put_document(
 ) -> Status[None]:
     """Make a document the program's, if it is still what was read; what others change meanwhile is merged."""
     program_for(request.user, program, "author")
+    _keep(request, program)
     content = write_document(
         program_id=program, document=_read_document(request.body), tag=if_match, author=signed_in(request).pk
     )
@@ -199,9 +200,15 @@ def put_script(
         text = cleaned(request.body.decode())
     except UnicodeDecodeError as error:
         raise services.BadRequest("The script is not UTF-8. Send it as text/plain in UTF-8.") from error
+    _keep(request, program)
     content = write_script(program_id=program, text=text, tag=if_match, author=signed_in(request).pk)
     response["ETag"] = content.tag
     return Status(204, None)
+
+
+def _keep(request: HttpRequest, program: UUID) -> None:
+    """Make what is there a version before something else takes its place."""
+    services.pin_version(program_id=program, user=request.user, cause="import")
 
 
 def _read_document(body: bytes) -> dict[str, Any]:

@@ -92,6 +92,12 @@ function nextOf(response: Response): string | undefined {
   return next?.[1];
 }
 
+/** A part of a list, and where the next one is. */
+async function receivePart<T>(path: string): Promise<{ items: T[]; next?: string }> {
+  const response = await send("GET", path);
+  return { items: await receive<T[]>(response), next: nextOf(response) };
+}
+
 /** A whole list, which the server gives in parts. */
 async function receiveAll<T>(path: string): Promise<T[]> {
   const all: T[] = [];
@@ -113,6 +119,7 @@ async function replace(path: string, body: unknown): Promise<void> {
 export const api = {
   get: <T>(path: string) => sendJson<T>("GET", path),
   all: receiveAll,
+  part: receivePart,
   post: <T = void>(path: string, body?: unknown) => sendJson<T>("POST", path, body),
   postOnce,
   put: <T = void>(path: string, body: unknown) => sendJson<T>("PUT", path, body),
