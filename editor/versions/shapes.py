@@ -54,7 +54,7 @@ class VersionWords(Asked):
     message: str = Field("", max_length=300)
 
 
-class ChangeShape(Schema):
+class ValueChangeShape(Schema):
     """At the path stands `new` instead of `old`; what is left out is absent there."""
 
     path: list[str]
@@ -69,7 +69,7 @@ class ConstructChangeShape(Schema):
     id: str
     kind: Literal["added", "removed", "changed", "moved"]
     moved: bool
-    changes: Annotated[list[dict[str, Any]], Unchecked(list[ChangeShape])]
+    changes: Annotated[list[dict[str, Any]], Unchecked(list[ValueChangeShape])]
 
 
 class DifferenceShape(Schema):
@@ -111,8 +111,8 @@ class RestoreAsked(Asked):
 class ChangedShape(Schema):
     """What was changed, what stays as somebody has changed it since, and what was needed, as [root, id]."""
 
-    changes: Annotated[list[dict[str, Any]], Unchecked(list[ChangeShape])]
-    skipped: Annotated[list[dict[str, Any]], Unchecked(list[ChangeShape])]
+    changes: Annotated[list[dict[str, Any]], Unchecked(list[ValueChangeShape])]
+    skipped: Annotated[list[dict[str, Any]], Unchecked(list[ValueChangeShape])]
     needs: list[tuple[str, str]]
 
 

@@ -20,7 +20,8 @@ class _Editor:
     """A person with a copy of the document; each writes fields of their own name, so that no two want the same."""
 
     def __init__(self, number: int, room: SharedDocument) -> None:
-        self.field, self.document, self.made = f"by{number}", Doc[Any](), {}
+        self.field, self.document = f"by{number}", Doc[Any]()
+        self.made: dict[tuple[str, ...], int] = {}
         for root in ROOTS:
             self.document.get(root, type=Map)
         self.hear(room)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final, Literal
 
-from editor.language.comparison.changes import ABSENT, STEPS, ValueChange, find_changes
+from editor.language.comparison.changes import ABSENT, STEPS, ValueChange, find_changes, is_same
 from editor.language.constructs.table import COMMENT
 from editor.language.document.fractional_index import longest_rise
 from editor.language.document.outline import EVENTS, PROGRAM, Outline, kind_of, make_outline, mapping
@@ -111,10 +112,35 @@ class _Comparison:
         common = self._before.kinds.keys() & self._after.kinds.keys()
         moved = {step for step in common if before.get(step, (None, 0))[0] != after.get(step, (None, 0))[0]}
         for branch, steps in self._after.children.items():
-            stayed = [step for step in steps if step in common and step not in moved and before[step][0] == branch]
-            kept = longest_rise([(before[step][1],) for step in stayed])
-            moved.update(step for at, step in enumerate(stayed) if at not in kept)
+            stayed = [step for step in steps if step in common and before.get(step, (None, 0))[0] == branch]
+            moved |= self._passed({step: before[step][1] for step in stayed})
         return frozenset(moved)
+
+    def _passed(self, stood: Mapping[str, int]) -> set[str]:
+        """Return those of a branch that went past others; they are given in their new order, each with its old one.
+
+        Whose place was not written anew has not moved; of the others as few as explain the new order have.
+        """
+        still = [
+            at for step, at in stood.items() if is_same(self._place(self._old, step), self._place(self._new, step))
+        ]
+        kept_at = set(still)
+        between: list[str] = []
+        moved: set[str] = set()
+        passed = 0
+        for step, at in stood.items():
+            if at in kept_at:
+                passed += 1
+            elif bisect_left(still, at) == passed:
+                between.append(step)
+            else:
+                moved.add(step)
+        kept = longest_rise([(stood[step],) for step in between])
+        return moved | {step for at, step in enumerate(between) if at not in kept}
+
+    @staticmethod
+    def _place(document: Mapping[str, Any], step: str) -> object:
+        return mapping(mapping(document.get(STEPS)).get(step)).get("place")
 
     def _sorted(self, by_construct: dict[Name, list[ValueChange]]) -> list[tuple[Name, list[ValueChange]]]:
         """Steps in reading order, what is gone where it stood; then the rest by root and id."""

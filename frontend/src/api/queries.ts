@@ -183,6 +183,13 @@ export const useRuns = (slug: Maybe) =>
     keys.runs(slug ?? ""),
     at(slug, (s) => `/sites/${s}/runs`),
   );
+const RUNS_OF_A_PROGRAM = 200;
+/** The newest runs of one program, each with the version that it used. */
+export const useProgramRuns = (slug: Maybe, program: Maybe) =>
+  useGet<RunSummary[]>(
+    [...keys.runs(slug ?? ""), "of", program],
+    slug && program ? `/sites/${slug}/runs?program=${encodeURIComponent(program)}&limit=${RUNS_OF_A_PROGRAM}` : null,
+  );
 export const useQuestions = (slug: Maybe) =>
   useGet<Question[]>(
     keys.questions(slug ?? ""),
@@ -262,9 +269,7 @@ export const useComparison = (id: Maybe, sides: readonly [old: string, new: stri
   useQuery({
     queryKey: [...keys.comparison(id ?? ""), ...(sides ?? [])],
     queryFn:
-      id && sides
-        ? () => api.get<Comparison>(`/programs/${id}/comparison?old=${sides[0]}&new=${sides[1]}`)
-        : skipToken,
+      id && sides ? () => api.get<Comparison>(`/programs/${id}/comparison?old=${sides[0]}&new=${sides[1]}`) : skipToken,
     staleTime: 0,
     placeholderData: keepPreviousData,
   });

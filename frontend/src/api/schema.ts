@@ -2452,11 +2452,11 @@ export interface components {
             };
             code: string;
         };
-        /** @description At the path stands `new` instead of `old`; what is left out is absent there. */
+        /** @description A field of a description that changed: its JSON before and after, empty where it was or is not there. */
         ChangeShape: {
-            new?: unknown;
-            old?: unknown;
-            path: string[];
+            after: string;
+            before: string;
+            path: string;
         };
         /** @description The version that holds now. */
         ChangedMap: {
@@ -2464,12 +2464,12 @@ export interface components {
         };
         /** @description What was changed, what stays as somebody has changed it since, and what was needed, as [root, id]. */
         ChangedShape: {
-            changes: components["schemas"]["ChangeShape"][];
+            changes: components["schemas"]["ValueChangeShape"][];
             needs: [
                 string,
                 string
             ][];
-            skipped: components["schemas"]["ChangeShape"][];
+            skipped: components["schemas"]["ValueChangeShape"][];
         };
         /** @description Changes that are made where their old values still stand: {path, old, new}; what is left out is absent. */
         ChangesToMake: {
@@ -2501,7 +2501,7 @@ export interface components {
         };
         /** @description What happened to a construct, with its fields, old and new. */
         ConstructChangeShape: {
-            changes: components["schemas"]["ChangeShape"][];
+            changes: components["schemas"]["ValueChangeShape"][];
             id: string;
             /** @enum {string} */
             kind: "added" | "removed" | "changed" | "moved";
@@ -3763,6 +3763,12 @@ export interface components {
             version: number;
         };
         Value: string | boolean | number | unknown[] | components["schemas"]["ParameterUse"] | components["schemas"]["Quantity"] | components["schemas"]["Whereabouts"] | components["schemas"]["ZoneUse"] | components["schemas"]["PropertyUse"] | components["schemas"]["Operation"] | null;
+        /** @description At the path stands `new` instead of `old`; what is left out is absent there. */
+        ValueChangeShape: {
+            new?: unknown;
+            old?: unknown;
+            path: string[];
+        };
         /** @description A version without what is in it; `cause` says before what it was made by itself. */
         VersionShape: {
             author: components["schemas"]["Author"] | null;

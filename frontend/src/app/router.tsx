@@ -29,7 +29,7 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/retention", "pages/retention/RetentionPage"],
   ["/programs/:id", "editor/EditorScreen"],
   ["/programs/:id/compare", "compare/CompareScreen"],
-  ["/programs/:id/history", "pages/history/HistoryPage"],
+  ["/sites/:slug/history/:id", "pages/history/HistoryPage"],
   ["/programs/:id/simulate/:rehearsal?", "simulation/SimulationScreen"],
   ["/runs/:id", "run/RunScreen"],
 ];

@@ -90,6 +90,7 @@ export class SiteFeed {
       case "programs":
         return this.#caches.refresh(keys.programs(this.slug));
       case "checked":
+        this.#caches.refresh(keys.comparison(message.program));
         return this.#caches.write<Program[]>(keys.programs(this.slug), (programs) => applyChecked(programs, message));
     }
   }

@@ -108,7 +108,10 @@ def test_a_version_of_before_is_run_and_one_that_is_not_there_is_absent(factory,
     assert client.get(f"/api/runs/{run['id']}").json()["document"]["steps"].keys() == {"s1"}
     assert [each.number for each in editor.list_versions(program_id=program)] == [1]
     post_json(client, f"/api/programs/{program}/rehearsals")
-    assert [(each.number, each.cause) for each in editor.list_versions(program_id=program)] == [(2, "rehearsal"), (1, "")]
+    assert [(each.number, each.cause) for each in editor.list_versions(program_id=program)] == [
+        (2, "rehearsal"),
+        (1, ""),
+    ]
     absent = client.post(f"/api/programs/{program}/runs", '{"version": 9}', content_type="application/json")
     assert (absent.status_code, absent.json()["detail"]) == (404, "The program has no version 9.")
 

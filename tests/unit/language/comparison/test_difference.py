@@ -48,6 +48,16 @@ def test_who_went_past_others_has_moved_and_they_have_not() -> None:
     assert kinds(compare(old, new)) == {"a": "moved"}
 
 
+def test_of_two_that_have_changed_places_the_one_whose_place_was_written_has_moved() -> None:
+    old = document({"a": wait("A"), "b": wait("B"), "c": wait("C")})
+    for mover, order in (("a", "BV"), ("b", "0V")):
+        new = {**old, "steps": {**old["steps"], mover: wait(order)}}
+        found = only(compare(old, new))
+        assert (found.id, found.kind, [change.path[2] for change in found.changes]) == (mover, "moved", ["place"])
+    respread = document({"b": wait("K"), "a": wait("L"), "c": wait("M")})
+    assert len(compare(old, respread).constructs) == 1
+
+
 def test_other_orders_in_the_same_sequence_are_tidying() -> None:
     old = document({"a": wait("A"), "b": wait("B")})
     found = compare(old, document({"a": wait("K"), "b": wait("T")}))

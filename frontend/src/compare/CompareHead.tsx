@@ -1,0 +1,143 @@
+/** Over the map: both sides with name, author and time, which of them is shown, and all of the old one back. */
+import { Button, Menu, SegmentedControl } from "@mantine/core";
+import { ArrowDownUp, ArrowRight, ChevronDown, RotateCcw } from "lucide-react";
+import { useTranslation } from "react-i18next";
+import type { RunSummary, Version } from "@/api/types";
+import { Avatar } from "@/design/Avatar";
+import { IconButton } from "@/design/IconButton";
+import { formatMoment } from "@/i18n/format";
+import styles from "./compare.module.css";
+import type { Shown } from "./marks";
+import { DRAFT, runSide, versionOfSide, versionTitle } from "./sides";
+import type { Restore } from "./useRestore";
+
+interface HeadProps {
+  versions: readonly Version[];
+  runs: readonly RunSummary[];
+  sides: { old: string; new: string };
+  choose: (next: { old: string; new: string }) => void;
+  shown: Shown;
+  setShown: (shown: Shown) => void;
+  restore: Restore | null;
+}
+
+export function CompareHead({ versions, runs, sides, choose, shown, setShown, restore }: HeadProps) {
+  const { t } = useTranslation();
+  const number = versionOfSide(sides.old, runs);
+  return (
+    <section className={styles.head} aria-label={t("compare.sides")}>
+      <SidePicker which="old" {...{ versions, runs }} side={sides.old} onChoose={(old) => choose({ ...sides, old })} />
+      <ArrowRight size={18} className={styles.arrow} aria-hidden="true" />
+      <SidePicker
+        which="new"
+        {...{ versions, runs }}
+        side={sides.new}
+        onChoose={(next) => choose({ ...sides, new: next })}
+      />
+      <IconButton label={t("compare.swap")} onClick={() => choose({ old: sides.new, new: sides.old })}>
+        <ArrowDownUp size={17} aria-hidden="true" />
+      </IconButton>
+      <span className={styles.spring} />
+      <SegmentedControl
+        size="xs"
+        aria-label={t("compare.shown")}
+        value={shown}
+        onChange={(value) => setShown(value)}
+        data={(["old", "both", "new"] as const).map((value) => ({ value, label: t(`compare.show.${value}`) }))}
+      />
+      {restore && number ? (
+        <Button
+          variant="default"
+          size="xs"
+          leftSection={<RotateCcw size={14} aria-hidden="true" />}
+          loading={restore.busy}
+          onClick={() => restore.ask({ what: "all" })}
+        >
+          {t("compare.restore_all", { number })}
+        </Button>
+      ) : null}
+    </section>
+  );
+}
+
+interface PickerProps {
+  which: "old" | "new";
+  side: string;
+  versions: readonly Version[];
+  runs: readonly RunSummary[];
+  onChoose: (side: string) => void;
+}
+
+/** How many runs the menu names; older ones are reached from their versions in the history. */
+const MOST_RUNS = 12;
+
+function SidePicker({ which, side, versions, runs, onChoose }: PickerProps) {
+  const { t } = useTranslation();
+  const run = runs.find((each) => runSide(each.id) === side);
+  const number = versionOfSide(side, runs);
+  const version = versions.find((each) => String(each.number) === number);
+  const short = side === DRAFT ? t("compare.draft") : run ? t("compare.run", { number: run.number }) : `v${side}`;
+  const title =
+    side === DRAFT
+      ? t("compare.drawn_now")
+      : version
+        ? versionTitle(version, t)
+        : t("compare.version", { number: number ?? side });
+  return (
+    <div className={styles.side}>
+      <Menu position="bottom-start" width={320} shadow="md">
+        <Menu.Target>
+          <button
+            type="button"
+            className={styles.picker}
+            data-which={which}
+            aria-label={t(`compare.pick.${which}`, { side: short })}
+          >
+            {short}
+            <ChevronDown size={14} aria-hidden="true" />
+          </button>
+        </Menu.Target>
+        <Menu.Dropdown className={styles.menu}>
+          <Menu.Item onClick={() => onChoose(DRAFT)}>{t("compare.drawn_now")}</Menu.Item>
+          <Menu.Divider />
+          {versions.map((each) => (
+            <Menu.Item
+              key={each.number}
+              onClick={() => onChoose(String(each.number))}
+              rightSection={<small>{formatMoment(each.created_at)}</small>}
+            >
+              <b>{`v${each.number}`}</b> {versionTitle(each, t)}
+            </Menu.Item>
+          ))}
+          {runs.some((each) => each.version) ? <Menu.Label>{t("compare.runs")}</Menu.Label> : null}
+          {runs
+            .filter((each) => each.version)
+            .slice(0, MOST_RUNS)
+            .map((each) => (
+              <Menu.Item key={each.id} onClick={() => onChoose(runSide(each.id))}>
+                {t("compare.ran", { run: each.number, number: each.version })}
+              </Menu.Item>
+            ))}
+        </Menu.Dropdown>
+      </Menu>
+      <SideWords title={title} version={side === DRAFT ? undefined : version} />
+    </div>
+  );
+}
+
+function SideWords({ title, version }: { title: string; version: Version | undefined }) {
+  const { t } = useTranslation();
+  const by = version?.author?.name ?? "";
+  const at = version ? formatMoment(version.created_at) : t("compare.with_all");
+  return (
+    <>
+      <span className={styles.sideWords}>
+        <b title={title}>{title}</b>
+        <small>{by ? `${by}, ${at}` : at}</small>
+      </span>
+      {version?.author ? (
+        <Avatar name={version.author.name} initials={version.author.initials} size={24} title={version.author.name} />
+      ) : null}
+    </>
+  );
+}
