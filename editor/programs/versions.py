@@ -69,7 +69,7 @@ def pin_version(
         content = Content(
             document, print_program(document, build_surroundings(site=find_program(program_id).site.slug))
         )
-        last, made = _add_version(program_id, content, digest, rows, {**words, "author": _saved(user), "cause": cause})
+        last, made = add_version(program_id, content, digest, rows, {**words, "author": _saved(user), "cause": cause})
         if made:
             return replace(get_version(version_id=last.pk), made=True)
     if not (last.name or last.message) and any(words.values()):
@@ -124,7 +124,7 @@ def _last(program_id: UUID | str) -> Version | None:
     return Version.objects.filter(program_id=program_id).select_related("base").order_by("-number").first()
 
 
-def _add_version(
+def add_version(
     program_id: UUID | str, content: Content, digest: str, rows: int, about: Mapping[str, Any]
 ) -> tuple[Version, bool]:
     """Add a version unless somebody else has just added the same; tell whether it was added.

@@ -145,7 +145,7 @@ function Change({ change, pictures, chosen, restore, onChoose }: ListProps & { c
           leftSection={<RotateCcw size={14} aria-hidden="true" />}
           onClick={() => restore.ask({ what: "construct", change })}
         >
-          {t("compare.restore_one")}
+          {t("compare.restore_this")}
         </Button>
       ) : null}
     </li>

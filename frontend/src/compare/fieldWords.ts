@@ -24,8 +24,7 @@ type Say = (key: string, values?: Record<string, unknown>) => string;
 export function fieldLines(change: ConstructChange, old: SideWords, next: SideWords, say: Say): FieldLine[] {
   return change.changes.map((each) => {
     const name = fieldName(each);
-    const key = `compare.field.${name}`;
-    const known = say(key, { defaultValue: "" });
+    const known = name === null ? "" : say(`compare.field.${name}`, { defaultValue: "" });
     return {
       key: each.path.join("/"),
       label: known || each.path.at(-1) || "",
@@ -36,10 +35,10 @@ export function fieldLines(change: ConstructChange, old: SideWords, next: SideWo
   });
 }
 
-/** A field as the catalogue names it; arguments of a method or a function have names of their own. */
-function fieldName({ path }: ValueChange): string {
+/** A field as the catalogue names it; null for arguments of a method or a function, which have names of their own. */
+function fieldName({ path }: ValueChange): string | null {
   if (path[0] !== "steps") return path.at(-1) ?? "";
-  return path[3] === "args" && path.length > 4 ? ":argument" : (path[3] ?? path[2] ?? "");
+  return path[3] === "args" && path.length > 4 ? null : (path[3] ?? path[2] ?? "");
 }
 
 function valueWords(field: ValueChange, value: unknown, change: ConstructChange, side: SideWords, say: Say): string {
@@ -83,7 +82,8 @@ function plainWords(value: unknown, speaker: Speaker, say: Say): string {
       ? value.map(String).join(", ")
       : say("compare.parts", { count: value.length });
   }
-  return placeName(value as Place, speaker) ?? valueText(value as Value, speaker) ?? JSON.stringify(value);
+  const said = placeName(value as Place, speaker) ?? valueText(value as Value, speaker);
+  return said === null || said === "?" ? JSON.stringify(value) : said;
 }
 
 function textOf(value: unknown): string {
