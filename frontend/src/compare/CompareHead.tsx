@@ -2,7 +2,7 @@
 import { Button, Menu, SegmentedControl } from "@mantine/core";
 import { ArrowDownUp, ArrowRight, ChevronDown, RotateCcw } from "lucide-react";
 import { useTranslation } from "react-i18next";
-import type { RunSummary, Version } from "@/api/types";
+import type { Comparison, RunSummary, Version } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
 import { formatMoment } from "@/i18n/format";
@@ -18,19 +18,28 @@ interface HeadProps {
   choose: (next: { old: string; new: string }) => void;
   shown: Shown;
   setShown: (shown: Shown) => void;
+  comparison: Comparison | undefined;
   restore: Restore | null;
 }
 
-export function CompareHead({ versions, runs, sides, choose, shown, setShown, restore }: HeadProps) {
+export function CompareHead(props: HeadProps) {
+  const { versions, runs, sides, choose, shown, setShown, comparison, restore } = props;
   const { t } = useTranslation();
   const number = versionOfSide(sides.old, runs);
   return (
     <section className={styles.head} aria-label={t("compare.sides")}>
-      <SidePicker which="old" {...{ versions, runs }} side={sides.old} onChoose={(old) => choose({ ...sides, old })} />
+      <SidePicker
+        which="old"
+        {...{ versions, runs }}
+        shown={comparison?.old.version}
+        side={sides.old}
+        onChoose={(old) => choose({ ...sides, old })}
+      />
       <ArrowRight size={18} className={styles.arrow} aria-hidden="true" />
       <SidePicker
         which="new"
         {...{ versions, runs }}
+        shown={comparison?.new.version}
         side={sides.new}
         onChoose={(next) => choose({ ...sides, new: next })}
       />
@@ -63,26 +72,24 @@ export function CompareHead({ versions, runs, sides, choose, shown, setShown, re
 interface PickerProps {
   which: "old" | "new";
   side: string;
+  /** The version that is on this side, as the comparison has it. */
+  shown: Version | null | undefined;
   versions: readonly Version[];
   runs: readonly RunSummary[];
   onChoose: (side: string) => void;
 }
 
-/** How many runs the menu names; older ones are reached from their versions in the history. */
-const MOST_RUNS = 12;
-
-function SidePicker({ which, side, versions, runs, onChoose }: PickerProps) {
+function SidePicker({ which, side, shown, versions, runs, onChoose }: PickerProps) {
   const { t } = useTranslation();
   const run = runs.find((each) => runSide(each.id) === side);
   const number = versionOfSide(side, runs);
-  const version = versions.find((each) => String(each.number) === number);
-  const short = side === DRAFT ? t("compare.draft") : run ? t("compare.run", { number: run.number }) : `v${side}`;
-  const title =
-    side === DRAFT
-      ? t("compare.drawn_now")
-      : version
-        ? versionTitle(version, t)
-        : t("compare.version", { number: number ?? side });
+  // One that is older than the listed ones is told by what is compared.
+  const listed = versions.find((each) => String(each.number) === number);
+  const version = listed ?? (String(shown?.number) === number ? (shown ?? undefined) : undefined);
+  const numbered = t("compare.version", { number: number ?? side });
+  const named = version ? versionTitle(version, (key) => String(t(key))) : numbered;
+  const isDraft = side === DRAFT;
+  const short = isDraft ? t("compare.draft") : run ? t("compare.run", { number: run.number }) : `v${side}`;
   return (
     <div className={styles.side}>
       <Menu position="bottom-start" width={320} shadow="md">
@@ -98,30 +105,40 @@ function SidePicker({ which, side, versions, runs, onChoose }: PickerProps) {
           </button>
         </Menu.Target>
         <Menu.Dropdown className={styles.menu}>
-          <Menu.Item onClick={() => onChoose(DRAFT)}>{t("compare.drawn_now")}</Menu.Item>
-          <Menu.Divider />
-          {versions.map((each) => (
-            <Menu.Item
-              key={each.number}
-              onClick={() => onChoose(String(each.number))}
-              rightSection={<small>{formatMoment(each.created_at)}</small>}
-            >
-              <b>{`v${each.number}`}</b> {versionTitle(each, t)}
-            </Menu.Item>
-          ))}
-          {runs.some((each) => each.version) ? <Menu.Label>{t("compare.runs")}</Menu.Label> : null}
-          {runs
-            .filter((each) => each.version)
-            .slice(0, MOST_RUNS)
-            .map((each) => (
-              <Menu.Item key={each.id} onClick={() => onChoose(runSide(each.id))}>
-                {t("compare.ran", { run: each.number, number: each.version })}
-              </Menu.Item>
-            ))}
+          <Choices {...{ versions, runs, onChoose }} />
         </Menu.Dropdown>
       </Menu>
-      <SideWords title={title} version={side === DRAFT ? undefined : version} />
+      <SideWords title={isDraft ? t("compare.drawn_now") : named} version={isDraft ? undefined : version} />
     </div>
+  );
+}
+
+/** How many runs the menu names; older ones are reached from their versions in the history. */
+const MOST_RUNS = 12;
+
+function Choices({ versions, runs, onChoose }: Pick<PickerProps, "versions" | "runs" | "onChoose">) {
+  const { t } = useTranslation();
+  const ran = runs.filter((each) => each.version).slice(0, MOST_RUNS);
+  return (
+    <>
+      <Menu.Item onClick={() => onChoose(DRAFT)}>{t("compare.drawn_now")}</Menu.Item>
+      <Menu.Divider />
+      {versions.map((each) => (
+        <Menu.Item
+          key={each.number}
+          onClick={() => onChoose(String(each.number))}
+          rightSection={<small>{formatMoment(each.created_at)}</small>}
+        >
+          <b>{`v${each.number}`}</b> {versionTitle(each, (key) => String(t(key)))}
+        </Menu.Item>
+      ))}
+      {ran.length > 0 ? <Menu.Label>{t("compare.runs")}</Menu.Label> : null}
+      {ran.map((each) => (
+        <Menu.Item key={each.id} onClick={() => onChoose(runSide(each.id))}>
+          {t("compare.ran", { run: each.number, number: each.version })}
+        </Menu.Item>
+      ))}
+    </>
   );
 }
 

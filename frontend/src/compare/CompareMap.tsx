@@ -1,6 +1,6 @@
 /** Both sides on one map: changes with their tiles, ghosts where something was, all that is the same dimmed. */
 import { Equal, EqualNot, Minus, MoveHorizontal, Plus } from "lucide-react";
-import { type CSSProperties, useEffect, useMemo, useRef } from "react";
+import { useEffect, useMemo, useRef } from "react";
 import type { ChangeKind, Difference } from "@/api/types";
 import type { FloorPlan } from "@/map/floor/floor";
 import type { Insets } from "@/map/plane/projection";
@@ -47,7 +47,9 @@ interface CompareMapProps {
   difference: Difference;
   pictures: Pictures;
   chosen: string | null;
-  /** Where the view goes when another change is chosen. */
+  /** How often something was chosen. */
+  round: number;
+  /** Where the view goes when a change is chosen. */
   spot: PixelPoint | null;
   label: string;
   onChoose: (key: string) => void;
@@ -56,6 +58,31 @@ interface CompareMapProps {
 export function CompareMap(props: CompareMapProps) {
   const { plan, devices, difference, pictures, chosen, onChoose } = props;
   const { drawn, ghosts, tiles, parts } = pictures;
+  const { states, looks } = useLooks(difference, parts, chosen);
+  const choose = (step: string) => {
+    if (states.has(step)) onChoose(`steps/${step}`);
+  };
+  return (
+    <MapStage
+      plan={plan}
+      devices={devices}
+      scene={drawn}
+      looks={looks}
+      insets={INSETS}
+      label={props.label}
+      mode="pan"
+      under={<Zones document={parts.document} t={parts.t} />}
+      plane={<Marks ghosts={ghosts} tiles={tiles} chosen={chosen} onChoose={onChoose} />}
+      onStep={choose}
+    >
+      <Flight spot={props.spot} round={props.round} />
+      <MapControls plan={plan} scene={drawn} insets={{ ...INSETS, right: 14, bottom: 12 }} />
+    </MapStage>
+  );
+}
+
+/** Changed steps in their state, all others the same. */
+function useLooks(difference: Difference, parts: Pictures["parts"], chosen: string | null) {
   const states = useMemo(
     () => new Map(difference.constructs.filter((each) => each.root === "steps").map((each) => [each.id, each.kind])),
     [difference],
@@ -74,26 +101,7 @@ export function CompareMap(props: CompareMapProps) {
     }),
     [chosen, states, parts],
   );
-  const choose = (step: string) => {
-    if (states.has(step)) onChoose(`steps/${step}`);
-  };
-  return (
-    <MapStage
-      plan={plan}
-      devices={devices}
-      scene={drawn}
-      looks={looks}
-      insets={INSETS}
-      label={props.label}
-      mode="pan"
-      under={<Zones document={parts.document} t={parts.t} />}
-      plane={<Marks ghosts={ghosts} tiles={tiles} chosen={chosen} onChoose={onChoose} />}
-      onStep={choose}
-    >
-      <Flight spot={props.spot} chosen={chosen} />
-      <MapControls plan={plan} scene={drawn} insets={{ ...INSETS, right: 14, bottom: 12 }} />
-    </MapStage>
-  );
+  return { states, looks };
 }
 
 interface MarksProps {
@@ -145,19 +153,19 @@ function Marks({ ghosts, tiles, chosen, onChoose }: MarksProps) {
 }
 
 /** The view goes to what is chosen, once for each choice. */
-function Flight({ spot, chosen }: { spot: PixelPoint | null; chosen: string | null }) {
+function Flight({ spot, round }: { spot: PixelPoint | null; round: number }) {
   const { flow, viewport, pane } = useStage();
-  const last = useRef<string | null>(null);
+  const last = useRef(0);
   useEffect(() => {
-    if (chosen === last.current || pane.width === 0) return;
-    last.current = chosen;
-    if (!spot || chosen === null) return;
+    if (round === last.current || pane.width === 0) return;
+    last.current = round;
+    if (!spot) return;
     const view = viewport.get();
     const at = { x: spot.x * view.zoom + view.x, y: spot.y * view.zoom + view.y };
     const inside = at.x > SIGHT && at.y > SIGHT && at.x < pane.width - SIGHT && at.y < pane.height - SIGHT;
     if (inside && view.zoom >= LEGIBLE) return;
     const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
     void flow.setCenter(spot.x, spot.y, { zoom: Math.max(view.zoom, LEGIBLE), duration: still ? 0 : FLIGHT_MS });
-  }, [spot, chosen, flow, viewport, pane]);
+  }, [spot, round, flow, viewport, pane]);
   return null;
 }

@@ -9,6 +9,7 @@ import { useComparison, useDevices, useProgram, useProgramRuns, useSite, useSite
 import type { Comparison, ConstructChange, Device, Program, RunSummary, Site, Version } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { useSiteLive } from "@/live/site";
+import type { FloorPlan } from "@/map/floor/floor";
 import type { SiteDevice } from "@/program/surroundings";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { Crumb, TopBar } from "@/shell/TopBar";
@@ -21,7 +22,7 @@ import { RestoreDialog } from "./RestoreDialog";
 import { ScriptDifference } from "./ScriptDifference";
 import { DRAFT, sidesOf, versionOfSide } from "./sides";
 import { useCompareKeys } from "./useCompareKeys";
-import { usePictures } from "./usePictures";
+import { NOTHING, type Pictures, usePictures } from "./usePictures";
 import { useRestore } from "./useRestore";
 
 const NO_DEVICES: Device[] = [];
@@ -157,55 +158,91 @@ interface ComparedProps extends LoadedProps {
   comparison: Comparison | undefined;
 }
 
+/** What is chosen, and how often: choosing it once more brings it into sight again. */
+function useChoice(changes: readonly ConstructChange[]) {
+  const [choice, setChoice] = useState<{ key: string | null; round: number }>({ key: null, round: 0 });
+  const order = useMemo(() => changes.map(keyOf), [changes]);
+  const chosen = choice.key !== null && order.includes(choice.key) ? choice.key : null;
+  const choose = (key: string | null) => setChoice(({ round }) => ({ key, round: round + 1 }));
+  return {
+    order,
+    chosen,
+    round: choice.round,
+    choose,
+    walk: (by: 1 | -1) => choose(neighbour(order, chosen, by)),
+    change: changes.find((each) => keyOf(each) === chosen) ?? null,
+  };
+}
+
+/** Restoring goes from a version on the old side into what is drawn now; null where there is no such way. */
+function useOffer({ program, site, sides, asked, choose, comparison }: ComparedProps) {
+  const from = asked && asked[0] !== DRAFT && comparison?.old.problem === "" ? Number(asked[0]) : null;
+  const toDraft = () => choose({ old: sides.old, new: DRAFT });
+  const restore = useRestore(program.id, from, sides.new !== DRAFT, toDraft);
+  const canEdit = site.role === "author" || site.role === "admin";
+  return { from, restore, canEdit, offered: canEdit && from !== null ? restore : null };
+}
+
 function Compared(props: ComparedProps) {
-  const { program, site, versions, runs, sides, asked, choose, devices, comparison } = props;
-  const { t } = useTranslation();
+  const { site, versions, runs, sides, choose, devices, comparison } = props;
   const plan = useSiteMap(site.has_map ? site.slug : undefined).data ?? null;
   const [shown, setShown] = useState<Shown>("both");
-  const [chosen, setChosen] = useState<string | null>(null);
   const pictures = usePictures(site.slug, plan, devices, comparison, shown);
-  const changes = comparison?.difference?.constructs ?? NO_CHANGES;
-  const order = useMemo(() => changes.map(keyOf), [changes]);
-  const now = chosen !== null && order.includes(chosen) ? chosen : null;
-  const change = changes.find((each) => keyOf(each) === now) ?? null;
-  const canEdit = site.role === "author" || site.role === "admin";
-  const from = asked && asked[0] !== DRAFT && comparison?.old.problem === "" ? Number(asked[0]) : null;
-  const restore = useRestore(program.id, from, sides.new !== DRAFT, () => choose({ old: sides.old, new: DRAFT }));
-  const walk = (by: 1 | -1) => setChosen(neighbour(order, now, by));
-  const offered = canEdit && from !== null ? restore : null;
+  const choice = useChoice(comparison?.difference?.constructs ?? NO_CHANGES);
+  const { order, chosen, change } = choice;
+  const { from, restore, offered, canEdit } = useOffer(props);
   useCompareKeys({
-    walk,
+    walk: choice.walk,
     restore: () => change && offered?.ask({ what: "construct", change }),
-    undo: () => restore.undo(),
+    undo: restore.undo,
   });
-  const spot = change ? spotOf(change, pictures.old.scene, pictures.new.scene) : null;
+  const rest = order.length > 0 ? offered : null;
   return (
     <>
-      <CompareHead
-        {...{ versions, runs, sides, choose, shown, setShown }}
-        restore={changes.length > 0 ? offered : null}
+      <CompareHead {...{ versions, runs, sides, choose, shown, setShown, comparison }} restore={rest} />
+      <MapOf {...{ plan, devices, comparison, pictures, choice }} />
+      <ChangeList
+        {...{ comparison, pictures, chosen, canEdit }}
+        walk={choice.walk}
+        restore={offered}
+        onChoose={choice.choose}
       />
-      <section className={styles.map} aria-label={t("compare.map")}>
-        {comparison ? (
-          <CompareMap
-            plan={plan}
-            devices={devices}
-            difference={comparison.difference ?? { constructs: [], tidied: [], same: 0 }}
-            pictures={pictures}
-            chosen={now}
-            spot={spot}
-            label={t("compare.map")}
-            onChoose={setChosen}
-          />
-        ) : (
-          <p className={styles.loading} role="status">
-            {t("compare.loading")}
-          </p>
-        )}
-      </section>
-      <ChangeList {...{ comparison, pictures, chosen: now, walk, canEdit }} restore={offered} onChoose={setChosen} />
-      <ScriptDifference pictures={pictures} chosen={change} onChoose={setChosen} known={order} />
+      <ScriptDifference pictures={pictures} chosen={change} onChoose={choice.choose} known={order} />
       <RestoreDialog restore={restore} version={from} pictures={pictures} />
     </>
+  );
+}
+
+interface MapOfProps {
+  plan: FloorPlan | null;
+  devices: readonly SiteDevice[];
+  comparison: Comparison | undefined;
+  pictures: Pictures;
+  choice: ReturnType<typeof useChoice>;
+}
+
+function MapOf({ plan, devices, comparison, pictures, choice }: MapOfProps) {
+  const { t } = useTranslation();
+  const { change, chosen, round } = choice;
+  return (
+    <section className={styles.map} aria-label={t("compare.map")}>
+      {comparison ? (
+        <CompareMap
+          plan={plan}
+          devices={devices}
+          difference={comparison.difference ?? NOTHING}
+          pictures={pictures}
+          chosen={chosen}
+          round={round}
+          spot={change ? spotOf(change, pictures.old.scene, pictures.new.scene) : null}
+          label={t("compare.map")}
+          onChoose={choice.choose}
+        />
+      ) : (
+        <p className={styles.loading} role="status">
+          {t("compare.loading")}
+        </p>
+      )}
+    </section>
   );
 }

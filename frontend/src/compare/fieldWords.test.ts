@@ -2,6 +2,8 @@ import { expect, test } from "vitest";
 import type { ConstructChange, ValueChange } from "@/api/types";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
 import { surroundingsOf } from "@/program/surroundings";
+import compareEnglish from "@/i18n/en/compare.json";
+import { STEP_KINDS } from "@/program/kinds";
 import { fieldLines, otherName } from "./fieldWords";
 import { reversed } from "./useRestore";
 
@@ -86,4 +88,10 @@ test("what takes a change back has old and new exchanged, and leaves out what wa
     { path: ["steps", "b"], new: 1 },
     { path: ["steps", "c"], old: 2, new: null },
   ]);
+});
+
+test("every field of every kind of step has a name", () => {
+  const fields = STEP_KINDS.flatMap((kind) => kind.forms.flatMap((form) => form.fields ?? []));
+  const names = new Set(fields.map((field) => field.name));
+  expect([...names].filter((name) => !(name in compareEnglish.field))).toEqual([]);
 });

@@ -28,7 +28,7 @@ export interface Pictures {
   readonly parts: Part;
 }
 
-const NOTHING: Difference = { constructs: [], tidied: [], same: 0 };
+export const NOTHING: Difference = { constructs: [], tidied: [], same: 0 };
 
 function useSide(
   site: string,

@@ -1,7 +1,7 @@
 /** Draw again what a version held: what it needs is asked first; each restore can be taken back, the last one first. */
 import { notifications } from "@mantine/notifications";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { useCallback, useState } from "react";
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
@@ -45,66 +45,73 @@ export function reversed(changes: readonly ValueChange[]): ValueChange[] {
   }));
 }
 
-/** `always` to ask even where nothing else is needed: what is drawn now is not what is looked at. */
-export function useRestore(program: string, version: number | null, always: boolean, onDone: () => void): Restore {
+/** The calls: restoring, looking at what it would do, and taking changes back. */
+function useCalls(program: string, version: number | null) {
   const { t } = useTranslation();
   const queries = useQueryClient();
-  const [asked, setAsked] = useState<Asked | null>(null);
-  const [done, setDone] = useState<readonly (readonly ValueChange[])[]>([]);
-  const failed = (error: Error) =>
+  const address = `/programs/${program}/versions/${version}/restore`;
+  const onError = (error: Error) =>
     notifications.show({ color: "red", message: problemText(error, t("shell.problem.screen")) });
-  const settled = () => {
+  const onSuccess = () => {
     void queries.invalidateQueries({ queryKey: keys.comparison(program) });
     void queries.invalidateQueries({ queryKey: keys.versions(program) });
   };
   const restore = useMutation({
-    mutationFn: (wanted: Wanted) =>
-      api.post<Restored>(`/programs/${program}/versions/${version}/restore`, bodyOf(wanted)),
-    onSuccess: ({ changes }) => {
-      setAsked(null);
-      setDone((before) => [...before, changes]);
-      settled();
-      notifications.show({ message: t("compare.restored", { count: changes.length }) });
-      onDone();
-    },
-    onError: failed,
+    mutationFn: (wanted: Wanted) => api.post<Restored>(address, bodyOf(wanted)),
+    onSuccess,
+    onError,
   });
   const look = useMutation({
-    mutationFn: (wanted: Wanted) =>
-      api.post<Restored>(`/programs/${program}/versions/${version}/restore/look`, bodyOf(wanted)),
-    onSuccess: (found, wanted) => {
-      if (found.needs.length > 0 || wanted.what === "all" || always) setAsked({ wanted, found });
-      else restore.mutate(wanted);
-    },
-    onError: failed,
+    mutationFn: (wanted: Wanted) => api.post<Restored>(`${address}/look`, bodyOf(wanted)),
+    onError,
   });
   const back = useMutation({
     mutationFn: (changes: readonly ValueChange[]) =>
       api.post<Restored>(`/programs/${program}/changes`, { changes: reversed(changes) }),
-    onSuccess: ({ skipped }) => {
-      setDone((before) => before.slice(0, -1));
-      settled();
-      notifications.show({
-        message: skipped.length > 0 ? t("compare.undone_but", { count: skipped.length }) : t("compare.undone"),
-      });
-    },
-    onError: failed,
+    onSuccess,
+    onError,
   });
+  return { restore, look, back, busy: restore.isPending || look.isPending || back.isPending };
+}
+
+/** `always` to ask even where nothing else is needed: what is drawn now is not what is looked at. */
+export function useRestore(program: string, version: number | null, always: boolean, onDone: () => void): Restore {
+  const { t } = useTranslation();
+  const { restore, look, back, busy } = useCalls(program, version);
+  const [asked, setAsked] = useState<Asked | null>(null);
+  const [done, setDone] = useState<readonly (readonly ValueChange[])[]>([]);
   const last = done.at(-1);
-  const busy = restore.isPending || look.isPending || back.isPending;
-  const ask = useCallback(
-    (wanted: Wanted) => {
-      if (version !== null && !busy) look.mutate(wanted);
-    },
-    [version, busy, look],
-  );
+  const begin = (wanted: Wanted) =>
+    restore.mutate(wanted, {
+      onSuccess: ({ changes }) => {
+        setAsked(null);
+        setDone((before) => [...before, changes]);
+        notifications.show({ message: t("compare.restored", { count: changes.length }) });
+        onDone();
+      },
+    });
+  const ask = (wanted: Wanted) =>
+    look.mutate(wanted, {
+      onSuccess: (found) => {
+        if (found.needs.length > 0 || wanted.what === "all" || always) setAsked({ wanted, found });
+        else begin(wanted);
+      },
+    });
+  const undo = (changes: readonly ValueChange[]) =>
+    back.mutate(changes, {
+      onSuccess: ({ skipped }) => {
+        setDone((before) => before.slice(0, -1));
+        const left = skipped.length;
+        notifications.show({ message: left > 0 ? t("compare.undone_but", { count: left }) : t("compare.undone") });
+      },
+    });
   return {
     asked,
     busy,
-    ask,
-    confirm: () => asked && !busy && restore.mutate(asked.wanted),
+    ask: (wanted) => version !== null && !busy && ask(wanted),
+    confirm: () => asked && !busy && begin(asked.wanted),
     close: () => setAsked(null),
-    undo: () => last && !busy && back.mutate(last),
+    undo: () => last && !busy && undo(last),
     canUndo: last !== undefined,
   };
 }
