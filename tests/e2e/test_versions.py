@@ -30,6 +30,7 @@ def test_a_step_is_restored_by_keyboard_while_another_person_draws_and_taken_bac
     save_version(page, "With a box")
     expect(page.get_by_role("heading", name="v1 With a box")).to_be_visible()
     expect(page.get_by_text("No run used it")).to_be_visible()
+    assert violations(page) == []
     save_version(page, "The same again")
     expect(page.get_by_text("Nothing has changed since v1")).to_be_visible()
     page.get_by_role("banner").get_by_role("link", name="Open the editor").click()
@@ -47,6 +48,7 @@ def test_a_step_is_restored_by_keyboard_while_another_person_draws_and_taken_bac
     expect(page.get_by_role("heading", name="2 changes")).to_be_visible()
     page.keyboard.press("ArrowRight")
     expect(changes.locator("[aria-current=true]")).to_contain_text("box")
+    assert violations(page) == []
     page.keyboard.press("r")
     expect(page.get_by_text("takes it back")).to_be_visible()
     expect(chip(other, "1, Pick-and-Drop")).to_have_count(1)
