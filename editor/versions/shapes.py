@@ -81,12 +81,16 @@ class DifferenceShape(Schema):
 
 
 class SideShape(Schema):
-    """A side: a version, or what is drawn now. With a problem it has neither a document nor its compiled form."""
+    """A side: a version, or what is drawn now. With a problem it has neither a document nor its compiled form.
+
+    The compiled form is without diagnostics; `errors` is how many of them are errors.
+    """
 
     version: VersionShape | None
     document: Document | None
     compiled: Compiled | None
     problem: Literal["", "missing", "unreadable"]
+    errors: int
 
 
 class ComparisonShape(Schema):
@@ -142,7 +146,7 @@ def comparison_to_json(comparison: Comparison) -> dict[str, Any]:
 
 
 def _side(side: Side) -> dict[str, Any]:
-    return {name: getattr(side, name) for name in ("version", "document", "compiled", "problem")}
+    return {name: getattr(side, name) for name in ("version", "document", "compiled", "problem", "errors")}
 
 
 def _difference(found: Difference) -> dict[str, Any]:

@@ -20,13 +20,15 @@ Problem = Literal["", "missing", "unreadable"]
 class Side:
     """One side of a comparison; `version` is None for what is drawn now.
 
-    Where there is a `problem` there is neither a document nor its compiled form.
+    The compiled form is without diagnostics, of which `errors` is the number. Where there is a `problem` there is
+    neither a document nor its compiled form.
     """
 
     version: VersionView | None
     document: Mapping[str, Any] | None
     compiled: Mapping[str, Any] | None
     problem: Problem
+    errors: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,4 +59,6 @@ def _side(program_id: UUID, number: int | None, surroundings: Any) -> Side:
     except NoSuchProgram:
         services.get_program(program_id=program_id)  # of a program that is gone there is nothing to compare
         return Side(None, None, None, "missing")
-    return Side(version, document, compile_program(document, surroundings).compiled(), "")
+    compilation = compile_program(document, surroundings)
+    form = {**compilation.compiled(), "diagnostics": []}
+    return Side(version, document, form, "", len(compilation.errors))

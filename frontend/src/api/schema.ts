@@ -3638,10 +3638,15 @@ export interface components {
             rehearsals: number | null;
             runs: number | null;
         };
-        /** @description A side: a version, or what is drawn now. With a problem it has neither a document nor its compiled form. */
+        /**
+         * @description A side: a version, or what is drawn now. With a problem it has neither a document nor its compiled form.
+         *
+         *     The compiled form is without diagnostics; `errors` is how many of them are errors.
+         */
         SideShape: {
             compiled: components["schemas"]["CompiledShape"] | null;
             document: components["schemas"]["DocumentShape"] | null;
+            errors: number;
             /** @enum {string} */
             problem: "" | "missing" | "unreadable";
             version: components["schemas"]["VersionShape"] | null;

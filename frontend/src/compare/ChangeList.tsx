@@ -46,6 +46,11 @@ export function ChangeList(props: ListProps) {
       </header>
       <Counts changes={changes} />
       <State comparison={comparison} />
+      {comparison?.new.errors ? (
+        <p className={styles.state} role="status">
+          {t("compare.errors", { count: comparison.new.errors })}
+        </p>
+      ) : null}
       <ol className={styles.changes}>
         {changes.map((change) => (
           <Change key={keyOf(change)} change={change} {...props} />
