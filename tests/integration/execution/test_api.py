@@ -12,8 +12,8 @@ from editor.documents.store import Change, append_changes
 from execution import services
 from execution.models import Rehearsal, Run
 from tests.kit.programs import SITE, TASK
-from tests.kit.sites import NOW
 from tests.kit.sign_in import ROLES, post_json, sign_in_member
+from tests.kit.sites import NOW
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
