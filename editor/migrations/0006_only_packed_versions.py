@@ -6,9 +6,9 @@ from django.db import migrations
 
 
 class Migration(migrations.Migration):
-    """Takes `document` and `script` away, which 0004 has packed."""
+    """Takes `document` and `script` away, which 0005 has packed."""
 
-    dependencies = [("editor", "0004_packed_versions")]
+    dependencies = [("editor", "0005_packed_versions")]
 
     operations = [
         migrations.RemoveField("version", "document"),

@@ -22,7 +22,7 @@ def pack(apps: Any, _schema: Any) -> None:
 class Migration(migrations.Migration):
     """Adds the columns and fills `content`. Who drew a version of before is unknown."""
 
-    dependencies = [("editor", "0003_kept_entries_and_authors")]
+    dependencies = [("editor", "0004_program_places")]
 
     operations = [
         migrations.AddField("program", "drawn_by", models.JSONField(default=dict)),
