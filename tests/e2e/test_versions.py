@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import TASK, ask, chip, draw_task, make_program, saved, violations
+from tests.e2e.screens import TASK, ask, chip, draw_task, make_program, opened, saved, violations
 
 pytestmark = pytest.mark.browser
 
@@ -43,6 +43,7 @@ def test_a_step_is_restored_by_keyboard_while_another_person_draws_and_taken_bac
     changes = page.get_by_role("complementary", name="Changes")
     expect(changes.get_by_role("listitem").filter(has_text="removed").first).to_be_visible()
     other.goto(page.url.split("/programs/")[0] + path)
+    opened(other)
     draw_task(other, "Painting Machine", "Curing Oven")
     saved(other)
     expect(page.get_by_role("heading", name="2 changes")).to_be_visible()
