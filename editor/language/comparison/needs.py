@@ -94,13 +94,13 @@ class _Restore:
                 yield STEPS, step
 
     def _circling(self, made: Mapping[str, Any]) -> Iterator[Name]:
-        """Yield the steps that would stand in themselves, with those between: they went round in two edits."""
+        """Yield the steps above one that would stand nowhere: in itself, or in what takes no steps any more."""
         outline = make_outline(made)
         known = {*make_outline(self._now).drafts, *make_outline(self._then).drafts}
         for step in outline.drafts:
             here: str | None = None if step in known else step
             seen: set[str] = set()
-            while here is not None and here in outline.kinds and here not in seen:
+            while here is not None and here not in seen:
                 seen.add(here)
                 if (STEPS, here) in self._differing:
                     yield STEPS, here
