@@ -22,6 +22,7 @@ NAMES = (
     "firmware",
     "start",
     "paths",
+    "versions",
     "runs",
 )
 

@@ -1,4 +1,7 @@
-"""The editor over HTTP: programs, their versions, the library. Documents are edited over the socket only."""
+"""The editor over HTTP: programs and the library; versions have a room of their own.
+
+Documents are edited over the socket, or replaced as a whole.
+"""
 
 from __future__ import annotations
 
@@ -17,9 +20,11 @@ from pydantic import ValidationError
 
 from editor import services
 from editor.documents.knowledge import MOST_BYTES as MOST_SNAPSHOT_BYTES
-from editor.programs.views import LibraryView, ProgramView, VersionView
+from editor.programs.access import program_for, require_here
+from editor.programs.views import LibraryView, ProgramView
 from editor.rooms.writing import ensure_stored, read_content, write_document, write_script
 from editor.shapes import (
+    Author,
     Compiled,
     Definition,
     Document,
@@ -28,15 +33,18 @@ from editor.shapes import (
     ExpressionShape,
     ExpressionToRead,
     Parameters,
-    StepKinds,
+    ProgramName,
+    ProgramShape,
 )
+from editor.versions.routes import router as versions_router
 from registry import services as registry
-from registry.services import NotAMember, require
+from registry.services import require
 from registry.shapes import Asked, Line, PartAsked, Repaired, refuses, signed_in, tell_rest
 from vipo_device.protocol.messages import BadMessage, parse_plain_json
 from vipo_device.protocol.texts import cleaned, cleaned_json
 
 router = Router(tags=["editor"])
+router.add_router("", versions_router)
 
 
 MOST_DOCUMENT = 8 * 1024 * 1024
@@ -57,29 +65,6 @@ def _takes(content_type: str, schema: dict[str, Any]) -> dict[str, Any]:
     return {"requestBody": body, "responses": told}
 
 
-class Author(Schema):
-    """Who wrote something."""
-
-    id: int
-    name: str
-    initials: str
-
-
-class ProgramShape(Schema):
-    """A program as lists show it."""
-
-    id: UUID
-    name: str
-    site: str
-    kinds: StepKinds
-    devices: list[str]
-    places: list[str]
-    edited_at: datetime
-    edited_by: Author | None
-    errors: int
-    warnings: int
-
-
 class ProgramsAsked(PartAsked):
     """Which programs are asked for: those whose names have all words of `q`."""
 
@@ -91,35 +76,6 @@ class LibraryAsked(PartAsked):
 
     q: Line = Field("", max_length=200)
     site: Line = Field("", max_length=100)
-
-
-class ProgramName(Asked):
-    """A name for a program."""
-
-    name: Line = Field(max_length=200)
-
-
-class VersionShape(Schema):
-    """A version without its document."""
-
-    id: UUID
-    number: int
-    author: Author | None
-    message: str
-    created_at: datetime
-    script: str
-
-
-class WholeVersionShape(VersionShape):
-    """A version with its document."""
-
-    document: Document
-
-
-class VersionMessage(Asked):
-    """What a version is about."""
-
-    message: str = Field("", max_length=300)
 
 
 class Seen(Asked):
@@ -166,21 +122,6 @@ class LibraryShape(Schema):
     definition: Definition
 
 
-def _program(request: HttpRequest, program: UUID, role: str) -> ProgramView:
-    """Return a program if the asker has that role at its site; to strangers it does not exist."""
-    found = services.get_program(program_id=program)
-    _require(request, found.site, role)
-    return found
-
-
-def _require(request: HttpRequest, site: str, role: str) -> None:
-    """Strangers get the very answer that they get for what does not exist."""
-    try:
-        require(request.user, site, role)
-    except NotAMember as error:
-        raise services.NoSuchProgram("There is no such program. It may have been deleted.") from error
-
-
 @router.get("/sites/{slug}/programs", response=list[ProgramShape])
 def list_programs(
     request: HttpRequest, response: HttpResponse, slug: str, asked: Query[ProgramsAsked]
@@ -200,20 +141,20 @@ def create_program(request: HttpRequest, slug: str, body: ProgramName) -> Status
 @router.get("/programs/{program}", response=ProgramShape)
 def show_program(request: HttpRequest, program: UUID) -> ProgramView:
     """Show a program."""
-    return _program(request, program, "viewer")
+    return program_for(request.user, program, "viewer")
 
 
 @router.patch("/programs/{program}", response=ProgramShape)
 def rename_program(request: HttpRequest, program: UUID, body: ProgramName) -> ProgramView:
     """Give a program another name."""
-    _program(request, program, "author")
+    program_for(request.user, program, "author")
     return services.rename_program(program_id=program, name=body.name, user=request.user)
 
 
 @router.delete("/programs/{program}", response={204: None})
 def delete_program(request: HttpRequest, program: UUID) -> Status[None]:
     """Delete a program with its versions."""
-    _program(request, program, "author")
+    program_for(request.user, program, "author")
     services.delete_program(program_id=program)
     return Status(204, None)
 
@@ -221,7 +162,7 @@ def delete_program(request: HttpRequest, program: UUID) -> Status[None]:
 @router.get("/programs/{program}/document", response=Document, openapi_extra=TAGGED)
 def show_document(request: HttpRequest, response: HttpResponse, program: UUID) -> Mapping[str, Any]:
     """Show a program's document as it is now; the header `ETag` is what it is written with."""
-    _program(request, program, "viewer")
+    program_for(request.user, program, "viewer")
     content = read_content(program_id=program)
     response["ETag"] = content.tag
     return content.document
@@ -232,7 +173,8 @@ def put_document(
     request: HttpRequest, response: HttpResponse, program: UUID, if_match: Annotated[str, IF_MATCH] = ""
 ) -> Status[None]:
     """Make a document the program's, if it is still what was read; what others change meanwhile is merged."""
-    _program(request, program, "author")
+    program_for(request.user, program, "author")
+    _keep(request, program)
     content = write_document(
         program_id=program, document=_read_document(request.body), tag=if_match, author=signed_in(request).pk
     )
@@ -243,7 +185,7 @@ def put_document(
 @router.get("/programs/{program}/script", openapi_extra=_TELLS_SCRIPT)
 def show_script(request: HttpRequest, program: UUID) -> HttpResponse:
     """Send a program's script as it is now; the header `ETag` is what it is written with."""
-    _program(request, program, "viewer")
+    program_for(request.user, program, "viewer")
     content = read_content(program_id=program)
     return HttpResponse(content.script, content_type="text/plain; charset=utf-8", headers={"ETag": content.tag})
 
@@ -253,14 +195,20 @@ def put_script(
     request: HttpRequest, response: HttpResponse, program: UUID, if_match: Annotated[str, IF_MATCH] = ""
 ) -> Status[None]:
     """Make a script the program's, if it is still what was read; `args.diagnostics` says where it is none."""
-    _program(request, program, "author")
+    program_for(request.user, program, "author")
     try:
         text = cleaned(request.body.decode())
     except UnicodeDecodeError as error:
         raise services.BadRequest("The script is not UTF-8. Send it as text/plain in UTF-8.") from error
+    _keep(request, program)
     content = write_script(program_id=program, text=text, tag=if_match, author=signed_in(request).pk)
     response["ETag"] = content.tag
     return Status(204, None)
+
+
+def _keep(request: HttpRequest, program: UUID) -> None:
+    """Make what is there a version before something else takes its place."""
+    services.pin_version(program_id=program, user=request.user, cause="import")
 
 
 def _read_document(body: bytes) -> dict[str, Any]:
@@ -280,14 +228,14 @@ def _read_document(body: bytes) -> dict[str, Any]:
 @router.get("/programs/{program}/compiled", response=Compiled)
 def show_compiled(request: HttpRequest, program: UUID) -> dict[str, Any]:
     """Show a program compiled for its site, as both are now."""
-    _program(request, program, "viewer")
+    program_for(request.user, program, "viewer")
     return services.get_compiled(program_id=program)
 
 
 @router.post("/programs/{program}/script", response=DrawnScriptShape, openapi_extra=refuses(413))
 def draw_script(request: HttpRequest, program: UUID, body: ScriptText) -> services.DrawnScript:
     """Draw a script: the document that it would make of the program, or where it leaves the language."""
-    _program(request, program, "author")
+    program_for(request.user, program, "author")
     return services.draw_script(program_id=program, text=body.text, base=body.base, shown=body.shown)
 
 
@@ -295,27 +243,10 @@ def draw_script(request: HttpRequest, program: UUID, body: ScriptText) -> servic
 def read_expression(request: HttpRequest, program: UUID, body: ExpressionToRead) -> services.ExpressionView:
     """Read a value that an author writes as one line, or print one for whoever may look."""
     if body.text is None:
-        _program(request, program, "viewer")
+        program_for(request.user, program, "viewer")
         return services.print_expression(program_id=program, value=body.value, step=body.step, names=body.names)
-    _program(request, program, "author")
+    program_for(request.user, program, "author")
     return services.read_expression(program_id=program, text=body.text, step=body.step, names=body.names)
-
-
-@router.get("/programs/{program}/versions", response=list[VersionShape])
-def list_versions(
-    request: HttpRequest, response: HttpResponse, program: UUID, asked: Query[PartAsked]
-) -> list[VersionView]:
-    """List a program's versions, the newest first; the header `Link` names the next part."""
-    _program(request, program, "viewer")
-    return tell_rest(request, response, services.list_versions(program_id=program, part=asked.part()))
-
-
-@router.post("/programs/{program}/versions", response={200: VersionShape, 201: VersionShape})
-def pin_version(request: HttpRequest, program: UUID, body: VersionMessage) -> Status[VersionView]:
-    """Make the program as it is now a version; the answer is 200 with the last one if nothing has changed since."""
-    _program(request, program, "author")
-    pinned = services.pin_version(program_id=program, user=request.user, message=body.message)
-    return Status(201 if pinned.made else 200, pinned)
 
 
 @router.post("/programs/{program}/stored", response={204: None}, openapi_extra=refuses(409))
@@ -324,20 +255,13 @@ def wait_until_stored(request: HttpRequest, program: UUID, body: Seen) -> Status
 
     The answer is 409 if that takes longer than a few seconds.
     """
-    _program(request, program, "viewer")
+    program_for(request.user, program, "viewer")
     try:
         seen = base64.b64decode(body.seen, validate=True)
     except binascii.Error as error:
         raise services.BadRequest("What was seen is not base64. Send Y.encodeSnapshot(…) in base64.") from error
     ensure_stored(program_id=program, seen=seen)
     return Status(204, None)
-
-
-@router.get("/programs/{program}/versions/{number}", response=WholeVersionShape)
-def show_version(request: HttpRequest, program: UUID, number: int) -> VersionView:
-    """Show a program as it was when it was pinned under a number, with its document."""
-    _program(request, program, "viewer")
-    return services.find_version(program_id=program, number=number)
 
 
 @router.get("/library", response=list[LibraryShape])
@@ -375,7 +299,7 @@ def save_function(request: HttpRequest, slug: str, body: FunctionToSave) -> Stat
 def show_function(request: HttpRequest, function: UUID) -> LibraryView:
     """Show the newest version of a library function."""
     found = services.get_function(function_id=function)
-    _require(request, found.site, "viewer")
+    require_here(request.user, found.site, "viewer")
     return found
 
 
@@ -383,5 +307,5 @@ def show_function(request: HttpRequest, function: UUID) -> LibraryView:
 def show_function_version(request: HttpRequest, function: UUID, number: int) -> LibraryView:
     """Show a library function as it was saved under a number."""
     found = services.get_function(function_id=function)
-    _require(request, found.site, "viewer")
+    require_here(request.user, found.site, "viewer")
     return services.get_function(function_id=function, version=number)

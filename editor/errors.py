@@ -37,3 +37,10 @@ class NotStored(EditorError):
 
     code = "not_stored"
     status = 409
+
+
+class UnreadableVersion(EditorError):
+    """A version was written by a later VIPO, or is damaged."""
+
+    code = "unreadable_version"
+    status = 409

@@ -21,6 +21,8 @@ class Program(models.Model):
     stored_to = models.CharField(max_length=40, blank=True, default="")
     """The entry of the room's stream up to which every change is in the rows."""
     last_version = models.PositiveIntegerField(default=0)
+    drawn_by = models.JSONField(default=dict)
+    """Who has changed it since its last version: each person's id as text, and the number of their last row."""
     kinds = models.JSONField(default=list)
     devices = models.JSONField(default=list)
     places = models.JSONField(default=list)
@@ -68,16 +70,32 @@ class Snapshot(models.Model):
 
 
 class Version(models.Model):
-    """A program as it was when it was pinned; never changed. What runs is always a version."""
+    """A program as it was when it was pinned; what runs is always a version. Only its name and message may change.
+
+    `author` pinned it, `authors` are the ids of those who had drawn since the version before. `content` is its document
+    and script as `editor.programs.packing` packs them: whole, or as the difference to the version `base`, which is
+    whole. `cause` says before what it was made by itself, and is empty where somebody made it.
+    """
+
+    class Cause(models.TextChoices):
+        """Before what a version is made by itself."""
+
+        RUN = "run"
+        REHEARSAL = "rehearsal"
+        IMPORT = "import"
+        RESTORE = "restore"
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
     program = models.ForeignKey(Program, on_delete=models.CASCADE, related_name="versions")
     number = models.PositiveIntegerField()
     author = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
+    authors = models.JSONField(default=list)
+    name = models.CharField(max_length=80, blank=True, default="")
     message = models.CharField(max_length=300, blank=True)
-    document = models.JSONField()
+    cause = models.CharField(max_length=10, blank=True, default="", choices=Cause.choices)
+    base = models.ForeignKey("self", null=True, on_delete=models.CASCADE, related_name="+")
+    content = models.BinaryField()
     digest = models.CharField(max_length=64)
-    script = models.TextField()
     created_at = models.DateTimeField(auto_now_add=True)
 
     class Meta:

@@ -8,22 +8,26 @@ from editor.programs.drawn_script import DrawnScript
 from editor.programs.library import get_function, save_function, search_library
 from editor.programs.one_line import ExpressionView, print_expression, read_expression
 from editor.programs.programs import (
-    compile_version,
-    compile_version_to_json,
     create_program,
     delete_program,
-    find_version,
     get_compiled,
     get_program,
-    get_version,
     list_programs,
-    list_versions,
-    pin_version,
     rename_program,
     seed_programs,
 )
 from editor.programs.scripts import draw_script
-from editor.programs.views import AuthorView, LibraryView, ProgramView, VersionView
+from editor.programs.versions import (
+    compile_version,
+    compile_version_to_json,
+    copy_version,
+    find_version,
+    get_version,
+    list_versions,
+    name_version,
+    pin_version,
+)
+from editor.programs.views import AuthorView, LibraryView, ProgramView, VersionView, WholeVersionView
 
 __all__ = [
     "AuthorView",
@@ -37,9 +41,11 @@ __all__ = [
     "NoSuchProgram",
     "ProgramView",
     "VersionView",
+    "WholeVersionView",
     "build_surroundings",
     "compile_version",
     "compile_version_to_json",
+    "copy_version",
     "create_program",
     "delete_program",
     "draw_script",
@@ -52,6 +58,7 @@ __all__ = [
     "list_programs",
     "list_versions",
     "mend_program",
+    "name_version",
     "pin_version",
     "print_expression",
     "read_expression",

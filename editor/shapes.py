@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import TYPE_CHECKING, Annotated, Any, Literal
+from uuid import UUID
 
 from ninja import Field, Schema
 from typing_extensions import TypeAliasType
@@ -293,3 +295,32 @@ class ExpressionShape(Schema):
     unit: str
     problem: LineProblem | None
     names: list[LineName]
+
+
+class Author(Schema):
+    """Who wrote something."""
+
+    id: int
+    name: str
+    initials: str
+
+
+class ProgramShape(Schema):
+    """A program as lists show it."""
+
+    id: UUID
+    name: str
+    site: str
+    kinds: StepKinds
+    devices: list[str]
+    places: list[str]
+    edited_at: datetime
+    edited_by: Author | None
+    errors: int
+    warnings: int
+
+
+class ProgramName(Asked):
+    """A name for a program."""
+
+    name: Line = Field(max_length=200)

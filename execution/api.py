@@ -83,10 +83,19 @@ def _who(request: HttpRequest) -> str:
 
 @router.post("/programs/{uuid:program}/rehearsals", response={202: RehearsalShape})
 def start_rehearsal(request: HttpRequest, program: UUID, body: StartRehearsal | None = None) -> dict[str, Any]:
-    """Queue a rehearsal of a program as it is drawn now; refused while the asker or the site has as many as may be."""
+    """Queue a rehearsal of a program, as it is drawn now or of a version.
+
+    It is refused while the asker or the site has as many as may be.
+    """
     _require_here(request, site_of_program(program_id=program), "operator", "program")
     body = body or StartRehearsal()
-    prepared = prepare(program_id=program, user=request.user, parameters=body.parameters)
+    prepared = prepare(
+        program_id=program,
+        user=request.user,
+        parameters=body.parameters,
+        version=body.version,
+        cause="rehearsal",
+    )
     person = signed_in(request).pk
     started = services.start_rehearsal(
         prepared=prepared, by=_who(request), person=person, seed=body.seed, driver=body.driver
@@ -121,12 +130,12 @@ def cancel_rehearsal(request: HttpRequest, rehearsal: UUID) -> dict[str, Any]:
 
 @router.post("/programs/{uuid:program}/runs", response={202: RunSummaryShape})
 def start_run(request: HttpRequest, program: UUID, body: StartRun | None = None) -> dict[str, Any]:
-    """Start a run of a program as it is drawn now."""
+    """Start a run of a program, as it is drawn now or of a version."""
     site = site_of_program(program_id=program)
     _require_here(request, site, "operator", "program")
     fence = services.get_stop(site=site).fence
     body = body or StartRun()
-    prepared = prepare(program_id=program, user=request.user, parameters=body.parameters)
+    prepared = prepare(program_id=program, user=request.user, parameters=body.parameters, version=body.version)
     terms = services.Terms(body.priority, body.not_before, body.deadline)
     return run_to_json(services.start_run(prepared=prepared, by=_who(request), terms=terms, fence=fence))
 

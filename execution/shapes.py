@@ -29,9 +29,16 @@ class RunsAsked(Asked):
     until: AwareDatetime | None = Field(None, description="Made before this moment.")
 
 
+OfVersion = Annotated[
+    Annotated[int, Strict(), Field(ge=1, lt=2**31)] | None,
+    Field(description="The version of the program that is taken; as it is drawn now if none."),
+]
+
+
 class StartRun(Asked):
     """Parameters of a run, and in which order and when it is done; what is left out has its default."""
 
+    version: OfVersion = None
     parameters: dict[str, Any] = {}
     priority: Priority = "normal"
     not_before: Annotated[

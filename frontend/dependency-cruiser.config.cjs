@@ -2,7 +2,7 @@
 const ROOMS = [
   ["app"],
   ["pages"],
-  ["run", "simulation", "editor"],
+  ["run", "simulation", "editor", "compare"],
   ["shell"],
   ["program"],
   ["live"],

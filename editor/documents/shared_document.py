@@ -269,11 +269,8 @@ class SharedDocument:
             for name in [name for name in steps.keys() if name not in wanted["steps"]]:  # noqa: SIM118 - a Yjs map
                 del steps[name]
             for name, step in wanted["steps"].items():
-                known = before["steps"].get(name)
-                if not isinstance(known, Mapping) or {**known, "params": 0} != {**step, "params": 0}:
-                    steps[name] = Map({**step, "params": Map(dict(step["params"]))})
-                elif known != step:
-                    _rewrite(steps, name, step)
+                if before["steps"].get(name) != step:
+                    _set_step(steps, name, step)
             for root in _CONTENT[1:]:
                 _set_all(copy.get(root, type=Map), wanted.get(root, {}))
         self.apply(copy.get_update(self.state()))
@@ -330,6 +327,21 @@ def _hash_of(entry: Entry, value: Any) -> int:
 def _client_id(digest: str, state: bytes) -> int:
     """Return an author for changes that follow from the content alone: the same wherever the content is the same."""
     return int.from_bytes(hashlib.sha256(digest.encode() + state).digest()[:4])
+
+
+def _set_step(steps: Any, name: str, wanted: Mapping[str, Any]) -> None:
+    """Make a step what is wanted, field by field where it is shared so: what others do to the rest of it stays."""
+    shared = steps.get(name)
+    if not isinstance(shared, Map):
+        steps[name] = Map({**wanted, "params": Map(dict(wanted["params"]))})
+        return
+    fields = {field: value for field, value in wanted.items() if field != "params"}
+    for field in sorted({*shared.keys(), *fields} - {"params"}):
+        if field not in fields:
+            del shared[field]
+        elif field not in shared.keys() or plain(shared[field]) != fields[field]:  # noqa: SIM118 - a Yjs map, no dict
+            shared[field] = fields[field]
+    _rewrite(steps, name, wanted)
 
 
 def _rewrite(steps: Any, name: str, wanted: Mapping[str, Any]) -> None:

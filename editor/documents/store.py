@@ -136,7 +136,8 @@ def append_changes(program_id: str, changes: Sequence[Change], now: datetime, st
         program.edited_at = now
         authors = [change.author for change in changes if change.author is not None]
         program.edited_by_id = authors[-1] if authors else program.edited_by_id
-        program.save(update_fields=["last_seq", "stored_to", "edited_at", "edited_by"])
+        program.drawn_by |= {str(author): program.last_seq for author in authors}
+        program.save(update_fields=["last_seq", "stored_to", "edited_at", "edited_by", "drawn_by"])
         return range(first, program.last_seq + 1)
 
 

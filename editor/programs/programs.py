@@ -1,11 +1,10 @@
-"""Programs and their versions."""
+"""Programs: made, named, listed, checked. Their versions are beside them."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from uuid import UUID
@@ -16,24 +15,23 @@ from django.utils import timezone
 
 from editor.documents.shared_document import (
     SharedDocument,
-    digest_of,
     empty_document,
     encode_document,
     migrate_document,
 )
 from editor.documents.store import get_document
 from editor.errors import BadRequest, DocumentHole, NoSuchProgram
-from editor.models import Program, Snapshot, Version
+from editor.models import Program, Snapshot
 from editor.programs.checking import build_surroundings, fingerprint_of, new_revision, read_around, store_summary
-from editor.programs.compilations import Compilation, compile_program, print_program
-from editor.programs.views import ProgramView, VersionView, view_author
+from editor.programs.compilations import Compilation, compile_program
+from editor.programs.views import ProgramView, view_author
 from registry import services as registry
 from registry.services import FIRST, Listed, Part, publish
 from vipo_device.protocol.texts import find_unfit, normal
 
 MOST_NAME = 120
 MOST_CHECKED_AT_ONCE = 100
-_GONE = "There is no such program. It may have been deleted."
+GONE = "There is no such program. It may have been deleted."
 
 
 def list_programs(*, site: str, part: Part = FIRST, words: str = "") -> Listed[ProgramView]:
@@ -54,7 +52,7 @@ def list_programs(*, site: str, part: Part = FIRST, words: str = "") -> Listed[P
 
 def get_program(*, program_id: UUID | str) -> ProgramView:
     """Return a program. Raises NoSuchProgram."""
-    return _view(_find(program_id))
+    return _view(find_program(program_id))
 
 
 def create_program(*, site: str, name: str, document: Mapping[str, Any] | None = None, user: Any = None) -> ProgramView:
@@ -75,7 +73,7 @@ def create_program(*, site: str, name: str, document: Mapping[str, Any] | None =
 
 def rename_program(*, program_id: UUID | str, name: str, user: Any) -> ProgramView:
     """Give a program another name. Raises NoSuchProgram, BadRequest."""
-    program = _find(program_id)
+    program = find_program(program_id)
     Program.objects.filter(pk=program.pk).update(name=_checked_name(name), edited_at=timezone.now(), edited_by=user)
     publish(program.site.slug, {"type": "programs"})
     return get_program(program_id=program_id)
@@ -83,7 +81,7 @@ def rename_program(*, program_id: UUID | str, name: str, user: Any) -> ProgramVi
 
 def delete_program(*, program_id: UUID | str) -> None:
     """Delete a program; whoever has it open is told. Raises NoSuchProgram."""
-    program = _find(program_id)
+    program = find_program(program_id)
     site = program.site.slug
     with transaction.atomic():
         registry.note_act(site_id=program.site_id, code="program_deleted", facts={"program": program.name})
@@ -103,77 +101,11 @@ def _check(program_id: str, document: Mapping[str, Any]) -> Compilation:
     return compilation
 
 
-def list_versions(*, program_id: UUID | str, part: Part = FIRST) -> Listed[VersionView]:
-    """Return a program's versions, the newest first. Raises NoSuchProgram, BadMark."""
-    rows = _find(program_id).versions.select_related("author", "program__site")
-    return registry.take_part(rows=rows, by="-number", part=part, view=_version_view)
-
-
-def get_version(*, version_id: UUID | str) -> VersionView:
-    """Return a version. Raises NoSuchProgram."""
-    row = Version.objects.select_related("author", "program__site").filter(pk=version_id).first()
-    if row is None:
-        raise NoSuchProgram("There is no such version. Its program may have been deleted.")
-    return _version_view(row)
-
-
-def find_version(*, program_id: UUID | str, number: int) -> VersionView:
-    """Return a program's version by its number. Raises NoSuchProgram."""
-    rows = Version.objects.select_related("author", "program__site")
-    row = rows.filter(program_id=program_id, number=number).first()
-    if row is None:
-        raise NoSuchProgram(f"The program has no version {number}.")
-    return _version_view(row)
-
-
-def pin_version(*, program_id: UUID | str, user: Any, message: str = "") -> VersionView:
-    """Make the document as it is now a version; the last one is returned if nothing has changed since.
-
-    Raises NoSuchProgram.
-    """
-    document = get_document(program_id=program_id)
-    digest = digest_of(document)
-    script = print_program(document, build_surroundings(site=_find(program_id).site.slug))
-    with transaction.atomic():
-        program = Program.objects.select_for_update().filter(pk=program_id).first()
-        if program is None:
-            raise NoSuchProgram(_GONE)
-        last = program.versions.order_by("-number").first()
-        made = last is None or last.digest != digest or bool(message and message != last.message)
-        if made or last is None:
-            last = _add_version(program, user, message[:300], document, script)
-    return replace(get_version(version_id=last.pk), made=made)
-
-
-def _add_version(program: Program, user: Any, message: str, document: dict[str, Any], script: str) -> Version:
-    program.last_version += 1
-    program.save(update_fields=["last_version"])
-    return Version.objects.create(
-        program=program,
-        number=program.last_version,
-        author=user if user is not None and user.pk else None,
-        message=message,
-        document=document,
-        digest=digest_of(document),
-        script=script,
-    )
-
-
-def compile_version(*, version: VersionView) -> Compilation:
-    """Compile a version for its site as that is now, with its plan."""
-    return compile_program(version.document, build_surroundings(site=version.site), with_plan=True)
-
-
-def compile_version_to_json(*, version: VersionView) -> dict[str, object]:
-    """Compile a version for its site as that is now, as JSON."""
-    surroundings = build_surroundings(site=version.site)
-    return compile_program(version.document, surroundings, revision=new_revision()).compiled()
-
-
-def _find(program_id: UUID | str) -> Program:
+def find_program(program_id: UUID | str) -> Program:
+    """Return a program's row with its site and last editor. Raises NoSuchProgram."""
     program = Program.objects.select_related("site", "edited_by").filter(pk=program_id).first()
     if program is None:
-        raise NoSuchProgram(_GONE)
+        raise NoSuchProgram(GONE)
     return program
 
 
@@ -196,20 +128,6 @@ def _view(row: Program) -> ProgramView:
         edited_by=view_author(row.edited_by),
         errors=row.errors,
         warnings=row.warnings,
-    )
-
-
-def _version_view(row: Version) -> VersionView:
-    return VersionView(
-        id=row.pk,
-        program=row.program_id,
-        site=row.program.site.slug,
-        number=row.number,
-        author=view_author(row.author),
-        message=row.message,
-        document=migrate_document(row.document),
-        script=row.script,
-        created_at=row.created_at,
     )
 
 

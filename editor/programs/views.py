@@ -37,20 +37,33 @@ class ProgramView:
     warnings: int
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class VersionView:
-    """A program as it was when it was pinned; `made` is True in the answer to who pinned just this one."""
+    """A version as lists show it: `author` made it, `authors` had drawn since the one before.
+
+    `cause` is what it was made before by itself: run, rehearsal, import, restore; empty where somebody made it. `made`
+    is True in the answer to who pinned just this one.
+    """
 
     id: UUID
     program: UUID
     site: str
     number: int
     author: AuthorView | None
+    authors: tuple[AuthorView, ...]
+    name: str
     message: str
-    document: Mapping[str, Any]
-    script: str
+    cause: str
     created_at: datetime
     made: bool = field(default=False, compare=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WholeVersionView(VersionView):
+    """A version with its document, in today's format, and the script as it was printed then."""
+
+    document: Mapping[str, Any]
+    script: str
 
 
 @dataclass(frozen=True, slots=True)

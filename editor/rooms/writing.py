@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import time
 import uuid
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
@@ -118,21 +118,35 @@ def _read_by_tag(program_id: UUID | str, tag: str) -> Content:
 
 
 def _write(program_id: UUID | str, read: Content, wanted: Mapping[str, Any], author: int) -> Content:
+    def change(document: Mapping[str, Any]) -> Mapping[str, Any]:
+        if digest_of(document) != digest_of(read.document):
+            raise ContentChanged("The program has just changed. Read it again, and write your change of that.")
+        return wanted
+
+    change_content(program_id=program_id, change=change, author=author)
+    return read_content(program_id=program_id)
+
+
+def change_content(
+    *, program_id: UUID | str, change: Callable[[Mapping[str, Any]], Mapping[str, Any]], author: int
+) -> None:
+    """Make a program's content what `change` makes of it, as one edit of the author, and check the program.
+
+    Only what it makes another is written, so what others change meanwhile stays. Raises BadRequest, RoomsAway,
+    DocumentHole, NoSuchProgram, and what `change` does.
+    """
     with transaction.atomic():
         Program.objects.select_for_update().filter(pk=program_id).first()
         stored = load_document(str(program_id)).open()
         before = stored.state()
         stored.migrate()
-        if digest_of(stored.to_json()) != digest_of(read.document):
-            raise ContentChanged("The program has just changed. Read it again, and write your change of that.")
-        stored.change_to(wanted)
+        stored.change_to(change(stored.to_json()))
         if stored.step_count() > MOST_STEPS or len(stored.encode()) > MOST_DOCUMENT_BYTES:
             raise BadRequest(TOO_LARGE)
-        update = stored.encode(before)
-        change, origin = Change(author, update), uuid.uuid4().hex
-        rows = append_changes(str(program_id), [change], timezone.now())
+        written, origin = Change(author, stored.encode(before)), uuid.uuid4().hex
+        rows = append_changes(str(program_id), [written], timezone.now())
         try:
-            tell_rooms(str(program_id), origin, encode_change(1, change))
+            tell_rooms(str(program_id), origin, encode_change(1, written))
         except StreamLost as error:
             raise RoomsAway(
                 "Nothing was changed: those who have the program open cannot be told. Try again."
@@ -140,7 +154,6 @@ def _write(program_id: UUID | str, read: Content, wanted: Mapping[str, Any], aut
     with suppress(StreamLost):  # who does not hear that it is stored stores it once more
         tell_rooms(str(program_id), origin, encode_stored({origin: 1}, rows))
     get_compiled(program_id=program_id)
-    return read_content(program_id=program_id)
 
 
 def ensure_stored(*, program_id: UUID | str, seen: bytes) -> None:

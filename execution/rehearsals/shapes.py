@@ -8,7 +8,7 @@ from ninja import Field, Schema
 from pydantic import Strict
 
 from editor.shapes import Compiled, Document, Position
-from execution.shapes import Cause, Scalar, StepStatus, WaitReason
+from execution.shapes import Cause, OfVersion, Scalar, StepStatus, WaitReason
 from registry.shapes import Asked, Unchecked
 
 Driver = Literal["physics", "kinematic"]
@@ -18,6 +18,7 @@ Seed = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
 class StartRehearsal(Asked):
     """How a rehearsal is done: with `physics`, or `kinematic` and quicker."""
 
+    version: OfVersion = None
     parameters: dict[str, Any] = {}
     seed: Seed = 0
     driver: Driver = "physics"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 from uuid import UUID
 
 from editor import services as editor
@@ -15,6 +15,9 @@ from execution.errors import NotReady
 from execution.runs.parameters import Surrounding, fit_parameters
 from registry import services as registry
 from vipo_device.protocol.description import Scalar
+
+Cause = Literal["run", "rehearsal"]
+"""What a program is pinned for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,29 +39,38 @@ def site_of_program(*, program_id: UUID) -> str:
     return editor.get_program(program_id=program_id).site
 
 
-def prepare(*, program_id: UUID, user: Any, parameters: Mapping[str, Any]) -> Prepared:
-    """Pin the program as it is drawn now, and compile it for the site as it is now.
+def prepare(
+    *, program_id: UUID, user: Any, parameters: Mapping[str, Any], version: int | None = None, cause: Cause = "run"
+) -> Prepared:
+    """Pin the program as it is drawn now, or take one of its versions, and compile it for the site as it is now.
 
     Raises:
         NotReady: the program has errors, or a parameter does not exist, is missing or does not fit.
+        editor.NoSuchProgram: there is no such version.
     """
     program = editor.get_program(program_id=program_id)
-    version = editor.pin_version(program_id=program_id, user=user)
-    compiled = editor.compile_version(version=version)
+    pinned = _version(program_id, user, version, cause)
+    compiled = editor.compile_version(version=pinned)
     if compiled.plan is None:
         raise _not_ready(compiled.errors)
-    _, names = read_parameters(by_id(version.document.get("parameters")).items())
+    _, names = read_parameters(by_id(pinned.document.get("parameters")).items())
     fitting = fit_parameters(compiled.parameters, names, parameters, _around(program.site))
     return Prepared(
         program=program_id,
         site=program.site,
         name=program.name,
-        version=version.number,
-        document=version.document,
+        version=pinned.number,
+        document=pinned.document,
         compiled=compiled.compiled(),
         plan=json.loads(compiled.plan),
         parameters=fitting,
     )
+
+
+def _version(program_id: UUID, user: Any, number: int | None, cause: Cause) -> editor.WholeVersionView:
+    if number is not None:
+        return editor.find_version(program_id=program_id, number=number)
+    return editor.pin_version(program_id=program_id, user=user, cause=cause)
 
 
 def _around(site: str) -> Surrounding:

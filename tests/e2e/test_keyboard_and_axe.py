@@ -14,7 +14,7 @@ from tests.e2e.screens import SITE, TASK, ask, chip, draw_task, make_program, sa
 
 pytestmark = pytest.mark.browser
 
-RAW_KEY = re.compile(r"\b(?:alerts|shell|pages|map|editor|run|simulation)\.[a-z]\w+")
+RAW_KEY = re.compile(r"\b(?:alerts|shell|pages|map|editor|run|simulation|compare|history)\.[a-z]\w+")
 
 
 @dataclass(frozen=True)
@@ -94,6 +94,8 @@ def screens(page: Page, things: dict[str, str]) -> list[Screen]:
         Screen("program", things["task"], "[data-shape]"),
         Screen("simulation", things["rehearsal"], "canvas[data-engine]"),
         Screen("run", things["run"], "[data-state]"),
+        Screen("comparison", things["comparison"], "[data-kind='removed']"),
+        Screen("history", things["history"], "main li canvas"),
         Screen("nowhere", "/no/such/page", "main, h1, h2"),
     ]
 
@@ -108,7 +110,12 @@ def make_things(page: Page) -> dict[str, str]:
     rehearsal = tell(page, f"/api{task}/rehearsals")["id"]
     run = tell(page, f"/api{task}/runs")["id"]
     programs = {each["name"]: each["id"] for each in ask(page, f"{SITE}/programs")}
+    page.keyboard.press("Control+a")
+    page.keyboard.press("Delete")
+    saved(page)
     return {
+        "comparison": f"{task}/compare?old=1&new=draft",
+        "history": f"/sites/painting-factory/history/{task.removeprefix('/programs/')}",
         "empty": empty,
         "task": task,
         "paint order": f"/programs/{programs['Paint order']}",

@@ -48,6 +48,10 @@ BODIES: dict[str, dict[str, Any]] = {
     "edit_place": {"name": "Table"},
     "reserve_device": {"id": "mixer-9"},
     "create_program": {"name": "New"},
+    "copy_version": {"name": "Copy"},
+    "look_at_restoring": {"everything": True},
+    "restore_version": {"everything": True},
+    "make_changes": {"changes": []},
     "create_token": {"name": "Other", "scopes": ["read"]},
     "change_member": {"role": "operator"},
     "make_invitation": {"role": "viewer"},
@@ -58,7 +62,7 @@ BODIES: dict[str, dict[str, Any]] = {
     "change_my_password": {"old": "not this one", "new": "another-horse-9"},
 }
 """What is sent, where an empty object does not say enough; a name in braces stands for an id."""
-QUERIES = {"ask": "?query=ASK+%7B%7D", "show_property_history": "?property=jobStatus"}
+QUERIES = {"ask": "?query=ASK+%7B%7D", "show_property_history": "?property=jobStatus", "compare_versions": "?old=1"}
 
 
 def make_one_of_each(slug: str) -> dict[str, str]:

@@ -35,6 +35,7 @@ MADE = {
     "restore_map": Place("show_map", ("slug",), {}),
     "add_place": Place("show_place", ("slug",), {"place_id": "id"}),
     "create_program": Place("show_program", (), {"program": "id"}),
+    "copy_version": Place("show_program", (), {"program": "id"}),
     "pin_version": Place("show_version", ("program",), {"number": "number"}),
     "save_function": Place("show_function_version", (), {"function": "id", "number": "version"}),
     "start_run": Place("get_run", (), {"run": "id"}),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
+from typing import Any
 
 _DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
 _MIDDLE = _DIGITS[len(_DIGITS) // 2]
@@ -19,7 +20,7 @@ def keep_orders(wanted: Sequence[tuple[str, str | None]]) -> list[str]:
     """Return the orders of a branch's steps, given as (id, order before or None): as few change as can be."""
     if all(order is None for _, order in wanted):
         return spread(len(wanted))
-    kept = _longest_rise([None if order is None else (order, step) for step, order in wanted])
+    kept = longest_rise([None if order is None else (order, step) for step, order in wanted])
     orders: list[str] = []
     for index, (_, before) in enumerate(wanted):
         if index in kept and before is not None:
@@ -59,9 +60,9 @@ def _value(order: str, index: int) -> int:
     return max(_DIGITS.find(order[index]), 0) if index < len(order) else 0
 
 
-def _longest_rise(keys: Sequence[tuple[str, str] | None]) -> set[int]:
+def longest_rise(keys: Sequence[tuple[Any, ...] | None]) -> set[int]:
     """Return the places of a longest rising row among the keys that are there."""
-    ends: list[tuple[str, str]] = []
+    ends: list[tuple[Any, ...]] = []
     places: list[int] = []
     before: dict[int, int] = {}
     for index, key in enumerate(keys):

@@ -1,8 +1,9 @@
 /** What screens read from the server, kept by TanStack Query; the live socket writes into the same caches. */
-import { keepPreviousData, QueryClient, skipToken, useQuery } from "@tanstack/react-query";
+import { keepPreviousData, QueryClient, skipToken, useInfiniteQuery, useQuery } from "@tanstack/react-query";
 import { api, ApiProblem, rememberCsrf } from "./client";
 import type {
   ArmedProgram,
+  Comparison,
   Device,
   Finding,
   LibraryFunction,
@@ -21,6 +22,8 @@ import type {
   Site,
   SiteMap,
   SiteMapInfo,
+  Version,
+  WholeVersion,
 } from "./types";
 
 /** The names of the caches. */
@@ -50,6 +53,9 @@ export const keys = {
   findings: (slug: string) => ["findings", slug] as const,
   operations: (slug: string) => ["operations", slug] as const,
   processes: (slug: string) => ["processes", slug] as const,
+  versions: (id: string) => ["versions", id] as const,
+  version: (id: string, number: number) => ["version", id, number] as const,
+  comparison: (id: string) => ["comparison", id] as const,
   rehearsals: (slug: string) => ["rehearsals", slug] as const,
 };
 
@@ -177,6 +183,13 @@ export const useRuns = (slug: Maybe) =>
     keys.runs(slug ?? ""),
     at(slug, (s) => `/sites/${s}/runs`),
   );
+const RUNS_OF_A_PROGRAM = 200;
+/** The newest runs of one program, each with the version that it used. */
+export const useProgramRuns = (slug: Maybe, program: Maybe) =>
+  useGet<RunSummary[]>(
+    [...keys.runs(slug ?? ""), "of", program],
+    slug && program ? `/sites/${slug}/runs?program=${encodeURIComponent(program)}&limit=${RUNS_OF_A_PROGRAM}` : null,
+  );
 export const useQuestions = (slug: Maybe) =>
   useGet<Question[]>(
     keys.questions(slug ?? ""),
@@ -235,3 +248,28 @@ export const useRehearsals = (slug: Maybe) =>
     keys.rehearsals(slug ?? ""),
     at(slug, (s) => `/sites/${s}/rehearsals`),
   );
+const VERSIONS_AT_ONCE = 50;
+/** A program's versions, the newest first, part after part. */
+export const useVersions = (id: Maybe) =>
+  useInfiniteQuery({
+    queryKey: keys.versions(id ?? ""),
+    queryFn: id ? ({ pageParam }) => api.part<Version>(pageParam) : skipToken,
+    initialPageParam: `/programs/${encodeURIComponent(id ?? "")}/versions?limit=${VERSIONS_AT_ONCE}`,
+    getNextPageParam: (last: { next?: string }) => last.next,
+  });
+/** What a version holds never changes. */
+export const useVersion = (id: Maybe, number: number, wanted: boolean) =>
+  useQuery({
+    queryKey: keys.version(id ?? "", number),
+    queryFn: id && wanted ? () => api.get<WholeVersion>(`/programs/${id}/versions/${number}`) : skipToken,
+    staleTime: Infinity,
+  });
+/** Two sides compared: numbers of versions, or `draft` for what is drawn now. */
+export const useComparison = (id: Maybe, sides: readonly [old: string, new: string] | null) =>
+  useQuery({
+    queryKey: [...keys.comparison(id ?? ""), ...(sides ?? [])],
+    queryFn:
+      id && sides ? () => api.get<Comparison>(`/programs/${id}/comparison?old=${sides[0]}&new=${sides[1]}`) : skipToken,
+    staleTime: 0,
+    placeholderData: keepPreviousData,
+  });

@@ -334,6 +334,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/programs/{program}/changes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Make Changes
+         * @description Change a program where the old values still stand, such as by what a restore answered, old and new swapped.
+         */
+        post: operations["make_changes"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/comparison": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Compare Versions
+         * @description Compare two versions by their numbers; `draft` is the program as it is drawn now.
+         */
+        get: operations["compare_versions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/programs/{program}/compiled": {
         parameters: {
             query?: never;
@@ -409,7 +449,9 @@ export interface paths {
         put?: never;
         /**
          * Start Rehearsal
-         * @description Queue a rehearsal of a program as it is drawn now; refused while the asker or the site has as many as may be.
+         * @description Queue a rehearsal of a program, as it is drawn now or of a version.
+         *
+         *     It is refused while the asker or the site has as many as may be.
          */
         post: operations["start_rehearsal"];
         delete?: never;
@@ -429,7 +471,7 @@ export interface paths {
         put?: never;
         /**
          * Start Run
-         * @description Start a run of a program as it is drawn now.
+         * @description Start a run of a program, as it is drawn now or of a version.
          */
         post: operations["start_run"];
         delete?: never;
@@ -526,6 +568,90 @@ export interface paths {
         get: operations["show_version"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        /**
+         * Name Version
+         * @description Give a version another name and message; what it holds never changes.
+         */
+        patch: operations["name_version"];
+        trace?: never;
+    };
+    "/api/programs/{program}/versions/{number}/copy": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Copy Version
+         * @description Make a new program of a version, at the same site.
+         */
+        post: operations["copy_version"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/versions/{number}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Version
+         * @description Send a version as a file: its document as JSON, or its script.
+         */
+        get: operations["export_version"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/versions/{number}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Version
+         * @description Draw again what a version held, with what that needs, as an edit of the asker; the answer is what changed.
+         */
+        post: operations["restore_version"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/versions/{number}/restore/look": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Look At Restoring
+         * @description Tell what restoring would change as things are now, and what it needs; nothing is changed.
+         */
+        post: operations["look_at_restoring"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2605,6 +2731,27 @@ export interface components {
         ChangedMap: {
             version: number;
         };
+        /** @description What was changed, what stays as somebody has changed it since, and what was needed, as [root, id]. */
+        ChangedShape: {
+            changes: components["schemas"]["ValueChangeShape"][];
+            needs: [
+                string,
+                string
+            ][];
+            skipped: components["schemas"]["ValueChangeShape"][];
+        };
+        /** @description Changes that are made where their old values still stand: {path, old, new}; what is left out is absent. */
+        ChangesToMake: {
+            changes: {
+                [key: string]: unknown;
+            }[];
+        };
+        /** @description Two sides and how they differ, where both can be read. */
+        ComparisonShape: {
+            difference: components["schemas"]["DifferenceShape"] | null;
+            new: components["schemas"]["SideShape"];
+            old: components["schemas"]["SideShape"];
+        };
         /** @description A compiled program; `lines` has the step of each line of the script, or an empty text. */
         CompiledShape: {
             added_moves: string[];
@@ -2620,6 +2767,16 @@ export interface components {
             order: string[];
             revision: number;
             script: string;
+        };
+        /** @description What happened to a construct, with its fields, old and new. */
+        ConstructChangeShape: {
+            changes: components["schemas"]["ValueChangeShape"][];
+            id: string;
+            /** @enum {string} */
+            kind: "added" | "removed" | "changed" | "moved";
+            moved: boolean;
+            /** @enum {string} */
+            root: "steps" | "functions" | "roles" | "parameters" | "zones" | "program";
         };
         /**
          * @description How far a rehearsal is: its virtual time, the step it is at, and how many steps were done once.
@@ -2778,6 +2935,12 @@ export interface components {
              * @enum {string}
              */
             when: "now" | "ever";
+        };
+        /** @description What differs, in reading order; apart from it what was only tidied, and how many steps do the same. */
+        DifferenceShape: {
+            constructs: components["schemas"]["ConstructChangeShape"][];
+            same: number;
+            tidied: components["schemas"]["ConstructChangeShape"][];
         };
         /** @description A program's document, format 2; see docs/shapes/document.md. */
         DocumentShape: {
@@ -3643,6 +3806,18 @@ export interface components {
             status: "waiting" | "running" | "done" | "failed" | "skipped";
             step: string;
         };
+        /** @description What shall be restored: all, or constructs as [root, id], or single fields as paths. */
+        RestoreAsked: {
+            /** @default [] */
+            constructs: [
+                string,
+                string
+            ][];
+            /** @default false */
+            everything: boolean;
+            /** @default [] */
+            fields: string[][];
+        };
         /** @description Which version of the site's map is to hold again, and which one held when that was decided. */
         RestoreMap: {
             replaces: number;
@@ -3863,6 +4038,19 @@ export interface components {
             rehearsals: number | null;
             runs: number | null;
         };
+        /**
+         * @description A side: a version, or what is drawn now. With a problem it has neither a document nor its compiled form.
+         *
+         *     The compiled form is without diagnostics; `errors` is how many of them are errors.
+         */
+        SideShape: {
+            compiled: components["schemas"]["CompiledShape"] | null;
+            document: components["schemas"]["DocumentShape"] | null;
+            errors: number;
+            /** @enum {string} */
+            problem: "" | "missing" | "unreadable";
+            version: components["schemas"]["VersionShape"] | null;
+        };
         /** @description What somebody signs in with. */
         SignIn: {
             email: string;
@@ -3910,6 +4098,8 @@ export interface components {
             };
             /** @default 0 */
             seed: number;
+            /** @description The version of the program that is taken; as it is drawn now if none. */
+            version?: number | null;
         };
         /** @description Parameters of a run, and in which order and when it is done; what is left out has its default. */
         StartRun: {
@@ -3926,6 +4116,8 @@ export interface components {
              * @enum {string}
              */
             priority: "low" | "normal" | "high";
+            /** @description The version of the program that is taken; as it is drawn now if none. */
+            version?: number | null;
         };
         /** @enum {string} */
         StepKind: "move" | "pick" | "drop" | "pick_and_drop" | "cover" | "release" | "operate" | "wait" | "if" | "while" | "repeat" | "for_each" | "parallel" | "try" | "limit" | "on_event" | "break" | "continue" | "return" | "end" | "fail" | "call" | "set" | "notify" | "ask" | "comment";
@@ -3976,21 +4168,45 @@ export interface components {
             version: number;
         };
         Value: string | boolean | number | unknown[] | components["schemas"]["ParameterUse"] | components["schemas"]["Quantity"] | components["schemas"]["Whereabouts"] | components["schemas"]["ZoneUse"] | components["schemas"]["PropertyUse"] | components["schemas"]["Operation"] | null;
-        /** @description What a version is about. */
-        VersionMessage: {
-            /** @default  */
-            message: string;
+        /** @description At the path stands `new` instead of `old`; what is left out is absent there. */
+        ValueChangeShape: {
+            new?: unknown;
+            old?: unknown;
+            path: string[];
         };
-        /** @description A version without its document. */
+        /** @description A version without what is in it; `cause` says before what it was made by itself. */
         VersionShape: {
             author: components["schemas"]["Author"] | null;
+            /** @description Who had drawn since the version before. */
+            authors: components["schemas"]["Author"][];
+            /** @enum {string} */
+            cause: "" | "run" | "rehearsal" | "import" | "restore";
             /** Format: date-time */
             created_at: string;
             /** Format: uuid */
             id: string;
             message: string;
+            name: string;
             number: number;
-            script: string;
+        };
+        /** @description What a version is about, and before what it is made. */
+        VersionToPin: {
+            /**
+             * @default
+             * @enum {string}
+             */
+            cause: "" | "import" | "restore";
+            /** @default  */
+            message: string;
+            /** @default  */
+            name: string;
+        };
+        /** @description Another name and message of a version. */
+        VersionWords: {
+            /** @default  */
+            message: string;
+            /** @default  */
+            name: string;
         };
         /** @description Why something waits, for screens to say in their language; devices and robots are named by their ids. */
         WaitReason: {
@@ -4011,15 +4227,20 @@ export interface components {
         Whereabouts: {
             at: components["schemas"]["Place"] | components["schemas"]["RoleUse"];
         };
-        /** @description A version with its document. */
+        /** @description A version with its document and its script. */
         WholeVersionShape: {
             author: components["schemas"]["Author"] | null;
+            /** @description Who had drawn since the version before. */
+            authors: components["schemas"]["Author"][];
+            /** @enum {string} */
+            cause: "" | "run" | "rehearsal" | "import" | "restore";
             /** Format: date-time */
             created_at: string;
             document: components["schemas"]["DocumentShape"];
             /** Format: uuid */
             id: string;
             message: string;
+            name: string;
             number: number;
             script: string;
         };
@@ -4926,6 +5147,95 @@ export interface operations {
             };
         };
     };
+    make_changes: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ChangesToMake"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChangedShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    compare_versions: {
+        parameters: {
+            query: {
+                old: string;
+                new?: string;
+            };
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ComparisonShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     show_compiled: {
         parameters: {
             query?: never;
@@ -5445,7 +5755,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["VersionMessage"];
+                "application/json": components["schemas"]["VersionToPin"];
             };
         };
         responses: {
@@ -5516,6 +5826,242 @@ export interface operations {
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    name_version: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VersionWords"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VersionShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    copy_version: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ProgramName"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProgramShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    export_version: {
+        parameters: {
+            query?: {
+                form?: "document" | "script";
+            };
+            header?: never;
+            path: {
+                program: string;
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    restore_version: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RestoreAsked"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChangedShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    look_at_restoring: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RestoreAsked"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChangedShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

@@ -102,3 +102,36 @@ export type RehearsalResult = Schemas["RehearsalResultShape"];
 export type RehearsalError = Schemas["RehearsalError"];
 export type NearMiss = Schemas["Encounter"];
 export type LogLine = Schemas["LogLine"];
+
+export type Version = Schemas["VersionShape"];
+export type WholeVersion = Omit<Schemas["WholeVersionShape"], "document"> & { document: ProgramDocument };
+/** At the path stands `new` instead of `old`; what is left out is absent there. */
+export interface ValueChange {
+  readonly path: readonly string[];
+  readonly old?: unknown;
+  readonly new?: unknown;
+}
+export type ConstructChange = Omit<Schemas["ConstructChangeShape"], "changes"> & {
+  readonly changes: readonly ValueChange[];
+};
+export type ChangeKind = ConstructChange["kind"];
+export interface Difference {
+  readonly constructs: readonly ConstructChange[];
+  readonly tidied: readonly ConstructChange[];
+  readonly same: number;
+}
+export type ComparedSide = Omit<Schemas["SideShape"], "document" | "compiled"> & {
+  readonly document: ProgramDocument | null;
+  readonly compiled: Compiled | null;
+};
+export interface Comparison {
+  readonly old: ComparedSide;
+  readonly new: ComparedSide;
+  readonly difference: Difference | null;
+}
+/** What a restore changed or would change, what stays as somebody changed it since, and what is needed. */
+export interface Restored {
+  readonly changes: readonly ValueChange[];
+  readonly skipped: readonly ValueChange[];
+  readonly needs: readonly (readonly [root: string, id: string])[];
+}

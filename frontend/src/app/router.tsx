@@ -10,6 +10,7 @@ type Screens = Record<string, () => Promise<Record<string, ComponentType>>>;
 const screens: Screens = import.meta.glob<Record<string, ComponentType>>([
   "../pages/*/*Page.tsx",
   "../editor/EditorScreen.tsx",
+  "../compare/CompareScreen.tsx",
   "../run/RunScreen.tsx",
   "../simulation/SimulationScreen.tsx",
 ]);
@@ -28,6 +29,8 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/operations", "pages/operations/OperationsPage"],
   ["/sites/:slug/retention", "pages/retention/RetentionPage"],
   ["/programs/:id", "editor/EditorScreen"],
+  ["/programs/:id/compare", "compare/CompareScreen"],
+  ["/sites/:slug/history/:id", "pages/history/HistoryPage"],
   ["/programs/:id/simulate/:rehearsal?", "simulation/SimulationScreen"],
   ["/runs/:id", "run/RunScreen"],
 ];

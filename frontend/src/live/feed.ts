@@ -97,6 +97,7 @@ export class SiteFeed {
         });
         return this.#siteChanged();
       case "checked":
+        this.#caches.refresh(keys.comparison(message.program));
         return this.#caches.write<Program[]>(keys.programs(this.slug), (programs) => applyChecked(programs, message));
     }
   }

@@ -16,6 +16,7 @@ from editor.documents.shared_document import SharedDocument, clients_of, empty_d
 from editor.documents.store import Change, SnapshotDiffers, append_changes, compact_document, load_document
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import DocumentUpdate, Program, Snapshot, Version
+from editor.programs.packing import Content, pack
 from registry import services as registry
 from registry.models import Site
 
@@ -190,6 +191,6 @@ def test_an_old_program_is_told_in_the_format_of_today(author: Any) -> None:
 def test_a_version_of_a_former_format_is_told_in_the_format_of_today(program: str, author: Any) -> None:
     version = services.pin_version(program_id=program, user=author)
     old = {"format": 1, "steps": {"w": {"kind": "wait", "params": {"seconds": 5}}}}
-    Version.objects.filter(pk=version.id).update(document=old)
+    Version.objects.filter(pk=version.id).update(content=pack(Content(old, "")), base=None)
     told = services.get_version(version_id=version.id).document
     assert told == {"format": 2, "steps": {"w": {"kind": "wait", "params": {"duration": 5}}}}

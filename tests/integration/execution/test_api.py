@@ -7,10 +7,13 @@ import pytest
 from django.test import Client
 
 from editor import services as editor
+from editor.documents.shared_document import empty_document, encode_document
+from editor.documents.store import Change, append_changes
 from execution import services
 from execution.models import Rehearsal, Run
 from tests.kit.programs import SITE, TASK
 from tests.kit.sign_in import ROLES, post_json, sign_in_member
+from tests.kit.sites import NOW
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -93,6 +96,24 @@ def test_a_program_with_errors_is_not_started_and_the_answer_says_why(factory):
     args = answer.json()["args"]
     assert (args["why"], args["count"], args["first"].keys()) == ("errors", 1, {"en", "de"})
     assert Run.objects.count() == 0
+
+
+def test_a_version_of_before_is_run_and_one_that_is_not_there_is_absent(factory, program):
+    client = sign_in_member("operator", SITE)
+    version = editor.pin_version(program_id=program, user=None)
+    assert (version.number, version.cause) == (1, "")
+    later = encode_document({**empty_document(), "steps": {"later": {"kind": "wait", "place": None, "params": {}}}})
+    append_changes(program, [Change(None, later)], NOW)
+    run = post_json(client, f"/api/programs/{program}/runs", {"version": 1}).json()
+    assert client.get(f"/api/runs/{run['id']}").json()["document"]["steps"].keys() == {"s1"}
+    assert [each.number for each in editor.list_versions(program_id=program)] == [1]
+    post_json(client, f"/api/programs/{program}/rehearsals")
+    assert [(each.number, each.cause) for each in editor.list_versions(program_id=program)] == [
+        (2, "rehearsal"),
+        (1, ""),
+    ]
+    absent = client.post(f"/api/programs/{program}/runs", '{"version": 9}', content_type="application/json")
+    assert (absent.status_code, absent.json()["detail"]) == (404, "The program has no version 9.")
 
 
 def test_routes_that_do_not_exist_are_null_among_others(factory):

@@ -55,6 +55,7 @@ def make_each(client: Client) -> dict[str, Any]:
         "add_place": post_json(client, f"{AT_SITE}/places", {"name": "Bench", "kind": "point", "x": 7.0, "y": -8.0}),
         "create_program": post_json(client, f"{AT_SITE}/programs", {"name": "New"}),
         "pin_version": post_json(client, f"/api/programs/{task}/versions"),
+        "copy_version": post_json(client, f"/api/programs/{task}/versions/1/copy", {"name": "Copy"}),
         "save_function": post_json(client, f"{AT_SITE}/library", function),
         "start_rehearsal": post_json(client, f"/api/programs/{task}/rehearsals"),
         "call_method": post_json(

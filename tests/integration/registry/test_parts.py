@@ -11,8 +11,10 @@ import pytest
 from django.test import Client
 
 from editor import services as editor
+from editor.documents.shared_document import encode_document
+from editor.documents.store import Change, append_changes
 from registry.models import DeviceAlert
-from tests.kit.programs import document
+from tests.kit.programs import document, step
 from tests.kit.sign_in import signed_in
 from tests.kit.sites import NOW, make_mixers
 
@@ -42,10 +44,12 @@ def make_programs(site: str) -> None:
 
 
 def make_versions(site: str) -> str:
-    program = editor.create_program(site=site, name="Pinned").id
+    program = str(editor.create_program(site=site, name="Pinned").id)
     for number in range(COUNT):
+        drawn = document({f"s{number}": step("wait", duration=number)})
+        append_changes(program, [Change(None, encode_document(drawn))], NOW)
         editor.pin_version(program_id=program, user=None, message=f"Version {number}")
-    return str(program)
+    return program
 
 
 def make_functions(site: str) -> None:

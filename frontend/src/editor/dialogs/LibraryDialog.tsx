@@ -46,6 +46,7 @@ function Search({ asked, onDone }: { asked: string | null; onDone: () => void })
   const choose = async (entry: LibraryFunction) => {
     try {
       const full = entry.definition ? entry : await api.get<LibraryFunction>(`/library/${entry.id}`);
+      await keepVersion(open);
       bringIn(open, full);
       onDone();
     } catch (problem) {
@@ -74,6 +75,12 @@ function Search({ asked, onDone }: { asked: string | null; onDone: () => void })
       </ul>
     </div>
   );
+}
+
+/** What is there before something is brought in is kept as a version, with all that stands on this screen. */
+async function keepVersion({ shared, program }: ReturnType<typeof useOpenProgram>): Promise<void> {
+  await shared.stored();
+  await api.post(`/programs/${program.id}/versions`, { cause: "import" });
 }
 
 /** One entry to undo: the definition, its steps and the call. */

@@ -17,6 +17,7 @@ import { FollowButton } from "../gestures/FollowButton";
 import { Arm } from "./Arm";
 import { focusMap } from "../state/focus";
 import { SavedChip } from "./SavedChip";
+import { VersionChip } from "./VersionChip";
 import { useOpenProgram } from "../state/context";
 import { say, select, showTab, useUi } from "../state/ui";
 import classes from "./top.module.css";
@@ -32,7 +33,12 @@ export function EditorTop() {
           <ProgramName />
         </>
       }
-      chips={<SavedChip />}
+      chips={
+        <>
+          <SavedChip />
+          <VersionChip />
+        </>
+      }
       presence={<People />}
       actions={<Actions />}
     >

@@ -1,13 +1,13 @@
-/** A function where it happens: its machines and paths on the site's map. */
+/** Steps where they happen: their machines and paths on the site's map. */
 import { skipToken, useQuery } from "@tanstack/react-query";
 import { useMemo } from "react";
 import { api } from "@/api/client";
 import { useDevices, useSiteMap } from "@/api/queries";
 import type { LibraryFunction, RouteAnswer } from "@/api/types";
 import { StaticMap } from "@/map/StaticMap";
-import { devicesIn, focusOn, pathsIn } from "./picture";
+import { devicesIn, type Drawn, focusOn, pathsIn } from "./picture";
 
-function useWays(slug: string, definition: LibraryFunction["definition"]) {
+function useWays(slug: string, definition: Drawn) {
   const pairs = useMemo(() => pathsIn(definition), [definition]);
   return useQuery({
     queryKey: ["paths", slug, pairs],
@@ -18,12 +18,18 @@ function useWays(slug: string, definition: LibraryFunction["definition"]) {
 }
 
 export function FunctionPicture({ slug, item }: { slug: string; item: LibraryFunction }) {
+  return <StepsPicture slug={slug} drawn={item.definition} label={item.name} />;
+}
+
+/** `whole` shows all of the map instead of the part where the steps are. */
+export function StepsPicture(props: { slug: string; drawn: Drawn; label: string; whole?: boolean }) {
+  const { slug, drawn, label, whole } = props;
   const map = useSiteMap(slug).data ?? null;
   const devices = useDevices(slug).data ?? [];
-  const answers = useWays(slug, item.definition).data;
+  const answers = useWays(slug, drawn).data;
   const paths = (answers ?? []).flatMap((answer) => (answer ? [answer.path] : []));
-  const used = devicesIn(item.definition);
+  const used = devicesIn(drawn);
   const shown = devices.filter((device) => used.includes(device.id));
-  const focus = focusOn(shown, paths);
-  return <StaticMap plan={map} devices={shown} routes={paths} focus={focus} label={item.name} />;
+  const focus = whole ? undefined : focusOn(shown, paths);
+  return <StaticMap plan={map} devices={shown} routes={paths} focus={focus} label={label} />;
 }

@@ -1,8 +1,11 @@
-/** What a function's picture shows: the machines it touches and the paths between them. Pure. */
-import type { Device, LibraryFunction, Place, Point, Step } from "@/api/types";
+/** What a small picture of steps shows: the machines it touches and the paths between them. Pure. */
+import type { Device, Place, Point, Step } from "@/api/types";
 import { boxAround, toPixels, type Box } from "@/map/plane/projection";
 
 const MARGIN_M = 1.6;
+
+/** A function's definition, or a whole document. */
+export type Drawn = { readonly steps: Readonly<Record<string, Step>> } | undefined;
 
 export interface PathWanted {
   readonly from: Place;
@@ -20,14 +23,14 @@ function deviceOf(place: unknown): string | null {
 const FIELDS = ["source", "target", "at", "to", "device"] as const;
 
 /** Ids of the devices that the steps name. */
-export function devicesIn(definition: LibraryFunction["definition"]): string[] {
+export function devicesIn(definition: Drawn): string[] {
   const steps = Object.values(definition?.steps ?? {});
   const named = steps.flatMap((step) => FIELDS.map((field) => deviceOf(step.params[field])));
   return [...new Set(named.filter((id) => id !== null))];
 }
 
 /** The paths its Pick-and-Drops take, where both ends are known. */
-export function pathsIn(definition: LibraryFunction["definition"]): PathWanted[] {
+export function pathsIn(definition: Drawn): PathWanted[] {
   const steps: Step[] = Object.values(definition?.steps ?? {});
   return steps
     .filter((step) => step.kind === "pick_and_drop")

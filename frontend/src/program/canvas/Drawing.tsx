@@ -109,6 +109,7 @@ function routeOpacity(state: StepState, guessed: boolean): number {
   if (guessed) return 0;
   if (state === "planned" || state === "skipped") return 0.45;
   if (state === "done") return 0.65;
+  if (state === "same") return 0.3;
   return 1;
 }
 
@@ -129,7 +130,7 @@ function LinkShape(props: { link: Link } & DrawingProps) {
   const near = [link.from, link.to].some((step) => step !== null && selected.has(step));
   const faint = link.tone === "then" && !near;
   const line = roundedPath([...link.points.slice(0, -1), towards(end, before, 5)], 10);
-  const planned = link.to !== null && stateOf(link.to) === "planned";
+  const planned = link.to !== null && ["planned", "same"].includes(stateOf(link.to) ?? "");
   return (
     <g
       className={classes.link}

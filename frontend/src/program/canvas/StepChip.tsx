@@ -7,7 +7,7 @@ import type { TextPart } from "../words/stepWords";
 import { cornerMark, type OtherPerson, type StepState } from "./stepState";
 import classes from "./stage.module.css";
 
-export type { OtherPerson, StepState } from "./stepState";
+export type { ComparedState, OtherPerson, StepState } from "./stepState";
 
 export interface StepChipProps {
   chip: Chip;

@@ -4,7 +4,9 @@ import { OctagonMark, TickMark } from "@/map/devices/StatusMark";
 import type { Chip } from "../scene/chips";
 import classes from "./stage.module.css";
 
-export type StepState = "planned" | "running" | "done" | "failed" | "skipped" | null;
+/** What happened to a step between two documents that are compared. */
+export type ComparedState = "added" | "removed" | "changed" | "moved" | "same";
+export type StepState = "planned" | "running" | "done" | "failed" | "skipped" | ComparedState | null;
 
 /** Somebody else who has the step selected. */
 export interface OtherPerson {

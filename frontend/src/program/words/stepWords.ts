@@ -11,8 +11,8 @@ export type { Speaker, Translate } from "./valueWords";
 
 export interface TextPart {
   readonly text: string;
-  /** A word that belongs to the kind and to no value of the step is a "word". */
-  readonly tone: "plain" | "word" | "missing" | "soft" | "mono";
+  /** A word that belongs to the kind and to no value of the step is a "word"; what stood there before is "old". */
+  readonly tone: "plain" | "word" | "missing" | "soft" | "mono" | "old";
   /** A colour to show before the text that names it. */
   readonly swatch?: string;
 }

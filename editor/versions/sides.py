@@ -1,0 +1,64 @@
+"""What is compared: two sides, each a version of a program or the program as it is drawn now."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+from uuid import UUID
+
+from editor import services
+from editor.errors import DocumentHole, NoSuchProgram, UnreadableVersion
+from editor.language.comparison.difference import Difference, compare
+from editor.programs.compilations import compile_program
+from editor.programs.views import VersionView
+
+Problem = Literal["", "missing", "unreadable"]
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """One side of a comparison; `version` is None for what is drawn now.
+
+    The compiled form is without diagnostics, of which `errors` is the number. Where there is a `problem` there is
+    neither a document nor its compiled form.
+    """
+
+    version: VersionView | None
+    document: Mapping[str, Any] | None
+    compiled: Mapping[str, Any] | None
+    problem: Problem
+    errors: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """Two sides, and how they differ where both can be read."""
+
+    old: Side
+    new: Side
+    difference: Difference | None
+
+
+def compare_sides(*, program_id: UUID, site: str, old: int | None, new: int | None) -> Comparison:
+    """Compare two versions of a program; None stands for what is drawn now. Raises NoSuchProgram."""
+    surroundings = services.build_surroundings(site=site)
+    sides = [_side(program_id, number, surroundings) for number in (old, new)]
+    documents = [side.document for side in sides]
+    readable = None not in documents
+    found = compare(documents[0] or {}, documents[1] or {}) if readable else None
+    return Comparison(sides[0], sides[1], found)
+
+
+def _side(program_id: UUID, number: int | None, surroundings: Any) -> Side:
+    try:
+        version = None if number is None else services.find_version(program_id=program_id, number=number)
+        document = services.get_document(program_id=program_id) if version is None else version.document
+    except (UnreadableVersion, DocumentHole):
+        return Side(None, None, None, "unreadable")
+    except NoSuchProgram:
+        services.get_program(program_id=program_id)  # of a program that is gone there is nothing to compare
+        return Side(None, None, None, "missing")
+    compilation = compile_program(document, surroundings)
+    form = {**compilation.compiled(), "diagnostics": []}
+    return Side(version, document, form, "", len(compilation.errors))

@@ -1,0 +1,248 @@
+/** Two states of a program compared: on the map, as a list of changes, as scripts beside each other. */
+import { ArrowLeft, History } from "lucide-react";
+import { type ReactNode, useEffect, useMemo, useState } from "react";
+import { useTranslation } from "react-i18next";
+import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
+import { Button } from "@mantine/core";
+import { missing } from "@/api/failed";
+import { useComparison, useDevices, useProgram, useProgramRuns, useSite, useSiteMap, useVersions } from "@/api/queries";
+import type { Comparison, ConstructChange, Device, Program, RunSummary, Site, Version } from "@/api/types";
+import { Chip } from "@/design/Chip";
+import { useSiteLive } from "@/live/site";
+import type { FloorPlan } from "@/map/floor/floor";
+import type { SiteDevice } from "@/program/surroundings";
+import { LoadProblem } from "@/shell/LoadProblem";
+import { Crumb, TopBar } from "@/shell/TopBar";
+import { ChangeList } from "./ChangeList";
+import { CompareHead } from "./CompareHead";
+import { CompareMap } from "./CompareMap";
+import styles from "./compare.module.css";
+import { keyOf, neighbour, type Shown, spotOf } from "./marks";
+import { RestoreDialog } from "./RestoreDialog";
+import { ScriptDifference } from "./ScriptDifference";
+import { DRAFT, sidesOf, versionOfSide } from "./sides";
+import { useCompareKeys } from "./useCompareKeys";
+import { NOTHING, type Pictures, usePictures } from "./usePictures";
+import { useRestore } from "./useRestore";
+
+const NO_DEVICES: Device[] = [];
+const NO_RUNS: RunSummary[] = [];
+const NO_CHANGES: readonly ConstructChange[] = [];
+
+export function CompareScreen() {
+  const { id } = useParams();
+  const program = useProgram(id);
+  const site = useSite(program.data?.site);
+  const versions = useVersions(id);
+  useSiteLive(program.data?.site);
+  const failed = missing(program, site) ?? (versions.data ? null : versions.error);
+  if (failed)
+    return (
+      <Frame>
+        {<LoadProblem error={failed} again={() => void [program, site, versions].map((q) => q.refetch())} />}
+      </Frame>
+    );
+  if (!program.data || !site.data || !versions.data) return <Frame waiting />;
+  return (
+    <Loaded
+      key={program.data.id}
+      program={program.data}
+      site={site.data}
+      versions={versions.data.pages.flatMap((page) => page.items)}
+    />
+  );
+}
+
+function Frame({ children, waiting }: { children?: ReactNode; waiting?: boolean }) {
+  const { t } = useTranslation();
+  return (
+    <div className={styles.screen}>
+      <TopBar site={undefined} />
+      <main className={styles.loading} role={waiting ? "status" : undefined}>
+        {waiting ? t("compare.loading") : children}
+      </main>
+    </div>
+  );
+}
+
+interface LoadedProps {
+  program: Program;
+  site: Site;
+  versions: readonly Version[];
+}
+
+/** What the address asks for, and the ways to ask for something else. */
+function useSides(program: Program, versions: readonly Version[]) {
+  const [address, setAddress] = useSearchParams();
+  const runs = useProgramRuns(program.site, program.id);
+  const sides = sidesOf(address, versions[0]?.number);
+  const known = runs.data ?? NO_RUNS;
+  const numbers = [sides.old, sides.new].map((side) => versionOfSide(side, known));
+  const waits = runs.isPending && numbers.includes(null);
+  const choose = (next: { old: string; new: string }) => setAddress(next, { replace: true });
+  // A run that has no version is asked for as one that is not there: the other side is shown beside that sentence.
+  const asked = waits ? null : ([numbers[0] ?? "0", numbers[1] ?? "0"] as const);
+  return { sides, runs: known, asked, choose };
+}
+
+function Loaded({ program, site, versions }: LoadedProps) {
+  const { t } = useTranslation();
+  const { sides, runs, asked, choose } = useSides(program, versions);
+  const comparison = useComparison(program.id, asked);
+  const devices = useDevices(site.slug).data ?? NO_DEVICES;
+  useEffect(() => {
+    document.title = `${t("compare.title")} · ${program.name} · VIPO`;
+  }, [t, program.name]);
+  return (
+    <div className={styles.screen}>
+      <CompareTop program={program} site={site} />
+      <main className={styles.body}>
+        {comparison.error && !comparison.data ? (
+          <div className={styles.loading}>
+            <LoadProblem error={comparison.error} again={() => void comparison.refetch()} />
+          </div>
+        ) : (
+          <Compared
+            {...{ program, site, versions, runs, sides, choose, devices }}
+            asked={asked}
+            comparison={comparison.data}
+          />
+        )}
+      </main>
+    </div>
+  );
+}
+
+function CompareTop({ program, site }: { program: Program; site: Site }) {
+  const { t } = useTranslation();
+  const navigate = useNavigate();
+  return (
+    <TopBar
+      site={site.slug}
+      crumbs={
+        <>
+          <Crumb to={`/sites/${site.slug}/programs`}>{site.name}</Crumb>
+          <Crumb to={`/programs/${program.id}`}>{program.name}</Crumb>
+          <Crumb>{t("compare.title")}</Crumb>
+        </>
+      }
+      chips={
+        <Link to={`/sites/${site.slug}/history/${program.id}`} className={styles.chipLink}>
+          <Chip tone="plain">
+            <History size={14} aria-hidden="true" />
+            <span className={styles.words}>{t("compare.history")}</span>
+          </Chip>
+        </Link>
+      }
+      actions={
+        <Button
+          variant="default"
+          className={styles.sign}
+          title={t("compare.back")}
+          leftSection={<ArrowLeft size={16} aria-hidden="true" />}
+          onClick={() => void navigate(`/programs/${program.id}`)}
+        >
+          <span className={styles.words}>{t("compare.back")}</span>
+        </Button>
+      }
+    />
+  );
+}
+
+interface ComparedProps extends LoadedProps {
+  runs: readonly RunSummary[];
+  sides: { old: string; new: string };
+  asked: readonly [string, string] | null;
+  choose: (next: { old: string; new: string }) => void;
+  devices: readonly SiteDevice[];
+  comparison: Comparison | undefined;
+}
+
+/** What is chosen, and how often: choosing it once more brings it into sight again. */
+function useChoice(changes: readonly ConstructChange[]) {
+  const [choice, setChoice] = useState<{ key: string | null; round: number }>({ key: null, round: 0 });
+  const order = useMemo(() => changes.map(keyOf), [changes]);
+  const chosen = choice.key !== null && order.includes(choice.key) ? choice.key : null;
+  const choose = (key: string | null) => setChoice(({ round }) => ({ key, round: round + 1 }));
+  return {
+    order,
+    chosen,
+    round: choice.round,
+    choose,
+    walk: (by: 1 | -1) => choose(neighbour(order, chosen, by)),
+    change: changes.find((each) => keyOf(each) === chosen) ?? null,
+  };
+}
+
+/** Restoring goes from a version on the old side into what is drawn now; null where there is no such way. */
+function useOffer({ program, site, sides, asked, choose, comparison }: ComparedProps) {
+  const from = asked && asked[0] !== DRAFT && comparison?.old.problem === "" ? Number(asked[0]) : null;
+  const toDraft = () => choose({ old: sides.old, new: DRAFT });
+  const restore = useRestore(program.id, from, sides.new !== DRAFT, toDraft);
+  const canEdit = site.role === "author" || site.role === "admin";
+  return { from, restore, canEdit, offered: canEdit && from !== null ? restore : null };
+}
+
+function Compared(props: ComparedProps) {
+  const { site, versions, runs, sides, choose, devices, comparison } = props;
+  const plan = useSiteMap(site.has_map ? site.slug : undefined).data ?? null;
+  const [shown, setShown] = useState<Shown>("both");
+  const pictures = usePictures(site.slug, plan, devices, comparison, shown);
+  const choice = useChoice(comparison?.difference?.constructs ?? NO_CHANGES);
+  const { order, chosen, change } = choice;
+  const { from, restore, offered, canEdit } = useOffer(props);
+  useCompareKeys({
+    walk: choice.walk,
+    restore: () => change && offered?.ask({ what: "construct", change }),
+    undo: restore.undo,
+  });
+  const rest = order.length > 0 ? offered : null;
+  return (
+    <>
+      <CompareHead {...{ versions, runs, sides, choose, shown, setShown, comparison }} restore={rest} />
+      <MapOf {...{ plan, devices, comparison, pictures, choice }} />
+      <ChangeList
+        {...{ comparison, pictures, chosen, canEdit }}
+        walk={choice.walk}
+        restore={offered}
+        onChoose={choice.choose}
+      />
+      <ScriptDifference pictures={pictures} chosen={change} onChoose={choice.choose} known={order} />
+      <RestoreDialog restore={restore} version={from} pictures={pictures} />
+    </>
+  );
+}
+
+interface MapOfProps {
+  plan: FloorPlan | null;
+  devices: readonly SiteDevice[];
+  comparison: Comparison | undefined;
+  pictures: Pictures;
+  choice: ReturnType<typeof useChoice>;
+}
+
+function MapOf({ plan, devices, comparison, pictures, choice }: MapOfProps) {
+  const { t } = useTranslation();
+  const { change, chosen, round } = choice;
+  return (
+    <section className={styles.map} aria-label={t("compare.map")}>
+      {comparison ? (
+        <CompareMap
+          plan={plan}
+          devices={devices}
+          difference={comparison.difference ?? NOTHING}
+          pictures={pictures}
+          chosen={chosen}
+          round={round}
+          spot={change ? spotOf(change, pictures.old.scene, pictures.new.scene) : null}
+          label={t("compare.map")}
+          onChoose={choice.choose}
+        />
+      ) : (
+        <p className={styles.loading} role="status">
+          {t("compare.loading")}
+        </p>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,38 @@
+import { expect, test } from "vitest";
+import type { RunSummary } from "@/api/types";
+import { compareAddress, DRAFT, runsByVersion, runSide, sidesOf, versionOfSide, versionTitle } from "./sides";
+
+const run = (id: string, version: number | null) => ({ id, version }) as RunSummary;
+
+test("a side is a version, what is drawn now, or what a run ran", () => {
+  const runs = [run("r1", 3), run("r2", null)];
+  expect(versionOfSide("7", runs)).toBe("7");
+  expect(versionOfSide(DRAFT, runs)).toBe("draft");
+  expect(versionOfSide(runSide("r1"), runs)).toBe("3");
+  expect(versionOfSide(runSide("r2"), runs)).toBeNull();
+  expect(versionOfSide(runSide("gone"), runs)).toBeNull();
+  for (const nonsense of ["", "0", "-1", "7b", "<script>", "99999999999"])
+    expect(versionOfSide(nonsense, [])).toBeNull();
+});
+
+test("an address that names no sides compares the newest version with what is drawn now", () => {
+  expect(sidesOf(new URLSearchParams(), 4)).toEqual({ old: "4", new: "draft" });
+  expect(sidesOf(new URLSearchParams(), undefined)).toEqual({ old: "draft", new: "draft" });
+  const address = new URL(compareAddress("p", "2", runSide("r1")), "http://here").searchParams;
+  expect(sidesOf(address, 4)).toEqual({ old: "2", new: "run:r1" });
+});
+
+test("the runs of a version stay in their order, and a run without one is of none", () => {
+  const found = runsByVersion([run("r3", 2), run("r2", 1), run("r1", 2), run("r0", null)]);
+  expect([...found].map(([number, runs]) => [number, runs.map((each) => each.id)])).toEqual([
+    [2, ["r3", "r1"]],
+    [1, ["r2"]],
+  ]);
+});
+
+test("a version without a name says why it was made", () => {
+  const t = (key: string) => key;
+  expect(versionTitle({ name: "Checked", cause: "run" }, t)).toBe("Checked");
+  expect(versionTitle({ name: "", cause: "run" }, t)).toBe("compare.cause.run");
+  expect(versionTitle({ name: "", cause: "" }, t)).toBe("compare.unnamed");
+});

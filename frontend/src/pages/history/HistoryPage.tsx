@@ -1,0 +1,88 @@
+/** The versions of a program: who drew them and when, what they are about, which runs used them. */
+import { Button } from "@mantine/core";
+import { History } from "lucide-react";
+import { useTranslation } from "react-i18next";
+import { Link, useParams } from "react-router-dom";
+import { missing } from "@/api/failed";
+import { useProgram, useProgramRuns, useSite, useVersions } from "@/api/queries";
+import type { Program, Site } from "@/api/types";
+import { runsByVersion } from "@/compare/sides";
+import { EmptyState } from "@/design/EmptyState";
+import { Panel } from "@/design/Panel";
+import { LoadProblem } from "@/shell/LoadProblem";
+import { PageShell } from "@/shell/PageShell";
+import { mayEdit } from "../programs/NewProgram";
+import { TableSkeleton } from "../TableSkeleton";
+import styles from "./history.module.css";
+import { SaveVersion } from "./SaveVersion";
+import { VersionRow } from "./VersionRow";
+
+export function HistoryPage() {
+  const { slug = "", id = "" } = useParams();
+  const { t } = useTranslation();
+  const program = useProgram(id);
+  const site = useSite(slug);
+  const failed = missing(program, site);
+  const title = program.data ? t("history.of", { name: program.data.name }) : t("history.title");
+  return (
+    <PageShell
+      title={title}
+      actions={program.data && site.data ? <Actions program={program.data} site={site.data} /> : null}
+    >
+      {failed ? (
+        <LoadProblem error={failed} again={() => void [program, site].map((query) => query.refetch())} />
+      ) : null}
+      {program.data && site.data ? <Versions key={id} program={program.data} site={site.data} /> : null}
+      {failed || (program.data && site.data) ? null : <TableSkeleton />}
+    </PageShell>
+  );
+}
+
+function Actions({ program, site }: { program: Program; site: Site }) {
+  const { t } = useTranslation();
+  return (
+    <>
+      <Button variant="default" component={Link} to={`/programs/${program.id}`}>
+        {t("history.open")}
+      </Button>
+      {mayEdit(site.role) ? <SaveVersion program={program} /> : null}
+    </>
+  );
+}
+
+function Versions({ program, site }: { program: Program; site: Site }) {
+  const { t } = useTranslation();
+  const query = useVersions(program.id);
+  const runs = useProgramRuns(site.slug, program.id);
+  if (query.isPending) return <TableSkeleton />;
+  if (query.isLoadingError) return <LoadProblem error={query.error} again={() => void query.refetch()} />;
+  const versions = query.data.pages.flatMap((page) => page.items);
+  const used = runsByVersion(runs.data ?? []);
+  if (versions.length === 0)
+    return (
+      <Panel>
+        <EmptyState icon={<History size={20} />} title={t("history.empty")} text={t("history.empty_text")} />
+      </Panel>
+    );
+  return (
+    <>
+      <ol className={styles.versions}>
+        {versions.map((version, at) => (
+          <VersionRow
+            key={version.number}
+            version={version}
+            before={versions[at + 1]?.number ?? (version.number > 1 ? version.number - 1 : null)}
+            runs={used.get(version.number) ?? []}
+            program={program}
+            site={site}
+          />
+        ))}
+      </ol>
+      {query.hasNextPage ? (
+        <Button variant="default" loading={query.isFetchingNextPage} onClick={() => void query.fetchNextPage()}>
+          {t("history.older")}
+        </Button>
+      ) : null}
+    </>
+  );
+}

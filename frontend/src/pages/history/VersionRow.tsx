@@ -1,0 +1,166 @@
+/** One version: its picture, its name, who drew it, when, which runs used it, and what can be done with it. */
+import { Button, Menu } from "@mantine/core";
+import { Copy, Ellipsis, FileCode, FileJson, GitCompareArrows, Pencil, Play } from "lucide-react";
+import { useEffect, useRef, useState } from "react";
+import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
+import { useVersion } from "@/api/queries";
+import type { Program, RunSummary, Site, Version } from "@/api/types";
+import { compareAddress, DRAFT, versionTitle } from "@/compare/sides";
+import { Avatar } from "@/design/Avatar";
+import { IconButton } from "@/design/IconButton";
+import { StatusBadge } from "@/design/StatusBadge";
+import { formatMoment } from "@/i18n/format";
+import { StepsPicture } from "../library/FunctionPicture";
+import { mayEdit } from "../programs/NewProgram";
+import { statusOfRun } from "../runs/runStatus";
+import { CopyVersion } from "./CopyVersion";
+import styles from "./history.module.css";
+import { NameVersion } from "./NameVersion";
+import { RunVersion } from "./RunVersion";
+
+/** More runs than this are counted, not named. */
+const MOST_NAMED = 3;
+
+interface RowProps {
+  version: Version;
+  /** The number of the version before; null for the first. */
+  before: number | null;
+  runs: readonly RunSummary[];
+  program: Program;
+  site: Site;
+}
+
+export function VersionRow(props: RowProps) {
+  const { version, before, program } = props;
+  const { t } = useTranslation();
+  const drew = version.authors.map((each) => each.name).join(", ");
+  return (
+    <li className={styles.version}>
+      <Thumbnail {...props} />
+      <div className={styles.about}>
+        <h2>
+          <b>{`v${version.number}`}</b> {versionTitle(version, (key) => String(t(key)))}
+        </h2>
+        {version.message ? <p>{version.message}</p> : null}
+        <p className={styles.people}>
+          {version.author ? <Avatar name={version.author.name} initials={version.author.initials} size={20} /> : null}
+          {[version.author?.name, formatMoment(version.created_at)].filter(Boolean).join(", ")}
+          {drew && drew !== version.author?.name ? <small>{t("history.drew", { people: drew })}</small> : null}
+        </p>
+        <Runs runs={props.runs} />
+      </div>
+      <div className={styles.does}>
+        <Button
+          variant="default"
+          component={Link}
+          leftSection={<GitCompareArrows size={15} aria-hidden="true" />}
+          to={compareAddress(program.id, String(version.number), DRAFT)}
+        >
+          {t("history.compare_draft")}
+        </Button>
+        {before === null ? null : (
+          <Link className={styles.link} to={compareAddress(program.id, String(before), String(version.number))}>
+            {t("history.compare_before", { number: before })}
+          </Link>
+        )}
+      </div>
+      <More {...props} />
+    </li>
+  );
+}
+
+/** The program as it was; fetched when the row comes into sight. */
+function Thumbnail({ version, program, site }: RowProps) {
+  const { t } = useTranslation();
+  const [element, seen] = useSeen<HTMLDivElement>();
+  const whole = useVersion(program.id, version.number, seen).data;
+  return (
+    <div ref={element} className={styles.thumbnail}>
+      {whole ? (
+        <StepsPicture
+          slug={site.slug}
+          drawn={whole.document}
+          label={t("history.picture", { number: version.number })}
+          whole
+        />
+      ) : null}
+    </div>
+  );
+}
+
+function useSeen<T extends Element>() {
+  const element = useRef<T>(null);
+  const [seen, setSeen] = useState(false);
+  useEffect(() => {
+    if (!element.current || seen) return;
+    const watch = new IntersectionObserver((entries) => {
+      if (entries.some((entry) => entry.isIntersecting)) setSeen(true);
+    });
+    watch.observe(element.current);
+    return () => watch.disconnect();
+  }, [seen]);
+  return [element, seen] as const;
+}
+
+function Runs({ runs }: { runs: readonly RunSummary[] }) {
+  const { t } = useTranslation();
+  if (runs.length === 0) return <p className={styles.runs}>{t("history.no_runs")}</p>;
+  return (
+    <p className={styles.runs}>
+      {runs.slice(0, MOST_NAMED).map((run) => (
+        <Link key={run.id} className={styles.link} to={`/runs/${run.id}`}>
+          <StatusBadge status={statusOfRun(run)}>{t("history.run", { number: run.number })}</StatusBadge>
+        </Link>
+      ))}
+      {runs.length > MOST_NAMED ? <span>{t("history.runs", { count: runs.length })}</span> : null}
+    </p>
+  );
+}
+
+type Asks = "name" | "copy" | "run" | null;
+
+function More({ version, program, site }: RowProps) {
+  const { t } = useTranslation();
+  const [asks, setAsks] = useState<Asks>(null);
+  const close = () => setAsks(null);
+  const draws = mayEdit(site.role);
+  const file = `/api/programs/${program.id}/versions/${version.number}/export`;
+  return (
+    <>
+      <Menu position="bottom-end" width={240}>
+        <Menu.Target>
+          <IconButton label={t("history.more", { number: version.number })}>
+            <Ellipsis size={17} aria-hidden="true" />
+          </IconButton>
+        </Menu.Target>
+        <Menu.Dropdown>
+          {site.role === "viewer" ? null : (
+            <Menu.Item leftSection={<Play size={15} />} onClick={() => setAsks("run")}>
+              {t("history.run_it", { number: version.number })}
+            </Menu.Item>
+          )}
+          {draws ? (
+            <>
+              <Menu.Item leftSection={<Pencil size={15} />} onClick={() => setAsks("name")}>
+                {t("history.rename")}
+              </Menu.Item>
+              <Menu.Item leftSection={<Copy size={15} />} onClick={() => setAsks("copy")}>
+                {t("history.copy")}
+              </Menu.Item>
+            </>
+          ) : null}
+          <Menu.Item component="a" href={file} leftSection={<FileJson size={15} />}>
+            {t("history.export")}
+          </Menu.Item>
+          <Menu.Item component="a" href={`${file}?form=script`} leftSection={<FileCode size={15} />}>
+            {t("history.export_script")}
+          </Menu.Item>
+        </Menu.Dropdown>
+      </Menu>
+      {asks === "name" ? <NameVersion {...{ version, program }} onClose={close} /> : null}
+      {asks === "copy" ? <CopyVersion {...{ version, program }} onClose={close} /> : null}
+      {asks === "run" ? <RunVersion {...{ version, program }} onClose={close} /> : null}
+    </>
+  );
+}
