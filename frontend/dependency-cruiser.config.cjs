@@ -13,7 +13,9 @@ const ROOMS = [
 ];
 const EDITOR = [
   ["parts"],
-  ["inspector", "gestures", "zones", "script"],
+  ["inspector"],
+  ["commands"],
+  ["gestures", "zones", "script"],
   ["canvas"],
   ["state"],
   ["shared"],

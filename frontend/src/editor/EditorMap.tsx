@@ -25,6 +25,7 @@ import { KeepInView } from "./canvas/KeepInView";
 import { joinByDot } from "./gestures/connection";
 import { JoinLine } from "./gestures/JoinLine";
 import { RouteBends } from "./gestures/RouteBends";
+import { StageAtHand } from "./gestures/StageAtHand";
 import { settle } from "./state/actions";
 import { useGestures } from "./state/gestures";
 import { Cursors } from "./canvas/Cursors";
@@ -82,6 +83,7 @@ export function EditorMap({ insets, fitInsets, small }: EditorMapProps) {
       plane={<Plane drawing={drawing} />}
     >
       <FollowView />
+      <StageAtHand />
       {small ? <KeepInView /> : null}
       <Ghosts />
       <Cursors shared={shared} />

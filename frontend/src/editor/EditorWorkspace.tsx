@@ -3,10 +3,10 @@ import { useMediaQuery } from "@mantine/hooks";
 import { type CSSProperties, useEffect, useMemo } from "react";
 import type { Insets } from "@/map/plane/projection";
 import classes from "./editor.module.css";
+import { ContextMenu } from "./commands/ContextMenu";
+import { useCommandKeys } from "./commands/keys";
 import { EditorMap } from "./EditorMap";
 import { useClipboard } from "./gestures/clipboard";
-import { useGestureKeys } from "./gestures/keys";
-import { StepMenu } from "./gestures/StepMenu";
 import { Inspector } from "./inspector/Inspector";
 import { Dialogs } from "./dialogs/Dialogs";
 import { Drawer } from "./parts/Drawer";
@@ -19,15 +19,13 @@ import { ROW_PX, useToolRows } from "./parts/toolRows";
 import { pasteIfScript } from "./script/pastedScript";
 import { useOpenProgram } from "./state/context";
 import { resetGestures } from "./state/gestures";
-import { useShortcuts } from "./state/shortcuts";
 import { useUi } from "./state/ui";
-import { useZoneKeys } from "./zones/zoneTool";
+import { useRunning } from "./state/useRunning";
 import { ZoneForm } from "./zones/ZoneForm";
 
 const FITTED: Insets = { left: 100, right: 336, top: 34, bottom: 300 };
 
 export function EditorWorkspace() {
-  useShortcuts();
   useGestureInput();
   const small = useMediaQuery("(max-width: 1179px)") ?? false;
   const drawerOpen = useUi((ui) => ui.drawer.open);
@@ -68,7 +66,7 @@ export function EditorWorkspace() {
             <ProgramButton small={small} shown={inspector} />
             {inspector ? <Inspector /> : null}
             <ZoneForm />
-            <StepMenu />
+            <ContextMenu />
             <Drawer small={small} />
           </>
         ) : null}
@@ -81,8 +79,8 @@ export function EditorWorkspace() {
 /** The keys and the clipboard of the gestures, for as long as the editor is on the screen. */
 function useGestureInput(): void {
   const open = useOpenProgram();
-  useGestureKeys(open);
-  useZoneKeys(open);
+  useCommandKeys(open);
+  useRunning(open);
   useClipboard(open, pasteIfScript);
   useEffect(() => resetGestures, [open.program.id]);
 }

@@ -2,6 +2,8 @@
 import { Search } from "lucide-react";
 import { lazy, Suspense, useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
+import { nameOfKeys } from "./keys/keyNames";
+import { PALETTE } from "./keys/shellCommands";
 import styles from "./sidebar.module.css";
 
 const JumpPalette = lazy(async () => ({ default: (await import("./JumpPalette")).JumpPalette }));
@@ -11,7 +13,7 @@ export function JumpButton({ slug }: { slug: string | undefined }) {
   const [opened, setOpened] = useState(false);
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
-      if (event.key.toLowerCase() !== "k" || !(event.ctrlKey || event.metaKey)) return;
+      if (!PALETTE.keys.includes(nameOfKeys(event))) return;
       event.preventDefault();
       setOpened(true);
     };

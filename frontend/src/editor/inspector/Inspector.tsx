@@ -197,7 +197,7 @@ function Several({ count }: { count: number }) {
           </Button>
           {canLimit(open, selected) ? (
             <Button variant="default" onClick={() => limitSteps(open, selected)}>
-              {t("gesture.command.limit")}
+              {t("inspector.limit")}
             </Button>
           ) : null}
           <Button variant="default" onClick={() => duplicateSelected(document, apply)}>

@@ -3,7 +3,16 @@ import type { ProgramDocument, Position } from "@/program/document/document";
 import type { BranchRef } from "@/program/document/tree";
 import { clip, type Clipping, paste } from "../edits/clipping";
 import type { Decision, Edit } from "../edits/edits";
-import { addStep, branchForNew, branchOf, deleteSteps, endOfBranch, type Goal, type NewStep } from "../edits/joints";
+import {
+  addStep,
+  branchForNew,
+  branchOf,
+  deleteSteps,
+  endOfBranch,
+  type Goal,
+  type NewStep,
+  shiftStep,
+} from "../edits/joints";
 import { wrapIn } from "../edits/branches";
 import { changedSince } from "../edits/undo";
 import type { OpenProgram } from "./context";
@@ -26,7 +35,9 @@ export function branchNow(document: ProgramDocument): BranchRef {
 /** Make a step, select it, and put the tool away unless it is locked. */
 export function createStep(document: ProgramDocument, apply: Apply, fresh: Omit<NewStep, "id">): string {
   const id = makeId();
-  apply(addStep(document, branchNow(document), { ...fresh, id }));
+  const { into } = useUi.getState();
+  const where = into?.after === undefined ? branchNow(document) : { branch: into.branch, after: into.after };
+  apply(addStep(document, where, { ...fresh, id }));
   useUi.setState((ui) => ({ gesture: finish(ui.gesture) }));
   select([id]);
   useUi.setState({ fresh: id, inspector: true });
@@ -106,4 +117,14 @@ export function limitSteps(open: OpenProgram, ids: readonly string[]): void {
   if (!settle(open, wrapIn(open.document, ids, { id, kind: "limit", params: {} }))) return;
   select([id]);
   useUi.setState({ fresh: id, inspector: true });
+}
+
+/** One place up or down in the order. */
+export function shiftInOrder(
+  { document, apply }: Pick<OpenProgram, "document" | "apply">,
+  id: string,
+  by: -1 | 1,
+): void {
+  const decision = shiftStep(document, id, by);
+  if ("edits" in decision) apply(decision.edits);
 }

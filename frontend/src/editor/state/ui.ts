@@ -13,17 +13,39 @@ export interface FieldPick {
   readonly choose: (device: string) => void;
 }
 
+export interface NextPlace {
+  readonly branch: BranchRef;
+  readonly link: string;
+  readonly word: string;
+  /** Behind this step, or at the beginning with null; at the end of the branch where it is not said. */
+  readonly after?: string | null;
+}
+
+/** Where a step is added from the short list, and what stands there. */
+export interface QuickAdd {
+  /** Pixels of the window. */
+  readonly x: number;
+  readonly y: number;
+  /** Metres. */
+  readonly at: readonly [number, number];
+  readonly device: string | null;
+}
+
 export interface EditorUi {
   gesture: Gesture;
   selected: readonly string[];
   /** The branch that the next step goes into, where it is not the selected step's. */
-  into: { readonly branch: BranchRef; readonly link: string; readonly word: string } | null;
+  into: NextPlace | null;
   /** The step made last, until something else is selected. */
   fresh: string | null;
   drawer: { readonly open: boolean; readonly tab: DrawerTab };
   inspector: boolean;
   /** On small screens: the sheet of the program itself. */
   programSheet: boolean;
+  /** The device whose panel is open. */
+  device: string | null;
+  /** The list of constructs at a point of the map is open. */
+  quick: QuickAdd | null;
   /** The list of all constructs is open. */
   more: boolean;
   dialog: Dialog;
@@ -43,6 +65,8 @@ const START: EditorUi = {
   drawer: { open: true, tab: "script" },
   inspector: true,
   programSheet: false,
+  device: null,
+  quick: null,
   more: false,
   dialog: null,
   dialogFunction: null,
@@ -68,6 +92,7 @@ export function select(ids: readonly string[]): void {
     selected: ids,
     fresh: ui.fresh !== null && ids.includes(ui.fresh) ? ui.fresh : null,
     into: null,
+    device: ids.length > 0 ? null : ui.device,
     inspector: ids.length > 0 || ui.inspector,
     programSheet: ids.length === 0 && ui.programSheet,
   }));
