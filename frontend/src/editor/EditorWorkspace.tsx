@@ -5,6 +5,7 @@ import type { Insets } from "@/map/plane/projection";
 import classes from "./editor.module.css";
 import { ContextMenu } from "./commands/ContextMenu";
 import { useCommandKeys } from "./commands/keys";
+import { usePaletteOffer } from "./commands/offer";
 import { EditorMap } from "./EditorMap";
 import { useClipboard } from "./gestures/clipboard";
 import { Inspector } from "./inspector/Inspector";
@@ -14,6 +15,7 @@ import { EditorTop } from "./parts/EditorTop";
 import { NotTaken } from "./parts/NotTaken";
 import { Unopened } from "./parts/Unopened";
 import { EmptyProgram, HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
+import { QuickAdd } from "./parts/QuickAdd";
 import { ToolRail } from "./parts/ToolRail";
 import { ROW_PX, useToolRows } from "./parts/toolRows";
 import { pasteIfScript } from "./script/pastedScript";
@@ -67,6 +69,7 @@ export function EditorWorkspace() {
             {inspector ? <Inspector /> : null}
             <ZoneForm />
             <ContextMenu />
+            <QuickAdd />
             <Drawer small={small} />
           </>
         ) : null}
@@ -81,6 +84,7 @@ function useGestureInput(): void {
   const open = useOpenProgram();
   useCommandKeys(open);
   useRunning(open);
+  usePaletteOffer(open);
   useClipboard(open, pasteIfScript);
   useEffect(() => resetGestures, [open.program.id]);
 }

@@ -6,12 +6,14 @@ import { DRAW_COMMANDS } from "./drawing";
 import { EDIT_COMMANDS } from "./editing";
 import { GO_COMMANDS } from "./going";
 import { showMenuByKey } from "./menu";
+import { MACHINE_COMMANDS } from "./machine";
 import { ORDER_COMMANDS } from "./order";
 import { PROGRAM_COMMANDS } from "./program";
 import { VIEW_COMMANDS } from "./view";
 
 export const COMMANDS: readonly Command[] = [
   ...DRAW_COMMANDS,
+  ...MACHINE_COMMANDS,
   ...EDIT_COMMANDS,
   ...ORDER_COMMANDS,
   ...ARRANGE_COMMANDS,

@@ -12,6 +12,7 @@ const LOAD = {
   library: () => import("./LibraryDialog").then(({ LibraryDialog }) => ({ default: LibraryDialog })),
   save_function: () =>
     import("./SaveFunctionDialog").then(({ SaveFunctionDialog }) => ({ default: SaveFunctionDialog })),
+  find: () => import("./FindDialog").then(({ FindDialog }) => ({ default: FindDialog })),
   shortcuts: () => import("./ShortcutsDialog").then(({ ShortcutsDialog }) => ({ default: ShortcutsDialog })),
 };
 const DIALOGS: Record<Name, ComponentType> = {
@@ -19,6 +20,7 @@ const DIALOGS: Record<Name, ComponentType> = {
   function: lazy(LOAD.function),
   library: lazy(LOAD.library),
   save_function: lazy(LOAD.save_function),
+  find: lazy(LOAD.find),
   shortcuts: lazy(LOAD.shortcuts),
 };
 /** So long after the program has come its dialogs are fetched, so that the first one opens at once. */

@@ -5,7 +5,7 @@ import type { Clipping } from "../edits/clipping";
 import { RESTING, type Gesture } from "./tool";
 
 export type DrawerTab = "script" | "problems" | "steps";
-export type Dialog = "run" | "function" | "library" | "save_function" | "shortcuts" | null;
+export type Dialog = "run" | "function" | "library" | "save_function" | "shortcuts" | "find" | null;
 
 /** A field of the inspector that waits for a press on a device. */
 export interface FieldPick {
@@ -51,6 +51,8 @@ export interface EditorUi {
   dialog: Dialog;
   /** The function that "save_function" is about. */
   dialogFunction: string | null;
+  /** What "find" begins with: the id of a device, or nothing. */
+  find: string;
   fieldPick: FieldPick | null;
   clipboard: Clipping | null;
   collapsed: ReadonlySet<string>;
@@ -70,6 +72,7 @@ const START: EditorUi = {
   more: false,
   dialog: null,
   dialogFunction: null,
+  find: "",
   fieldPick: null,
   clipboard: null,
   collapsed: new Set(),
