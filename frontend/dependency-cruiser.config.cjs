@@ -3,6 +3,7 @@ const ROOMS = [
   ["app"],
   ["pages"],
   ["run", "simulation", "editor"],
+  ["device"],
   ["shell"],
   ["program"],
   ["live"],

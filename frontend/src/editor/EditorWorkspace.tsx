@@ -34,7 +34,8 @@ export function EditorWorkspace() {
   const selected = useUi((ui) => ui.selected.length > 0);
   const resting = useUi((ui) => ui.gesture.tool === "select");
   // The program itself is shown beside a resting hand only: while something is drawn the map needs the room.
-  const wanted = useUi((ui) => (small && !selected ? ui.programSheet : ui.inspector));
+  const device = useUi((ui) => ui.device !== null);
+  const wanted = useUi((ui) => (small && !selected && !device ? ui.programSheet : ui.inspector));
   const { loaded, canEdit } = useOpenProgram();
   const lifted = (useToolRows(canEdit) - 1) * ROW_PX;
   const inspector = loaded && wanted && (selected || resting);

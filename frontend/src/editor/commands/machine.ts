@@ -8,7 +8,7 @@ import { freeSpot } from "../state/freeSpot";
 import { lastPointer } from "../state/screen";
 import { onScreen, underPointer } from "../state/under";
 import { toMetres } from "@/map/plane/projection";
-import { useUi } from "../state/ui";
+import { showDevice, useUi } from "../state/ui";
 import { command, needsRight, vipoIcon, type Command, type On } from "./command";
 
 function deviceOf({ surroundings }: OpenProgram, { device }: On): SiteDevice | undefined {
@@ -92,7 +92,10 @@ export const MACHINE_COMMANDS: readonly Command[] = [
     icon: MonitorCog,
     menus: ["machine"],
     whyNot: (open, on) => (deviceOf(open, on) ? null : "commands.why.no_device"),
-    run: (open, on) => useUi.setState({ device: deviceOf(open, on)?.id ?? null, selected: [], inspector: true }),
+    run: (open, on) => {
+      const device = deviceOf(open, on);
+      if (device) showDevice(device.id);
+    },
   }),
   command({
     id: "find_uses",

@@ -12,7 +12,7 @@ import type { OpenProgram } from "../state/context";
 import { focusMap } from "../state/focus";
 import { useGestures } from "../state/gestures";
 import { useScreen } from "../state/screen";
-import { select, useUi } from "../state/ui";
+import { select, showDevice } from "../state/ui";
 import { selection, vipoIcon, type Command } from "./command";
 import { type Drawable, drawablesAnywhere, drawablesOf, nowhere } from "./drawables";
 import { runCommand } from "./keys";
@@ -83,8 +83,7 @@ function deviceTargets({ devices, t }: OpenProgram): Target[] {
     detail: t("device_here"),
     icon: Cpu,
     run: () => {
-      select([]);
-      useUi.setState({ device: device.id });
+      showDevice(device.id);
       goTo([device.location.x, device.location.y]);
     },
   }));

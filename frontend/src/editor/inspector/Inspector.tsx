@@ -21,6 +21,7 @@ import { ForEachForm, ReturnForm } from "./forms/flowForms";
 import { TryForm } from "./forms/TryForm";
 import { LoadForm } from "./forms/LoadForm";
 import { OperateForm } from "./forms/OperateForm";
+import { DevicePanel } from "./DevicePanel";
 import { ProgramPanel } from "./ProgramPanel";
 import { ParallelForm, WaitForm } from "./forms/smallForms";
 import classes from "../panel.module.css";
@@ -30,10 +31,12 @@ export function Inspector() {
   const { document } = useOpenProgram();
   const selected = useUi((ui) => ui.selected);
   const zone = useGestures((ui) => ui.zone);
+  const device = useUi((ui) => ui.device);
   const id = selected.at(-1);
   const step = id ? document.steps[id] : undefined;
   if (selected.length > 1) return <Several count={selected.length} />;
   if (id && step) return <One key={id} id={id} />;
+  if (device !== null) return <DevicePanel key={device} id={device} />;
   return zone === null ? <ProgramPanel /> : null;
 }
 

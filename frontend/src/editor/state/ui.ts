@@ -95,10 +95,16 @@ export function select(ids: readonly string[]): void {
     selected: ids,
     fresh: ui.fresh !== null && ids.includes(ui.fresh) ? ui.fresh : null,
     into: null,
-    device: ids.length > 0 ? null : ui.device,
+    device: null,
     inspector: ids.length > 0 || ui.inspector,
     programSheet: ids.length === 0 && ui.programSheet,
   }));
+}
+
+/** Open the panel of a machine or robot. */
+export function showDevice(device: string): void {
+  select([]);
+  useUi.setState({ device, inspector: true });
 }
 
 export function toggleSelected(id: string): void {

@@ -7,10 +7,10 @@ import { StatusBadge } from "@/design/StatusBadge";
 import { formatNumber } from "@/i18n/format";
 import { unitSign } from "@/i18n/units";
 import { useNow } from "@/design/useNow";
-import { isOnline } from "../filter";
+import { isOnline } from "../online";
 import { Sparkline } from "./Sparkline";
 import { RANGES, type Range } from "./useHistory";
-import styles from "../detail.module.css";
+import styles from "./readings.module.css";
 
 const COLOURS = ["var(--busy)", "var(--machine)", "var(--brand)", "var(--logic)"];
 

@@ -10,7 +10,7 @@ import { Avatar } from "@/design/Avatar";
 import { Panel } from "@/design/Panel";
 import { deviceEventWords } from "@/i18n/deviceEvents";
 import { formatMoment } from "@/i18n/format";
-import styles from "../detail.module.css";
+import styles from "./history.module.css";
 
 /** How a field was and is; one that came or went has only one of the two. */
 function Field({ change }: { change: FieldChange }) {

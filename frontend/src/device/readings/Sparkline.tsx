@@ -6,7 +6,7 @@ import { formatNumber } from "@/i18n/format";
 import { readingsOf, type Reading } from "@/live/readings";
 import { cornersOf, joinReadings, rangeOf, sparkPath } from "./spark";
 import { RANGE_MS, useHistory, type Range } from "./useHistory";
-import styles from "../detail.module.css";
+import styles from "./readings.module.css";
 
 const WIDTH = 104;
 const HEIGHT = 30;
