@@ -1,8 +1,8 @@
 /** Commands that take steps away, bring them back, copy and shift them. */
 import { ClipboardPaste, Copy, CopyPlus, Move, Redo2, Scissors, Trash2, Undo2 } from "lucide-react";
 import type { Position } from "@/program/document/document";
-import { copyToSystem } from "../gestures/clipboard";
-import { duplicateSelected, nudgeSelected, pasteCopied, removeSelected, undoLast } from "../state/actions";
+import { copyToSystem, pasteCopied } from "../gestures/clipboard";
+import { duplicateSelected, nudgeSelected, removeSelected, undoLast } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { useGestures } from "../state/gestures";
 import { say, useUi } from "../state/ui";
@@ -86,7 +86,7 @@ export const EDIT_COMMANDS: readonly Command[] = [
     byBrowser: true,
     menus: ["floor"],
     whyNot: (open, on) => needsRight(open, on) ?? (useUi.getState().clipboard ? null : "commands.why.nothing_copied"),
-    run: ({ document, apply }) => pasteCopied(document, apply),
+    run: pasteCopied,
   }),
   command({
     id: "duplicate",

@@ -12,6 +12,7 @@ const LOAD = {
   library: () => import("./LibraryDialog").then(({ LibraryDialog }) => ({ default: LibraryDialog })),
   save_function: () =>
     import("./SaveFunctionDialog").then(({ SaveFunctionDialog }) => ({ default: SaveFunctionDialog })),
+  strangers: () => import("./StrangersDialog").then(({ StrangersDialog }) => ({ default: StrangersDialog })),
   find: () => import("./FindDialog").then(({ FindDialog }) => ({ default: FindDialog })),
   shortcuts: () => import("./ShortcutsDialog").then(({ ShortcutsDialog }) => ({ default: ShortcutsDialog })),
 };
@@ -20,6 +21,7 @@ const DIALOGS: Record<Name, ComponentType> = {
   function: lazy(LOAD.function),
   library: lazy(LOAD.library),
   save_function: lazy(LOAD.save_function),
+  strangers: lazy(LOAD.strangers),
   find: lazy(LOAD.find),
   shortcuts: lazy(LOAD.shortcuts),
 };

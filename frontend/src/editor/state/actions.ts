@@ -16,6 +16,7 @@ import {
 import { wrapIn } from "../edits/branches";
 import { changedSince } from "../edits/undo";
 import type { OpenProgram } from "./context";
+import { type Names, putEdits } from "./putting";
 import { finish } from "./tool";
 import { say, select, useUi } from "./ui";
 
@@ -57,21 +58,23 @@ export function copySelected(document: ProgramDocument): void {
   if (selected.length > 0) useUi.setState({ clipboard: clip(document, selected) });
 }
 
-export function pasteCopied(document: ProgramDocument, apply: Apply): void {
-  const { clipboard } = useUi.getState();
-  if (clipboard) putCopies(document, apply, clipboard);
-}
-
 export function duplicateSelected(document: ProgramDocument, apply: Apply): void {
   const { selected } = useUi.getState();
-  if (selected.length > 0) putCopies(document, apply, clip(document, selected));
+  if (selected.length === 0) return;
+  const { edits, added } = copiesOf(document, clip(document, selected));
+  apply(edits);
+  select(added);
 }
 
 /** Copies go behind the selected step, else to the end of the branch. */
-export function putCopies(document: ProgramDocument, apply: Apply, clipping: Clipping): void {
-  const { edits, added } = paste(document, clipping, goalNow(document), makeId);
-  apply(edits);
-  select(added);
+function copiesOf(document: ProgramDocument, clipping: Clipping): ReturnType<typeof paste> {
+  return paste(document, clipping, goalNow(document), makeId);
+}
+
+/** Put steps from the clipboard into the program; devices that are not known here are asked for. */
+export function pasteClipping(open: OpenProgram, clipping: Clipping, names: Names): void {
+  const { edits, added } = copiesOf(open.document, clipping);
+  putEdits(open, edits, added, names);
 }
 
 function goalNow(document: ProgramDocument): Goal {
