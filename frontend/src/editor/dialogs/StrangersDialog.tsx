@@ -6,7 +6,7 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { canAll, matchesFor, type Needs, type Stranger } from "../edits/holes";
 import { useOpenProgram, type OpenProgram } from "../state/context";
-import { putWaiting, useWaiting } from "../state/putting";
+import { answerWaiting, useWaiting } from "../state/putting";
 import { useUi } from "../state/ui";
 import classes from "./dialogs.module.css";
 
@@ -25,18 +25,13 @@ export function StrangersDialog() {
 }
 
 function leave(): void {
-  useUi.setState({ dialog: null });
-  useWaiting.setState({ waiting: null });
+  answerWaiting(null);
 }
 
 function Content({ strangers }: { strangers: readonly Stranger[] }) {
   const open = useOpenProgram();
   const { t } = useTranslation();
   const [chosen, setChosen] = useState(() => new Map(strangers.map((each) => [each.id, firstMatch(open, each)])));
-  const put = () => {
-    putWaiting(open, chosen);
-    useUi.setState({ dialog: null });
-  };
   return (
     <div className={classes.content}>
       <p>{t("commands.strangers.text")}</p>
@@ -52,7 +47,7 @@ function Content({ strangers }: { strangers: readonly Stranger[] }) {
         <Button variant="default" onClick={leave}>
           {t("commands.strangers.cancel")}
         </Button>
-        <Button onClick={put} data-autofocus>
+        <Button onClick={() => answerWaiting(chosen)} data-autofocus>
           {t("commands.strangers.insert")}
         </Button>
       </div>

@@ -116,8 +116,10 @@ export function canAll(device: SiteDevice, needs: Needs): boolean {
 }
 
 function missingOf(device: SiteDevice, { methods, gives, takes, readings }: Needs): number {
-  const lacks = (wanted: readonly string[], had: readonly string[]) =>
-    wanted.filter((each) => !had.includes(each)).length;
+  const lacks = (wanted: readonly string[], had: readonly string[]) => {
+    const names = had.map(bareName);
+    return wanted.filter((each) => !names.includes(bareName(each))).length;
+  };
   return (
     lacks(
       methods,
@@ -130,6 +132,11 @@ function missingOf(device: SiteDevice, { methods, gives, takes, readings }: Need
       device.properties.map((each) => each.name),
     )
   );
+}
+
+/** A script writes cure_paint what the device calls curePaint. */
+function bareName(name: string): string {
+  return name.replaceAll("_", "").toLowerCase();
 }
 
 const MISSING = 100;

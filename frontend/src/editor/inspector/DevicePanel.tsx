@@ -61,14 +61,13 @@ export function DevicePanel({ id }: { id: string }) {
 }
 
 function State({ device }: { device: Device }) {
-  const { t } = useOpenProgram();
   const now = useNow(1000);
-  const { t: word } = useTranslation();
+  const { t } = useTranslation();
   const doing = activityWords(device);
-  const seen = device.last_seen_at ? t("device_panel.seen", { age: formatAge(device.last_seen_at, now) }) : "";
+  const seen = device.last_seen_at ? t("pages.devices.seen", { age: formatAge(device.last_seen_at, now) }) : "";
   return (
     <span className={styles.state}>
-      <StatusBadge status={device.status}>{doing || word(`shell.status.${device.status}`)}</StatusBadge>
+      <StatusBadge status={device.status}>{doing || t(`shell.status.${device.status}`)}</StatusBadge>
       <span>{seen}</span>
     </span>
   );

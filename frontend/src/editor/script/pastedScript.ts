@@ -2,10 +2,12 @@
 import { api, ApiProblem } from "@/api/client";
 import { makeId } from "../state/actions";
 import type { OpenProgram } from "../state/context";
-import { NOTHING_KNOWN, putEdits } from "../state/putting";
-import { say, useUi } from "../state/ui";
+import { putWith } from "../state/putting";
+import { say, select, useUi } from "../state/ui";
 import { type NamedDevice, pythonName } from "./completion";
+import { type Chosen, withChosen } from "../edits/holes";
 import { differenceOf, withFreshIds } from "./difference";
+import { scriptWithChosen, strangersInScript } from "./strangers";
 import type { DrawnScript } from "./session";
 
 const SCRIPT = /^\s*(self\.\w+|if .*:|while .*:|for .*:|try:|class Task)/;
@@ -125,8 +127,17 @@ function missingNames(body: string, script: string, pasted: string, devices: rea
   });
 }
 
-/** Draw the pasted lines behind the selected step, or say why that cannot be. */
-export async function pasteScript(open: OpenProgram, pasted: string): Promise<void> {
+/** Draw the pasted lines behind the selected step; devices that are not known here are asked for first. */
+export function pasteScript(open: OpenProgram, pasted: string): void {
+  const known = new Set(open.devices.map(({ id }) => id));
+  putWith(
+    strangersInScript(pasted, known),
+    (chosen) => void drawPasted(open, scriptWithChosen(pasted, chosen), chosen),
+  );
+}
+
+/** Draw the lines, or say why that cannot be. */
+async function drawPasted(open: OpenProgram, pasted: string, chosen: Chosen): Promise<void> {
   const { compiled, shared, program, devices, t } = open;
   if (!compiled) return;
   const behind = useUi.getState().selected.at(-1) ?? null;
@@ -142,7 +153,8 @@ export async function pasteScript(open: OpenProgram, pasted: string): Promise<vo
     }
     const { document } = withFreshIds({ document: drawn.document, lines: drawn.lines }, base, makeId);
     const added = Object.keys(document.steps).filter((id) => !base.steps[id]);
-    putEdits(open, differenceOf(base, document), added, NOTHING_KNOWN);
+    shared.apply(withChosen(differenceOf(base, document), chosen));
+    select(added);
   } catch (error) {
     if (!(error instanceof ApiProblem)) throw error;
     say(error.detail);
@@ -152,6 +164,6 @@ export async function pasteScript(open: OpenProgram, pasted: string): Promise<vo
 /** Take a pasted text for script, if it looks like it. */
 export function pasteIfScript(open: OpenProgram, text: string): boolean {
   const isScript = looksLikeScript(text);
-  if (isScript) void pasteScript(open, text);
+  if (isScript) pasteScript(open, text);
   return isScript;
 }

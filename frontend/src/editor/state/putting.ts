@@ -7,17 +7,21 @@ import { select, useUi } from "./ui";
 
 /** Names that devices and places had where the steps come from, by id. */
 export type Names = Readonly<Record<string, string>>;
-export const NOTHING_KNOWN: Names = {};
 
 interface Waiting {
-  readonly edits: readonly Edit[];
-  /** The steps to select. */
-  readonly added: readonly string[];
   readonly strangers: readonly Stranger[];
+  readonly put: (chosen: Chosen) => void;
 }
 
 /** What waits for the list of unknown devices. */
 export const useWaiting = create<{ readonly waiting: Waiting | null }>(() => ({ waiting: null }));
+
+/** Ask who stands in, if anybody is unknown; then put the steps in. */
+export function putWith(strangers: readonly Stranger[], put: (chosen: Chosen) => void): void {
+  if (strangers.length === 0) return put(new Map());
+  useWaiting.setState({ waiting: { strangers, put } });
+  return useUi.setState({ dialog: "strangers" });
+}
 
 /** One edit, and one entry to undo. */
 export function putEdits(
@@ -31,21 +35,16 @@ export function putEdits(
     places: new Set((plan?.places ?? []).map(({ id }) => id)),
     names,
   };
-  const strangers = strangersIn(edits, known);
-  if (strangers.length === 0) {
-    apply(edits);
+  putWith(strangersIn(edits, known), (chosen) => {
+    apply(withChosen(edits, chosen));
     select(added);
-    return;
-  }
-  useWaiting.setState({ waiting: { edits, added, strangers } });
-  useUi.setState({ dialog: "strangers" });
+  });
 }
 
-/** The answer of the list. */
-export function putWaiting({ apply }: Pick<OpenProgram, "apply">, chosen: Chosen): void {
+/** The answer of the list; null where nothing is to be put in. */
+export function answerWaiting(chosen: Chosen | null): void {
   const { waiting } = useWaiting.getState();
-  if (!waiting) return;
-  apply(withChosen(waiting.edits, chosen));
-  select(waiting.added);
+  useUi.setState({ dialog: null });
   useWaiting.setState({ waiting: null });
+  if (chosen) waiting?.put(chosen);
 }
