@@ -103,7 +103,7 @@ export function drawablesAnywhere({ document }: OpenProgram, other: Words): Draw
 
 /** Its name in both languages and its synonyms. */
 function toolWords(kind: string, other: Words): string[] {
-  const keys = [`editor.kind.${kind}`, `commands.tool.${kind}`];
+  const keys = [`editor.kind.${kind}`, `editor.also.${kind}`];
   return keys.flatMap((key) => [...wordsOf(i18next.t(key)), ...wordsOf(other(key))]);
 }
 

@@ -16,7 +16,7 @@ function toolCommand(kind: Kind): Command {
     words: {
       name: `editor.kind.${kind.kind}`,
       about: `editor.about.${kind.kind}`,
-      also: `commands.tool.${kind.kind}`,
+      also: `editor.also.${kind.kind}`,
     },
     icon: vipoIcon(kind.icon),
     keys: kind.key ? [kind.key] : [],

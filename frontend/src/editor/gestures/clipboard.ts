@@ -1,5 +1,7 @@
 /** Copy, cut and paste: readable script on the system's clipboard, and beside it the steps as they were drawn. */
 import { useEffect } from "react";
+import { clippingOf } from "@/api/localCopies";
+import { useKeymap } from "@/shell/keys/keymap";
 import { clip, type Clipping, clippingFromText, clippingToText } from "../edits/clipping";
 import { clippedScript } from "../script/clippedScript";
 import { copySelected, pasteClipping, removeSelected } from "../state/actions";
@@ -48,11 +50,14 @@ interface Kept {
   readonly names: Names;
 }
 
-const KEPT_AS = "vipo.clipboard";
+/** Each person's own: it goes when they sign out. */
+function placeOfKept(): string {
+  return clippingOf(useKeymap.getState().person ?? "");
+}
 
 function keepDrawn(kept: Kept): void {
   try {
-    localStorage.setItem(KEPT_AS, JSON.stringify(kept));
+    localStorage.setItem(placeOfKept(), JSON.stringify(kept));
   } catch {
     // Too much for the browser's store: the text is on the clipboard all the same.
   }
@@ -75,7 +80,7 @@ export function drawnAs(text: string, kept: string | null): { clipping: Clipping
 type PasteText = (open: OpenProgram, text: string) => boolean;
 
 function putText(open: OpenProgram, text: string, pasteText: PasteText): void {
-  const drawn = drawnAs(text, localStorage.getItem(KEPT_AS));
+  const drawn = drawnAs(text, localStorage.getItem(placeOfKept()));
   if (drawn) pasteClipping(open, drawn.clipping, drawn.names);
   else if (!pasteText(open, text)) pasteCopied(open);
 }

@@ -73,7 +73,7 @@ function Search({ onDone }: { onDone: () => void }) {
   useLayoutEffect(() => field.current?.focus({ preventScroll: true }), []);
   const wanted = text.trim().toLowerCase();
   const found = RARE_FIRST.filter(({ kind }) =>
-    `${t(`kind.${kind}`)} ${t(`about.${kind}`)} ${word(`commands.tool.${kind}`)}`.toLowerCase().includes(wanted),
+    `${t(`kind.${kind}`)} ${t(`about.${kind}`)} ${word(`editor.also.${kind}`)}`.toLowerCase().includes(wanted),
   );
   const take = (kind: Kind | undefined, byKeyboard: boolean) => {
     if (!kind) return;
