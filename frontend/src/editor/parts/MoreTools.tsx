@@ -2,7 +2,6 @@
 import { Popover, Tooltip } from "@mantine/core";
 import { Ellipsis } from "lucide-react";
 import { useLayoutEffect, useRef, useState, type KeyboardEvent } from "react";
-import { useTranslation } from "react-i18next";
 import { VipoIcon } from "@/design/VipoIcon";
 import type { Kind } from "@/program/kinds";
 import { ariaKeys } from "@/shell/keys/keyNames";
@@ -63,18 +62,21 @@ function useKeyOf(id: string): string | undefined {
   return useKeymap((keymap) => keysOf(commandOf(id), keymap)[0]);
 }
 
+/** Those whose name, sentence or other words hold the text. */
+function toolsWith(text: string, t: (key: string) => string): readonly Kind[] {
+  const wanted = text.trim().toLowerCase();
+  const said = (kind: string) => ["kind", "about", "also"].map((part) => t(`${part}.${kind}`)).join(" ");
+  return RARE_FIRST.filter(({ kind }) => said(kind).toLowerCase().includes(wanted));
+}
+
 function Search({ onDone }: { onDone: () => void }) {
   const open = useOpenProgram();
   const { t } = open;
-  const { t: word } = useTranslation();
   const [text, setText] = useState("");
   const [at, setAt] = useState(0);
   const field = useRef<HTMLInputElement>(null);
   useLayoutEffect(() => field.current?.focus({ preventScroll: true }), []);
-  const wanted = text.trim().toLowerCase();
-  const found = RARE_FIRST.filter(({ kind }) =>
-    `${t(`kind.${kind}`)} ${t(`about.${kind}`)} ${word(`editor.also.${kind}`)}`.toLowerCase().includes(wanted),
-  );
+  const found = toolsWith(text, t);
   const take = (kind: Kind | undefined, byKeyboard: boolean) => {
     if (!kind) return;
     runCommand(open, commandOf(toolId(kind.kind)), { ...selection(), keys: byKeyboard ? "Enter" : undefined });

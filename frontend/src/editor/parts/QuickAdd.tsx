@@ -74,19 +74,32 @@ function List({ where }: { where: Where }) {
         }}
         onKeyDown={press}
       />
-      <ul id="quick-add" role="listbox" aria-label={t("commands.quick.label")}>
-        {found.map((drawable, index) => (
-          <Row
-            key={drawable.id}
-            id={`quick-${index}`}
-            drawable={drawable}
-            chosen={index === at}
-            onTake={() => take(drawable)}
-          />
-        ))}
-        {found.length === 0 ? <li className={classes.none}>{t("commands.quick.none")}</li> : null}
-      </ul>
+      <Found found={found} at={at} onTake={take} />
     </div>
+  );
+}
+
+interface FoundProps {
+  found: readonly Drawable[];
+  at: number;
+  onTake: (drawable: Drawable) => void;
+}
+
+function Found({ found, at, onTake }: FoundProps) {
+  const { t } = useTranslation();
+  return (
+    <ul id="quick-add" role="listbox" aria-label={t("commands.quick.label")}>
+      {found.map((drawable, index) => (
+        <Row
+          key={drawable.id}
+          id={`quick-${index}`}
+          drawable={drawable}
+          chosen={index === at}
+          onTake={() => onTake(drawable)}
+        />
+      ))}
+      {found.length === 0 ? <li className={classes.none}>{t("commands.quick.none")}</li> : null}
+    </ul>
   );
 }
 

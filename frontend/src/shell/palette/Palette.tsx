@@ -29,6 +29,11 @@ export function Palette({ slug, onClose }: { slug: string | undefined; onClose: 
     // When the palette has given the keyboard back: what runs may want it.
     requestAnimationFrame(() => target.run());
   };
+  const type = (text: string) => {
+    setQuery(text);
+    setChosen(0);
+    setTold("");
+  };
   const onKeyDown = (event: KeyboardEvent) => {
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (step) setChosen((now) => Math.min(found.length - 1, Math.max(0, now + step)));
@@ -39,31 +44,42 @@ export function Palette({ slug, onClose }: { slug: string | undefined; onClose: 
     <Modal.Root opened onClose={onClose} padding={0} size={560} yOffset="12vh" centered={false}>
       <Modal.Overlay />
       <Modal.Content aria-label={t("shell.jump.open")}>
-        <label className={styles.field}>
-          <Search size={17} aria-hidden="true" />
-          <input
-            data-autofocus
-            role="combobox"
-            aria-expanded={found.length > 0}
-            aria-controls="jump-list"
-            aria-activedescendant={found.length > 0 ? `jump-${chosen}` : undefined}
-            aria-label={t("shell.jump.open")}
-            placeholder={t("shell.jump.placeholder")}
-            value={query}
-            onChange={(event) => {
-              setQuery(event.target.value);
-              setChosen(0);
-              setTold("");
-            }}
-            onKeyDown={onKeyDown}
-          />
-        </label>
-        <Found {...{ found, chosen, go, setChosen }} />
+        <Field query={query} chosen={found.length > 0 ? chosen : null} onType={type} onKeyDown={onKeyDown} />
+        <Found {...{ found, chosen, go, setChosen, onKeyDown }} />
         <p role="status" className="visually-hidden">
           {told}
         </p>
       </Modal.Content>
     </Modal.Root>
+  );
+}
+
+interface FieldProps {
+  query: string;
+  /** Null where nothing is found. */
+  chosen: number | null;
+  onType: (text: string) => void;
+  onKeyDown: (event: KeyboardEvent) => void;
+}
+
+function Field({ query, chosen, onType, onKeyDown }: FieldProps) {
+  const { t } = useTranslation();
+  return (
+    <label className={styles.field}>
+      <Search size={17} aria-hidden="true" />
+      <input
+        data-autofocus
+        role="combobox"
+        aria-expanded={chosen !== null}
+        aria-controls="jump-list"
+        aria-activedescendant={chosen === null ? undefined : `jump-${chosen}`}
+        aria-label={t("shell.jump.open")}
+        placeholder={t("shell.jump.placeholder")}
+        value={query}
+        onChange={(event) => onType(event.target.value)}
+        onKeyDown={onKeyDown}
+      />
+    </label>
   );
 }
 
@@ -85,9 +101,10 @@ interface FoundProps {
   chosen: number;
   go: (target: Target) => void;
   setChosen: (index: number) => void;
+  onKeyDown: (event: KeyboardEvent) => void;
 }
 
-function Found({ found, chosen, go, setChosen }: FoundProps) {
+function Found({ found, chosen, go, setChosen, onKeyDown }: FoundProps) {
   const { t } = useTranslation();
   if (found.length === 0)
     return (
@@ -107,6 +124,7 @@ function Found({ found, chosen, go, setChosen }: FoundProps) {
           chosen={index === chosen}
           onPress={() => go(target)}
           onPoint={() => setChosen(index)}
+          onKeyDown={onKeyDown}
         />
       ))}
     </div>
@@ -119,9 +137,10 @@ interface RowProps {
   chosen: boolean;
   onPress: () => void;
   onPoint: () => void;
+  onKeyDown: (event: KeyboardEvent) => void;
 }
 
-function Row({ target, index, chosen, onPress, onPoint }: RowProps) {
+function Row({ target, index, chosen, onPress, onPoint, onKeyDown }: RowProps) {
   const { t } = useTranslation();
   const { icon: Icon, name, keys, whyNot, kind } = target;
   const detail = whyNot ?? target.detail;
@@ -139,7 +158,7 @@ function Row({ target, index, chosen, onPress, onPoint }: RowProps) {
       // The field keeps the keyboard.
       onPointerDown={(event) => event.preventDefault()}
       onClick={onPress}
-      onKeyDown={undefined}
+      onKeyDown={onKeyDown}
       onPointerMove={onPoint}
     >
       <span className={styles.icon}>{Icon ? <Icon size={17} /> : null}</span>
