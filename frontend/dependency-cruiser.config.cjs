@@ -3,6 +3,7 @@ const ROOMS = [
   ["app"],
   ["pages"],
   ["run", "simulation", "editor", "compare"],
+  ["device"],
   ["shell"],
   ["program"],
   ["live"],
@@ -13,7 +14,10 @@ const ROOMS = [
 ];
 const EDITOR = [
   ["parts"],
-  ["inspector", "gestures", "zones", "script"],
+  ["inspector"],
+  ["commands"],
+  ["gestures", "zones"],
+  ["script"],
   ["canvas"],
   ["state"],
   ["shared"],

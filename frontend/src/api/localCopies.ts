@@ -84,8 +84,22 @@ async function removeAnswers(): Promise<void> {
   if ("caches" in globalThis) await caches.delete(ANSWERS);
 }
 
+const CLIPPING = "vipo.clipboard.";
+
+/** Where the steps that a person copied last are kept, as they were drawn. */
+export function clippingOf(person: string): string {
+  return CLIPPING + person;
+}
+
+function removeClippings(besides: string | null): void {
+  if (!("localStorage" in globalThis)) return;
+  for (const name of Object.keys(localStorage))
+    if (name.startsWith(CLIPPING) && (besides === null || name !== clippingOf(besides))) localStorage.removeItem(name);
+}
+
 /** After signing out: nothing of anybody stays. */
 export async function removeAll(): Promise<void> {
+  removeClippings(null);
   await removeAnswers();
   await removeCopies(() => true);
   const old = (await indexedDB.databases()).flatMap(({ name = "" }) => (name.startsWith(oldCopyOf("")) ? [name] : []));
@@ -97,6 +111,7 @@ export async function removeAll(): Promise<void> {
  * what waits stays, until somebody signs in: whose it is can send it then.
  */
 export async function keepOnlyOf(person: string | null): Promise<void> {
+  removeClippings(person);
   if (person !== null) return removeCopies((copy) => copy.person !== person);
   await removeAnswers();
   await removeCopies((copy) => copy.waiting === 0);

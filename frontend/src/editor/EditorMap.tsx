@@ -17,7 +17,8 @@ import { useDrawing, type Drawing } from "./canvas/stepGesture";
 import { moveChips } from "./canvas/chipDrop";
 import { cursorShower, dragShower, othersOn, useCarried } from "./state/presence";
 import { askOf, stepBack, suits, type Gesture } from "./state/tool";
-import { select, toggleSelected, useUi } from "./state/ui";
+import { robotAt } from "./state/under";
+import { select, showDevice, toggleSelected, useUi } from "./state/ui";
 import { swapBranches } from "./edits/branches";
 import { FollowView } from "./gestures/FollowView";
 import { Ghosts } from "./gestures/Ghosts";
@@ -25,6 +26,7 @@ import { KeepInView } from "./canvas/KeepInView";
 import { joinByDot } from "./gestures/connection";
 import { JoinLine } from "./gestures/JoinLine";
 import { RouteBends } from "./gestures/RouteBends";
+import { StageAtHand } from "./gestures/StageAtHand";
 import { settle } from "./state/actions";
 import { useGestures } from "./state/gestures";
 import { Cursors } from "./canvas/Cursors";
@@ -82,6 +84,7 @@ export function EditorMap({ insets, fitInsets, small }: EditorMapProps) {
       plane={<Plane drawing={drawing} />}
     >
       <FollowView />
+      <StageAtHand />
       {small ? <KeepInView /> : null}
       <Ghosts />
       <Cursors shared={shared} />
@@ -112,7 +115,7 @@ function usePresses(open: OpenProgram, gesture: Gesture, drawing: Drawing) {
     if (fieldPick) {
       fieldPick.choose(device);
       useUi.setState({ fieldPick: null });
-    } else if (askOf(gesture) === "nothing") select([]);
+    } else if (askOf(gesture) === "nothing") showDevice(device);
     // The source's own press ends here too: it began on the way down, so that it can be dragged from.
     else if (device !== gesture.source) drawing.takeDevice(device);
   };
@@ -136,6 +139,11 @@ function usePresses(open: OpenProgram, gesture: Gesture, drawing: Drawing) {
 
 /** A press on the floor with an empty hand chooses the frame there, or nothing. */
 function pressResting(open: OpenProgram, press: StagePress): void {
+  const robot = robotAt(press.at);
+  if (robot !== null) {
+    showDevice(robot);
+    return;
+  }
   const frame = frameAt(open.scene.frames, toPixels(press.at));
   select(frame ? [frame.id] : []);
   if (frame && open.canEdit) goInto(open, frame);

@@ -9,6 +9,7 @@ import { activityWords } from "@/i18n/activity";
 import { useSiteLive } from "@/live/site";
 import { isRobot, progressOf } from "@/map/devices/device";
 import { useEditorText, useScene } from "@/program/canvas/useScene";
+import { openKeymap } from "@/shell/keys/keymap";
 import { LoadProblem } from "@/shell/LoadProblem";
 import classes from "./editor.module.css";
 import { EditorWorkspace } from "./EditorWorkspace";
@@ -30,6 +31,7 @@ export function EditorScreen() {
   useSiteLive(slug);
   const canEdit = site.data?.role === "author" || site.data?.role === "admin";
   const user = me.data?.user ?? null;
+  useOwnKeys(user?.id);
   const [shared, openAnew] = useShared(id, site.data ? user?.id : undefined, canEdit);
   useComeAgain(shared);
   const failed = missing(program, site, devices);
@@ -47,6 +49,13 @@ export function EditorScreen() {
       openAnew={openAnew}
     />
   );
+}
+
+/** The keys of who is signed in. */
+function useOwnKeys(person: number | undefined): void {
+  useEffect(() => {
+    if (person !== undefined) openKeymap(String(person));
+  }, [person]);
 }
 
 function Failed({ error, again }: { error: Error; again: () => void }) {

@@ -3,10 +3,11 @@ import { useMediaQuery } from "@mantine/hooks";
 import { type CSSProperties, useEffect, useMemo } from "react";
 import type { Insets } from "@/map/plane/projection";
 import classes from "./editor.module.css";
+import { ContextMenu } from "./commands/ContextMenu";
+import { useCommandKeys } from "./commands/keys";
+import { usePaletteOffer } from "./commands/offer";
 import { EditorMap } from "./EditorMap";
 import { useClipboard } from "./gestures/clipboard";
-import { useGestureKeys } from "./gestures/keys";
-import { StepMenu } from "./gestures/StepMenu";
 import { Inspector } from "./inspector/Inspector";
 import { Dialogs } from "./dialogs/Dialogs";
 import { Drawer } from "./parts/Drawer";
@@ -14,27 +15,27 @@ import { EditorTop } from "./parts/EditorTop";
 import { NotTaken } from "./parts/NotTaken";
 import { Unopened } from "./parts/Unopened";
 import { EmptyProgram, HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
+import { QuickAdd } from "./parts/QuickAdd";
 import { ToolRail } from "./parts/ToolRail";
 import { ROW_PX, useToolRows } from "./parts/toolRows";
 import { pasteIfScript } from "./script/pastedScript";
 import { useOpenProgram } from "./state/context";
 import { resetGestures } from "./state/gestures";
-import { useShortcuts } from "./state/shortcuts";
 import { useUi } from "./state/ui";
-import { useZoneKeys } from "./zones/zoneTool";
+import { useRunning } from "./state/useRunning";
 import { ZoneForm } from "./zones/ZoneForm";
 
 const FITTED: Insets = { left: 100, right: 336, top: 34, bottom: 300 };
 
 export function EditorWorkspace() {
-  useShortcuts();
   useGestureInput();
   const small = useMediaQuery("(max-width: 1179px)") ?? false;
   const drawerOpen = useUi((ui) => ui.drawer.open);
   const selected = useUi((ui) => ui.selected.length > 0);
   const resting = useUi((ui) => ui.gesture.tool === "select");
   // The program itself is shown beside a resting hand only: while something is drawn the map needs the room.
-  const wanted = useUi((ui) => (small && !selected ? ui.programSheet : ui.inspector));
+  const device = useUi((ui) => ui.device !== null);
+  const wanted = useUi((ui) => (small && !selected && !device ? ui.programSheet : ui.inspector));
   const { loaded, canEdit } = useOpenProgram();
   const lifted = (useToolRows(canEdit) - 1) * ROW_PX;
   const inspector = loaded && wanted && (selected || resting);
@@ -68,7 +69,8 @@ export function EditorWorkspace() {
             <ProgramButton small={small} shown={inspector} />
             {inspector ? <Inspector /> : null}
             <ZoneForm />
-            <StepMenu />
+            <ContextMenu />
+            <QuickAdd />
             <Drawer small={small} />
           </>
         ) : null}
@@ -81,8 +83,9 @@ export function EditorWorkspace() {
 /** The keys and the clipboard of the gestures, for as long as the editor is on the screen. */
 function useGestureInput(): void {
   const open = useOpenProgram();
-  useGestureKeys(open);
-  useZoneKeys(open);
+  useCommandKeys(open);
+  useRunning(open);
+  usePaletteOffer(open);
   useClipboard(open, pasteIfScript);
   useEffect(() => resetGestures, [open.program.id]);
 }

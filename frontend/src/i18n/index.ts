@@ -7,7 +7,7 @@ export const LANGUAGES = ["en", "de"] as const;
 export type Language = (typeof LANGUAGES)[number];
 
 const KEPT_AS = "vipo.language";
-const CATALOGUES: Record<Language, () => Promise<{ texts: Areas }>> = {
+export const CATALOGUES: Record<Language, () => Promise<{ texts: Areas }>> = {
   en: () => import("./catalogue.en"),
   de: () => import("./catalogue.de"),
 };

@@ -9,7 +9,7 @@ import { Logo } from "@/design/Logo";
 import { AccountBar } from "./AccountBar";
 import { useCurrentSite } from "./currentSite";
 import { seesOperations } from "./findings/findings";
-import { JumpButton } from "./JumpButton";
+import { PaletteButton } from "./palette/PaletteButton";
 import { SiteSwitch } from "./SiteSwitch";
 import styles from "./sidebar.module.css";
 
@@ -66,7 +66,7 @@ export function SideBar() {
         <span className={styles.word}>VIPO</span>
       </Link>
       <SiteSwitch site={site} sites={sites} />
-      <JumpButton slug={slug} />
+      <PaletteButton slug={slug} />
       <nav aria-label={t("shell.nav.pages")}>
         <ul className={styles.entries}>
           <Entry to="/" end icon={LayoutGrid} label={t("shell.nav.home")} />

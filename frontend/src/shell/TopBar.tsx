@@ -6,6 +6,7 @@ import { Logo } from "@/design/Logo";
 import { ConnectionStrip } from "./ConnectionStrip";
 import { AlertsBell } from "./alerts/AlertsBell";
 import { FindingsStrip } from "./findings/FindingsStrip";
+import { PaletteButton } from "./palette/PaletteButton";
 import { QuestionsBell } from "./questions/QuestionsBell";
 import { StopAllButton } from "./stop/StopAllButton";
 import styles from "./shell.module.css";
@@ -40,6 +41,7 @@ export function TopBar({ site, crumbs, chips, children, presence, actions }: Top
         {chips ? <div className={styles.group}>{chips}</div> : null}
         {children}
         <div className={styles.spring} />
+        <PaletteButton slug={site} small />
         {presence ? <div className={styles.presence}>{presence}</div> : null}
         {actions ? <div className={styles.group}>{actions}</div> : null}
         {site ? <QuestionsBell slug={site} /> : null}

@@ -100,7 +100,7 @@ def test_a_branch_is_chosen_by_key_said_and_drawn_into(sign_in: SignIn) -> None:
     assert drawn["notify"]["place"][:2] == [drawn["if"]["id"], "else"]
     page.keyboard.press("Escape")
     page.keyboard.press("?")
-    expect(page.get_by_role("dialog")).to_contain_text("Draw into the next, previous branch of the selected step")
+    expect(page.get_by_role("dialog")).to_contain_text("Draw into the next branch of the selected step")
 
 
 @pytest.mark.parametrize("reloaded", [False, True], ids=["on the same page", "after a reload"])

@@ -12,6 +12,8 @@ const LOAD = {
   library: () => import("./LibraryDialog").then(({ LibraryDialog }) => ({ default: LibraryDialog })),
   save_function: () =>
     import("./SaveFunctionDialog").then(({ SaveFunctionDialog }) => ({ default: SaveFunctionDialog })),
+  strangers: () => import("./StrangersDialog").then(({ StrangersDialog }) => ({ default: StrangersDialog })),
+  find: () => import("./FindDialog").then(({ FindDialog }) => ({ default: FindDialog })),
   shortcuts: () => import("./ShortcutsDialog").then(({ ShortcutsDialog }) => ({ default: ShortcutsDialog })),
 };
 const DIALOGS: Record<Name, ComponentType> = {
@@ -19,6 +21,8 @@ const DIALOGS: Record<Name, ComponentType> = {
   function: lazy(LOAD.function),
   library: lazy(LOAD.library),
   save_function: lazy(LOAD.save_function),
+  strangers: lazy(LOAD.strangers),
+  find: lazy(LOAD.find),
   shortcuts: lazy(LOAD.shortcuts),
 };
 /** So long after the program has come its dialogs are fetched, so that the first one opens at once. */

@@ -1,51 +1,97 @@
-/** The list of keys. */
-import { Modal } from "@mantine/core";
-import { COMMANDS } from "../gestures/commands";
-import { TOOLS } from "../state/tools";
-import { useOpenProgram } from "../state/context";
+/** The list of all keys, made from the commands themselves; people can give commands other keys. */
+import { Button, Modal, Switch, TextInput } from "@mantine/core";
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import { changeKeymap, keysOf, useKeymap } from "@/shell/keys/keymap";
+import { SHELL_COMMANDS, type ShellCommand } from "@/shell/keys/shellCommands";
+import { GROUPS, type Command, type Group } from "../commands/command";
+import { COMMANDS } from "../commands/table";
 import { useUi } from "../state/ui";
+import { KeyRow } from "./KeyRow";
 import classes from "./dialogs.module.css";
 
-const KEYS: readonly [string, string][] = [
-  ["V · H", "select"],
-  [".", "more"],
-  ["Enter", "enter"],
-  ["B · Shift+B", "branch"],
-  ["Ctrl+Z · Ctrl+Shift+Z", "undo"],
-  ["Ctrl+C · X · V · D", "copy"],
-  ["Ctrl+A", "all"],
-  ["Ctrl+G", "function"],
-  ["← → ↑ ↓", "neighbour"],
-  ["Alt+← → ↑ ↓", "nudge"],
-  ["Delete", "delete"],
-  ["F8 · Shift+F8", "problem"],
-  ["Ctrl+J", "drawer"],
-  ["Ctrl+Enter", "run"],
-  ["Ctrl+Shift+.", "stop"],
-  ["Esc", "back"],
-];
-
-/** What the list above has in its own words is not said twice. */
-const GESTURES = COMMANDS.filter((command) => command.keys.includes("Arrow") || /Shift/.test(command.keys));
-
 export function ShortcutsDialog() {
-  const { t } = useOpenProgram();
+  const { t } = useTranslation();
   const opened = useUi((ui) => ui.dialog === "shortcuts");
+  const close = () => useUi.setState({ dialog: null });
   return (
-    <Modal opened={opened} onClose={() => useUi.setState({ dialog: null })} closeOnClickOutside title={t("keys.title")}>
-      <dl className={classes.keys}>
-        {TOOLS.filter((kind) => kind.key).map((kind) => [
-          <dt key={`${kind.kind}-key`}>{kind.key}</dt>,
-          <dd key={kind.kind}>{t(`kind.${kind.kind}`)}</dd>,
-        ])}
-        <dt>Shift+F10</dt>
-        <dd>{t("gesture.menu")}</dd>
-        {GESTURES.map(({ id, keys }) => [
-          <dt key={`${id}-key`}>{keys.replace("Arrow", "")}</dt>,
-          <dd key={id}>{t(`gesture.command.${id}`)}</dd>,
-        ])}
-        {KEYS.map(([key, what]) => [<dt key={`${what}-key`}>{key}</dt>, <dd key={what}>{t(`keys.${what}`)}</dd>])}
-      </dl>
+    <Modal opened={opened} onClose={close} closeOnClickOutside title={t("editor.keys.title")} size={620}>
+      {opened ? <Sheet /> : null}
     </Modal>
+  );
+}
+
+function Sheet() {
+  const { t } = useTranslation();
+  const [search, setSearch] = useState("");
+  const keymap = useKeymap();
+  /** The command that waits for a key. */
+  const [changing, setChanging] = useState<string | null>(null);
+  const wanted = search.trim().toLowerCase();
+  const found = [...COMMANDS, ...SHELL_COMMANDS].filter((each) =>
+    `${t(each.words.name)} ${keysOf(each, keymap).join(" ")}`.toLowerCase().includes(wanted),
+  );
+  const changed = Object.keys(keymap.own).length > 0;
+  return (
+    <div className={classes.content}>
+      <Switch
+        label={t("commands.help.letters")}
+        description={t("commands.help.letters_note")}
+        checked={keymap.characters}
+        onChange={(event) => changeKeymap({ characters: event.currentTarget.checked })}
+      />
+      <TextInput
+        aria-label={t("commands.help.search")}
+        placeholder={t("commands.help.search")}
+        value={search}
+        onChange={(event) => setSearch(event.currentTarget.value)}
+      />
+      {GROUPS.map((group) => (
+        <Part
+          key={group}
+          group={group}
+          commands={found.filter((each) => groupOf(each) === group)}
+          changing={changing}
+          onChanging={setChanging}
+        />
+      ))}
+      {found.length === 0 ? <p>{t("commands.help.nothing")}</p> : null}
+      {changed ? (
+        <Button variant="default" onClick={() => changeKeymap({ own: {} })}>
+          {t("commands.help.reset_all")}
+        </Button>
+      ) : null}
+    </div>
+  );
+}
+
+function groupOf(command: Command | ShellCommand): Group {
+  return "group" in command ? command.group : "go";
+}
+
+interface PartProps {
+  group: Group;
+  commands: readonly (Command | ShellCommand)[];
+  changing: string | null;
+  onChanging: (id: string | null) => void;
+}
+
+function Part({ group, commands, changing, onChanging }: PartProps) {
+  const { t } = useTranslation();
+  if (commands.length === 0) return null;
+  return (
+    <section aria-label={t(`commands.group.${group}`)}>
+      <h3 className={classes.keysTitle}>{t(`commands.group.${group}`)}</h3>
+      <ul className={classes.keys}>
+        {commands.map((each) => (
+          <KeyRow
+            key={each.id}
+            command={each}
+            changing={changing === each.id}
+            onChanging={(now) => onChanging(now ? each.id : null)}
+          />
+        ))}
+      </ul>
+    </section>
   );
 }

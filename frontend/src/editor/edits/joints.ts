@@ -75,11 +75,12 @@ export interface NewStep {
   readonly params: Readonly<Record<string, unknown>>;
 }
 
-/** A new step at the end of a branch, or of the events; a comment stands nowhere. */
-export function addStep(document: ProgramDocument, branch: BranchRef, fresh: NewStep): Edit[] {
+/** A new step at a spot of the order, or at the end of a branch or of the events; a comment stands nowhere. */
+export function addStep(document: ProgramDocument, where: BranchRef | Goal, fresh: NewStep): Edit[] {
   const { id, ...step } = fresh;
   if (fresh.kind === "comment") return [{ do: "add_step", id, step: { ...step, place: null } }];
-  const room = roomAt(document, endOfBranch(document, fresh.kind === "on_event" ? EVENTS : branch), 1);
+  const goal = "after" in where ? where : endOfBranch(document, where);
+  const room = roomAt(document, fresh.kind === "on_event" ? endOfBranch(document, EVENTS) : goal, 1);
   return [...room.shifted, { do: "add_step", id, step: { ...step, place: room.places[0] ?? null } }];
 }
 

@@ -1,9 +1,13 @@
-/** Copy, cut and paste: in this browser's memory and on the system's clipboard, so that other windows take it, too. */
+/** Copy, cut and paste: readable script on the system's clipboard, and beside it the steps as they were drawn. */
 import { useEffect } from "react";
-import { clip, clippingFromText, clippingToText } from "../edits/clipping";
-import { copySelected, pasteCopied, putCopies, removeSelected } from "../state/actions";
+import { clippingOf } from "@/api/localCopies";
+import { useKeymap } from "@/shell/keys/keymap";
+import { clip, type Clipping, clippingFromText, clippingToText } from "../edits/clipping";
+import { clippedScript } from "../script/clippedScript";
+import { copySelected, pasteClipping, removeSelected } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { isTyping } from "../state/focus";
+import type { Names } from "../state/putting";
 import { useUi } from "../state/ui";
 
 /** From a menu: the system's clipboard may refuse, this browser's memory does not. */
@@ -12,17 +16,83 @@ export function copyToSystem(open: OpenProgram, cut: boolean): void {
   if (text !== null) void navigator.clipboard?.writeText(text).catch(() => undefined);
 }
 
-function takeSelected({ document, apply, canEdit }: OpenProgram, cut: boolean): string | null {
+function takeSelected(open: OpenProgram, cut: boolean): string | null {
+  const { document, apply, canEdit } = open;
   const { selected } = useUi.getState();
   if (selected.length === 0) return null;
-  const text = clippingToText(clip(document, selected));
+  const clipping = clip(document, selected);
+  const drawn = clippingToText(clipping);
+  const text = scriptOf(open, clipping) ?? drawn;
+  keepDrawn({ text, drawn, names: namesOf(open) });
   copySelected(document);
   if (cut && canEdit) removeSelected(document, apply);
   return text;
 }
 
+/** Null while the script does not know the last changes: it would be of other steps. */
+function scriptOf({ compiled, shared }: OpenProgram, clipping: Clipping): string | null {
+  const { waiting, connection } = shared.getSaving();
+  if (!compiled?.script || waiting > 0 || connection !== "live") return null;
+  const kinds = clipping.outer.map((id) => clipping.steps[id]?.kind);
+  // An event has a function of its own in the script, and a comment is none of its lines.
+  if (kinds.includes("on_event") || kinds.includes("comment")) return null;
+  return clippedScript({ script: compiled.script, lines: compiled.lines }, clipping.outer);
+}
+
+function namesOf({ devices, plan }: OpenProgram): Names {
+  return Object.fromEntries([...devices, ...(plan?.places ?? [])].map(({ id, name }) => [id, name]));
+}
+
+/** How the steps of a text were drawn, for this browser's other windows: script alone does not say where steps stand. */
+interface Kept {
+  readonly text: string;
+  readonly drawn: string;
+  readonly names: Names;
+}
+
+/** Each person's own: it goes when they sign out. */
+function placeOfKept(): string {
+  return clippingOf(useKeymap.getState().person ?? "");
+}
+
+function keepDrawn(kept: Kept): void {
+  try {
+    localStorage.setItem(placeOfKept(), JSON.stringify(kept));
+  } catch {
+    // Too much for the browser's store: the text is on the clipboard all the same.
+  }
+}
+
+/** What was drawn as this text, if it was copied in this browser. */
+export function drawnAs(text: string, kept: string | null): { clipping: Clipping; names: Names } | null {
+  const direct = clippingFromText(text);
+  if (direct) return { clipping: direct, names: {} };
+  try {
+    const found = JSON.parse(kept ?? "null") as Kept | null;
+    const same = found?.text.trim() === text.replaceAll("\r\n", "\n").trim();
+    const clipping = found && same ? clippingFromText(found.drawn) : null;
+    return clipping ? { clipping, names: found?.names ?? {} } : null;
+  } catch {
+    return null;
+  }
+}
+
+type PasteText = (open: OpenProgram, text: string) => boolean;
+
+function putText(open: OpenProgram, text: string, pasteText: PasteText): void {
+  const drawn = drawnAs(text, localStorage.getItem(placeOfKept()));
+  if (drawn) pasteClipping(open, drawn.clipping, drawn.names);
+  else if (!pasteText(open, text)) pasteCopied(open);
+}
+
+/** What was copied here last: from a menu the system's clipboard cannot be read without asking. */
+export function pasteCopied(open: OpenProgram): void {
+  const { clipboard } = useUi.getState();
+  if (clipboard) pasteClipping(open, clipboard, {});
+}
+
 /** The browser's own events of Ctrl+C, X and V, wherever no field has them; `pasteText` takes what is no clipping. */
-export function useClipboard(open: OpenProgram, pasteText: (open: OpenProgram, text: string) => boolean): void {
+export function useClipboard(open: OpenProgram, pasteText: PasteText): void {
   useEffect(() => {
     const take = (event: ClipboardEvent) => {
       if (isElsewhere(event.target)) return;
@@ -33,10 +103,7 @@ export function useClipboard(open: OpenProgram, pasteText: (open: OpenProgram, t
     };
     const put = (event: ClipboardEvent) => {
       if (isElsewhere(event.target) || !open.canEdit) return;
-      const text = event.clipboardData?.getData("text/plain") ?? "";
-      const clipping = clippingFromText(text);
-      if (clipping) putCopies(open.document, open.apply, clipping);
-      else if (!pasteText(open, text)) pasteCopied(open.document, open.apply);
+      putText(open, event.clipboardData?.getData("text/plain") ?? "", pasteText);
       event.preventDefault();
     };
     window.addEventListener("copy", take);

@@ -1,7 +1,6 @@
 /** The inspector: the selected step's values, each with its problems under it. */
 import { CircleAlert, Copy, Trash2, X } from "lucide-react";
 import { useMemo, type ReactNode } from "react";
-import { Button } from "@mantine/core";
 import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/design/VipoIcon";
@@ -9,9 +8,9 @@ import { useGestures } from "../state/gestures";
 import { knownNames } from "../edits/variables";
 import type { StepKind } from "@/program/document/document";
 import { isStepKind, kindOf } from "@/program/kinds";
-import { canLimit, duplicateSelected, limitSteps, removeSelected } from "../state/actions";
+import { duplicateSelected, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
-import { say, select, useUi } from "../state/ui";
+import { say, useUi } from "../state/ui";
 import { FormBody } from "../canvas/FormBody";
 import { CallForm } from "./forms/CallForm";
 import { AskForm } from "./forms/AskForm";
@@ -21,7 +20,9 @@ import { ForEachForm, ReturnForm } from "./forms/flowForms";
 import { TryForm } from "./forms/TryForm";
 import { LoadForm } from "./forms/LoadForm";
 import { OperateForm } from "./forms/OperateForm";
+import { DevicePanel } from "./DevicePanel";
 import { ProgramPanel } from "./ProgramPanel";
+import { Several } from "./Several";
 import { ParallelForm, WaitForm } from "./forms/smallForms";
 import classes from "../panel.module.css";
 import { StepEditorContext, useStepEditor, type StepEditor } from "./fields/stepEditor";
@@ -30,10 +31,12 @@ export function Inspector() {
   const { document } = useOpenProgram();
   const selected = useUi((ui) => ui.selected);
   const zone = useGestures((ui) => ui.zone);
+  const device = useUi((ui) => ui.device);
   const id = selected.at(-1);
   const step = id ? document.steps[id] : undefined;
-  if (selected.length > 1) return <Several count={selected.length} />;
+  if (selected.length > 1) return <Several />;
   if (id && step) return <One key={id} id={id} />;
+  if (device !== null) return <DevicePanel key={device} id={device} />;
   return zone === null ? <ProgramPanel /> : null;
 }
 
@@ -173,45 +176,5 @@ function Footer() {
         </>
       ) : null}
     </footer>
-  );
-}
-
-function Several({ count }: { count: number }) {
-  const open = useOpenProgram();
-  const { t, canEdit, document, apply } = open;
-  const selected = useUi((ui) => ui.selected);
-  return (
-    <aside className={classes.panel} aria-label={t("inspector.label")}>
-      <header className={classes.head}>
-        <span className={classes.title}>
-          <h2>{t("inspector.several", { count })}</h2>
-        </span>
-        <IconButton label={t("inspector.close")} onClick={() => select([])}>
-          <X size={17} aria-hidden="true" />
-        </IconButton>
-      </header>
-      {canEdit ? (
-        <div className={classes.body}>
-          <Button variant="default" onClick={() => useUi.setState({ dialog: "function" })}>
-            {t("inspector.make_function")}
-          </Button>
-          {canLimit(open, selected) ? (
-            <Button variant="default" onClick={() => limitSteps(open, selected)}>
-              {t("gesture.command.limit")}
-            </Button>
-          ) : null}
-          <Button variant="default" onClick={() => duplicateSelected(document, apply)}>
-            {t("duplicate")}
-          </Button>
-          <Button
-            variant="default"
-            c="var(--error)"
-            onClick={() => say(t("removed", { count: removeSelected(document, apply) }), true)}
-          >
-            {t("delete")}
-          </Button>
-        </div>
-      ) : null}
-    </aside>
   );
 }

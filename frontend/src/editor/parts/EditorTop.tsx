@@ -19,6 +19,7 @@ import { focusMap } from "../state/focus";
 import { SavedChip } from "./SavedChip";
 import { VersionChip } from "./VersionChip";
 import { useOpenProgram } from "../state/context";
+import { useScreen } from "../state/screen";
 import { say, select, showTab, useUi } from "../state/ui";
 import classes from "./top.module.css";
 
@@ -218,6 +219,11 @@ function SimulateButton() {
       else say(problemText(error, error.message));
     },
   });
+  const { mutate, isPending } = rehearse;
+  useEffect(() => {
+    useScreen.setState({ simulate: canRun && !isPending ? () => mutate() : null });
+    return () => useScreen.setState({ simulate: null });
+  }, [canRun, isPending, mutate]);
   return (
     <Button
       variant="default"

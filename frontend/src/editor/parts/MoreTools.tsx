@@ -4,9 +4,14 @@ import { Ellipsis } from "lucide-react";
 import { useLayoutEffect, useRef, useState, type KeyboardEvent } from "react";
 import { VipoIcon } from "@/design/VipoIcon";
 import type { Kind } from "@/program/kinds";
+import { ariaKeys } from "@/shell/keys/keyNames";
+import { keysOf, useKeymap } from "@/shell/keys/keymap";
+import { toolId } from "../commands/drawing";
+import { runCommand } from "../commands/keys";
+import { selection } from "../commands/command";
+import { commandOf } from "../commands/table";
 import { TOOLS } from "../state/tools";
 import { useOpenProgram } from "../state/context";
-import { RESTING, takeTool } from "../state/tool";
 import { useUi } from "../state/ui";
 import classes from "./rail.module.css";
 
@@ -15,6 +20,7 @@ const RARE_FIRST = [...TOOLS].sort((one, other) => Number(other.rare ?? false) -
 export function MoreTools() {
   const { t } = useOpenProgram();
   const opened = useUi((ui) => ui.more);
+  const key = useKeyOf("more");
   const rareTool = useUi((ui) => TOOLS.some((kind) => kind.rare && kind.kind === ui.gesture.tool));
   const show = (more: boolean) => useUi.setState({ more });
   return (
@@ -30,14 +36,14 @@ export function MoreTools() {
       transitionProps={{ duration: 0 }}
     >
       <Popover.Target>
-        <Tooltip label={`${t("more.label")} · .`} position="right" disabled={opened}>
+        <Tooltip label={[t("more.label"), key].filter(Boolean).join(" · ")} position="right" disabled={opened}>
           <button
             type="button"
             className={classes.tool}
             aria-label={t("more.label")}
             aria-expanded={opened}
             aria-pressed={rareTool}
-            aria-keyshortcuts="."
+            aria-keyshortcuts={key ? ariaKeys([key]) : undefined}
             onClick={() => show(!opened)}
           >
             <Ellipsis size={18} aria-hidden="true" />
@@ -51,19 +57,29 @@ export function MoreTools() {
   );
 }
 
+/** The first key of a command, as this person has it. */
+function useKeyOf(id: string): string | undefined {
+  return useKeymap((keymap) => keysOf(commandOf(id), keymap)[0]);
+}
+
+/** Those whose name, sentence or other words hold the text. */
+function toolsWith(text: string, t: (key: string) => string): readonly Kind[] {
+  const wanted = text.trim().toLowerCase();
+  const said = (kind: string) => ["kind", "about", "also"].map((part) => t(`${part}.${kind}`)).join(" ");
+  return RARE_FIRST.filter(({ kind }) => said(kind).toLowerCase().includes(wanted));
+}
+
 function Search({ onDone }: { onDone: () => void }) {
-  const { t } = useOpenProgram();
+  const open = useOpenProgram();
+  const { t } = open;
   const [text, setText] = useState("");
   const [at, setAt] = useState(0);
   const field = useRef<HTMLInputElement>(null);
   useLayoutEffect(() => field.current?.focus({ preventScroll: true }), []);
-  const wanted = text.trim().toLowerCase();
-  const found = RARE_FIRST.filter(({ kind }) =>
-    `${t(`kind.${kind}`)} ${t(`about.${kind}`)}`.toLowerCase().includes(wanted),
-  );
+  const found = toolsWith(text, t);
   const take = (kind: Kind | undefined, byKeyboard: boolean) => {
     if (!kind) return;
-    useUi.setState({ gesture: takeTool(RESTING, kind.kind, byKeyboard) });
+    runCommand(open, commandOf(toolId(kind.kind)), { ...selection(), keys: byKeyboard ? "Enter" : undefined });
     onDone();
   };
   const press = (event: KeyboardEvent) => {
@@ -103,6 +119,7 @@ function Search({ onDone }: { onDone: () => void }) {
 
 function Row({ kind, chosen, onTake }: { kind: Kind; chosen: boolean; onTake: () => void }) {
   const { t } = useOpenProgram();
+  const key = useKeyOf(toolId(kind.kind));
   return (
     <li
       id={`more-${kind.kind}`}
@@ -123,7 +140,7 @@ function Row({ kind, chosen, onTake }: { kind: Kind; chosen: boolean; onTake: ()
         <strong>{t(`kind.${kind.kind}`)}</strong>
         <span>{t(`about.${kind.kind}`)}</span>
       </span>
-      {kind.key ? <kbd>{kind.key}</kbd> : null}
+      {key ? <kbd>{key}</kbd> : null}
     </li>
   );
 }

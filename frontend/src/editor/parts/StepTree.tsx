@@ -7,7 +7,7 @@ import { branchWord } from "@/program/scene/links";
 import { placeName } from "@/program/words/stepWords";
 import type { Place } from "@/program/document/document";
 import { useOpenProgram } from "../state/context";
-import { shiftInOrder } from "../state/shortcuts";
+import { shiftInOrder } from "../state/actions";
 import { select, toggleSelected, useUi } from "../state/ui";
 import classes from "./drawer.module.css";
 

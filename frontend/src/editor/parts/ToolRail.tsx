@@ -1,34 +1,43 @@
 /** The constructs to draw with: a rail at the left, a bar at the bottom on small screens. */
 import { Tooltip } from "@mantine/core";
-import { Hand, Lock, MousePointer2 } from "lucide-react";
-import type { ReactNode } from "react";
+import { Lock } from "lucide-react";
+import { createPortal } from "react-dom";
+import { useTranslation } from "react-i18next";
+import type { PointerEvent, ReactNode } from "react";
 import { VipoIcon } from "@/design/VipoIcon";
 import type { Family } from "@/program/kinds";
+import { ariaKeys } from "@/shell/keys/keyNames";
+import { keysOf, useKeymap } from "@/shell/keys/keymap";
+import { toolId } from "../commands/drawing";
+import { runCommand } from "../commands/keys";
+import { commandOf } from "../commands/table";
 import { TOOLS } from "../state/tools";
 import { useOpenProgram } from "../state/context";
-import { takeTool } from "../state/tool";
 import { useUi } from "../state/ui";
 import { MoreTools } from "./MoreTools";
+import { type DraggedTool, useToolDrag } from "./toolDrag";
 import classes from "./rail.module.css";
 
 const COMMON = TOOLS.filter((kind) => !kind.rare);
 
 export function ToolRail() {
-  const { t, canEdit } = useOpenProgram();
+  const open = useOpenProgram();
+  const { t, canEdit } = open;
+  const { dragged, begin, wasDragged } = useToolDrag(open);
   return (
     <div className={classes.rail} role="toolbar" aria-label={t("rail")} aria-orientation="vertical">
-      <Tool tool="select" letter="V" label={t("tool.select")}>
-        <MousePointer2 size={18} aria-hidden="true" />
-      </Tool>
-      <Tool tool="pan" letter="H" label={t("tool.pan")}>
-        <Hand size={18} aria-hidden="true" />
-      </Tool>
+      <Tool tool="select" command="select" />
+      <Tool tool="pan" command="pan" />
       {canEdit
         ? COMMON.map((kind, index) => (
             <FamilyGap key={kind.kind} first={COMMON[index - 1]?.family !== kind.family}>
-              <Tool tool={kind.kind} letter={kind.key} label={t(`kind.${kind.kind}`)} family={kind.family}>
-                <VipoIcon name={kind.icon} size={18} />
-              </Tool>
+              <Tool
+                tool={kind.kind}
+                command={toolId(kind.kind)}
+                family={kind.family}
+                onDown={(event) => begin(kind.kind, event)}
+                wasDragged={wasDragged}
+              />
             </FamilyGap>
           ))
         : null}
@@ -37,6 +46,7 @@ export function ToolRail() {
           <MoreTools />
         </FamilyGap>
       ) : null}
+      {dragged ? createPortal(<Dragged {...dragged} />, document.body) : null}
     </div>
   );
 }
@@ -50,37 +60,50 @@ function FamilyGap({ first, children }: { first: boolean; children: ReactNode })
   );
 }
 
-function Tool({
-  tool,
-  letter,
-  label,
-  family,
-  children,
-}: {
+interface ToolProps {
   tool: string;
-  letter: string;
-  label: string;
+  command: string;
   family?: Family;
-  children: ReactNode;
-}) {
+  onDown?: (event: PointerEvent) => void;
+  wasDragged?: () => boolean;
+}
+
+function Tool({ tool, command: id, family, onDown, wasDragged }: ToolProps) {
+  const open = useOpenProgram();
+  const { t } = useTranslation();
+  const command = commandOf(id);
+  const keys = useKeymap((keymap) => keysOf(command, keymap)[0]);
   const active = useUi((ui) => ui.gesture.tool === tool);
   const locked = useUi((ui) => ui.gesture.tool === tool && ui.gesture.locked);
-  const take = () => useUi.setState((ui) => ({ gesture: takeTool(ui.gesture, tool, false) }));
+  const { icon: Icon } = command;
+  const name = t(command.words.name);
+  const label = [name, keys, locked ? t("commands.tool_kept") : ""].filter(Boolean).join(" · ");
   return (
-    <Tooltip label={`${label} · ${letter}`} position="right">
+    <Tooltip label={label} position="right">
       <button
         type="button"
         className={classes.tool}
         style={family ? { color: `var(--${family})` } : undefined}
-        aria-label={label}
+        aria-label={locked ? `${name}, ${t("commands.tool_kept")}` : name}
         aria-pressed={active}
-        aria-keyshortcuts={letter}
-        onClick={take}
+        aria-keyshortcuts={keys ? ariaKeys([keys]) : undefined}
+        onPointerDown={onDown}
+        onClick={() => (wasDragged?.() ? undefined : runCommand(open, command))}
       >
-        {children}
-        <kbd aria-hidden="true">{letter}</kbd>
+        <Icon size={18} />
+        {keys && keys.length === 1 ? <kbd aria-hidden="true">{keys}</kbd> : null}
         {locked ? <Lock size={10} className={classes.lock} aria-hidden="true" /> : null}
       </button>
     </Tooltip>
+  );
+}
+
+/** What hangs on the pointer. */
+function Dragged({ kind, x, y }: DraggedTool) {
+  const tool = TOOLS.find((each) => each.kind === kind);
+  return (
+    <span className={classes.dragged} style={{ left: x, top: y, color: `var(--${tool?.family ?? "text"})` }}>
+      <VipoIcon name={tool?.icon ?? ""} size={20} />
+    </span>
   );
 }

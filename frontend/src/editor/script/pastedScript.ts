@@ -2,9 +2,12 @@
 import { api, ApiProblem } from "@/api/client";
 import { makeId } from "../state/actions";
 import type { OpenProgram } from "../state/context";
+import { putWith } from "../state/putting";
 import { say, select, useUi } from "../state/ui";
 import { type NamedDevice, pythonName } from "./completion";
+import { type Chosen, withChosen } from "../edits/holes";
 import { differenceOf, withFreshIds } from "./difference";
+import { scriptWithChosen, strangersInScript } from "./strangers";
 import type { DrawnScript } from "./session";
 
 const SCRIPT = /^\s*(self\.\w+|if .*:|while .*:|for .*:|try:|class Task)/;
@@ -35,9 +38,12 @@ export function scriptWith(
   const spot = spotBehind(printed, lines, behind) ?? endOfNewTask(printed);
   const own = body.map((line) => (line.trim() ? " ".repeat(spot.indent) + line : ""));
   const run = printed.findLastIndex((line) => CALL_OF_NEW_TASK.test(line));
-  const given = missingNames(body.join("\n"), script, pasted, devices);
+  const functions = missingFunctions(pasted.split("\n"), printed);
+  const given = missingNames([...body, ...functions].join("\n"), script, pasted, devices);
+  const defined = printed.findIndex((line) => /^ {4}def run\(/.test(line));
   const before = printed.slice(0, spot.at).filter((line, index) => !(index === spot.at - 1 && line.trim() === "pass"));
-  return [...before, ...own, ...printed.slice(spot.at, run), ...given, ...printed.slice(run)].join("\n");
+  const between = [...printed.slice(spot.at, defined), ...functions, ...printed.slice(defined, run)];
+  return [...before, ...own, ...between, ...given, ...printed.slice(run)].join("\n");
 }
 
 /** The lines of new_task of a whole script, else all lines; without what indents them all, and blank ends. */
@@ -52,7 +58,7 @@ function bodyOf(lines: readonly string[]): string[] {
   return first < 0 ? [] : bare.slice(first, bare.findLastIndex(Boolean) + 1);
 }
 
-function indentOf(line: string): number {
+export function indentOf(line: string): number {
   return line.length - line.trimStart().length;
 }
 
@@ -61,20 +67,51 @@ interface Spot {
   readonly indent: number;
 }
 
-/** Behind the step's lines and those that stand in it. */
+/** The lines of a step and of what stands in it: from the first to before the other. */
+export function blockOf(
+  printed: readonly string[],
+  lines: readonly string[],
+  step: string,
+): { readonly from: number; readonly to: number } | null {
+  const from = lines.indexOf(step);
+  if (from < 0) return null;
+  const indent = indentOf(printed[from] ?? "");
+  let to = lines.lastIndexOf(step) + 1;
+  while ((printed[to] ?? "").trim() && indentOf(printed[to] ?? "") > indent) to += 1;
+  return { from, to };
+}
+
 function spotBehind(printed: readonly string[], lines: readonly string[], step: string | null): Spot | null {
-  const first = step ? lines.indexOf(step) : -1;
-  if (first < 0) return null;
-  const indent = indentOf(printed[first] ?? "");
-  let at = lines.lastIndexOf(step ?? "") + 1;
-  while ((printed[at] ?? "").trim() && indentOf(printed[at] ?? "") > indent) at += 1;
-  return { at, indent };
+  const block = step ? blockOf(printed, lines, step) : null;
+  return block ? { at: block.to, indent: indentOf(printed[block.from] ?? "") } : null;
 }
 
 function endOfNewTask(printed: readonly string[]): Spot {
   const start = printed.findIndex((line) => /^\s*def new_task\(/.test(line));
   const length = printed.slice(start + 1).findIndex((line) => !line.trim());
   return { at: start + 1 + (length < 0 ? printed.length - start - 1 : length), indent: 8 };
+}
+
+/** Functions that come with the pasted lines, and that the program has none of that name for. */
+function missingFunctions(pasted: readonly string[], printed: readonly string[]): string[] {
+  const own = functionsOf(printed);
+  const theirs = [...functionsOf(pasted)].filter(([name]) => !OWN_FUNCTIONS.includes(name) && !own.has(name));
+  return theirs.flatMap(([, lines]) => [...lines, ""]);
+}
+
+const OWN_FUNCTIONS = ["new_task", "run"];
+
+/** The functions of a script, each with its lines. */
+export function functionsOf(script: readonly string[]): ReadonlyMap<string, readonly string[]> {
+  const found = new Map<string, string[]>();
+  let current: string[] | null = null;
+  for (const line of script) {
+    const name = /^ {4}def (\w+)\(/.exec(line)?.[1];
+    if (name) found.set(name, (current = []));
+    current?.push(line);
+  }
+  for (const lines of found.values()) while (lines.at(-1)?.trim() === "") lines.pop();
+  return found;
 }
 
 /** The lines that `run` needs for names that it does not give yet. */
@@ -90,8 +127,17 @@ function missingNames(body: string, script: string, pasted: string, devices: rea
   });
 }
 
-/** Draw the pasted lines behind the selected step, or say why that cannot be. */
-export async function pasteScript(open: OpenProgram, pasted: string): Promise<void> {
+/** Draw the pasted lines behind the selected step; devices that are not known here are asked for first. */
+export function pasteScript(open: OpenProgram, pasted: string): void {
+  const known = new Set(open.devices.map(({ id }) => id));
+  putWith(
+    strangersInScript(pasted, known),
+    (chosen) => void drawPasted(open, scriptWithChosen(pasted, chosen), chosen),
+  );
+}
+
+/** Draw the lines, or say why that cannot be. */
+async function drawPasted(open: OpenProgram, pasted: string, chosen: Chosen): Promise<void> {
   const { compiled, shared, program, devices, t } = open;
   if (!compiled) return;
   const behind = useUi.getState().selected.at(-1) ?? null;
@@ -106,8 +152,9 @@ export async function pasteScript(open: OpenProgram, pasted: string): Promise<vo
       return;
     }
     const { document } = withFreshIds({ document: drawn.document, lines: drawn.lines }, base, makeId);
-    shared.apply(differenceOf(base, document));
-    select(Object.keys(document.steps).filter((id) => !base.steps[id]));
+    const added = Object.keys(document.steps).filter((id) => !base.steps[id]);
+    shared.apply(withChosen(differenceOf(base, document), chosen));
+    select(added);
   } catch (error) {
     if (!(error instanceof ApiProblem)) throw error;
     say(error.detail);
@@ -117,6 +164,6 @@ export async function pasteScript(open: OpenProgram, pasted: string): Promise<vo
 /** Take a pasted text for script, if it looks like it. */
 export function pasteIfScript(open: OpenProgram, text: string): boolean {
   const isScript = looksLikeScript(text);
-  if (isScript) void pasteScript(open, text);
+  if (isScript) pasteScript(open, text);
   return isScript;
 }

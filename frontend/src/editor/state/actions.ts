@@ -3,10 +3,20 @@ import type { ProgramDocument, Position } from "@/program/document/document";
 import type { BranchRef } from "@/program/document/tree";
 import { clip, type Clipping, paste } from "../edits/clipping";
 import type { Decision, Edit } from "../edits/edits";
-import { addStep, branchForNew, branchOf, deleteSteps, endOfBranch, type Goal, type NewStep } from "../edits/joints";
+import {
+  addStep,
+  branchForNew,
+  branchOf,
+  deleteSteps,
+  endOfBranch,
+  type Goal,
+  type NewStep,
+  shiftStep,
+} from "../edits/joints";
 import { wrapIn } from "../edits/branches";
 import { changedSince } from "../edits/undo";
 import type { OpenProgram } from "./context";
+import { type Names, putEdits } from "./putting";
 import { finish } from "./tool";
 import { say, select, useUi } from "./ui";
 
@@ -26,7 +36,9 @@ export function branchNow(document: ProgramDocument): BranchRef {
 /** Make a step, select it, and put the tool away unless it is locked. */
 export function createStep(document: ProgramDocument, apply: Apply, fresh: Omit<NewStep, "id">): string {
   const id = makeId();
-  apply(addStep(document, branchNow(document), { ...fresh, id }));
+  const { into } = useUi.getState();
+  const where = into?.after === undefined ? branchNow(document) : { branch: into.branch, after: into.after };
+  apply(addStep(document, where, { ...fresh, id }));
   useUi.setState((ui) => ({ gesture: finish(ui.gesture) }));
   select([id]);
   useUi.setState({ fresh: id, inspector: true });
@@ -46,21 +58,23 @@ export function copySelected(document: ProgramDocument): void {
   if (selected.length > 0) useUi.setState({ clipboard: clip(document, selected) });
 }
 
-export function pasteCopied(document: ProgramDocument, apply: Apply): void {
-  const { clipboard } = useUi.getState();
-  if (clipboard) putCopies(document, apply, clipboard);
-}
-
 export function duplicateSelected(document: ProgramDocument, apply: Apply): void {
   const { selected } = useUi.getState();
-  if (selected.length > 0) putCopies(document, apply, clip(document, selected));
+  if (selected.length === 0) return;
+  const { edits, added } = copiesOf(document, clip(document, selected));
+  apply(edits);
+  select(added);
 }
 
 /** Copies go behind the selected step, else to the end of the branch. */
-export function putCopies(document: ProgramDocument, apply: Apply, clipping: Clipping): void {
-  const { edits, added } = paste(document, clipping, goalNow(document), makeId);
-  apply(edits);
-  select(added);
+function copiesOf(document: ProgramDocument, clipping: Clipping): ReturnType<typeof paste> {
+  return paste(document, clipping, goalNow(document), makeId);
+}
+
+/** Put steps from the clipboard into the program; devices that are not known here are asked for. */
+export function pasteClipping(open: OpenProgram, clipping: Clipping, names: Names): void {
+  const { edits, added } = copiesOf(open.document, clipping);
+  putEdits(open, edits, added, names);
 }
 
 function goalNow(document: ProgramDocument): Goal {
@@ -106,4 +120,14 @@ export function limitSteps(open: OpenProgram, ids: readonly string[]): void {
   if (!settle(open, wrapIn(open.document, ids, { id, kind: "limit", params: {} }))) return;
   select([id]);
   useUi.setState({ fresh: id, inspector: true });
+}
+
+/** One place up or down in the order. */
+export function shiftInOrder(
+  { document, apply }: Pick<OpenProgram, "document" | "apply">,
+  id: string,
+  by: -1 | 1,
+): void {
+  const decision = shiftStep(document, id, by);
+  if ("edits" in decision) apply(decision.edits);
 }

@@ -1,4 +1,5 @@
 /** What gestures keep on one person's screen: the open menu, the zone in hand, ghosts, whose view is followed. */
+import type { ComponentType } from "react";
 import { create } from "zustand";
 import { select } from "./ui";
 import type { Position } from "@/program/document/document";
@@ -8,6 +9,9 @@ export interface MenuItem {
   readonly id: string;
   readonly label: string;
   readonly keys?: string;
+  readonly icon?: ComponentType<{ size?: number }>;
+  /** Items of one group stand together. */
+  readonly group?: string;
   readonly run: () => void;
 }
 

@@ -33,7 +33,7 @@ function besideRobot({ devices }: OpenProgram, robot: SiteDevice, taken: readonl
 }
 
 /** A robot that the program has already goes by its role there. */
-function operatedBy(document: ProgramDocument, device: SiteDevice): Record<string, string> {
+export function operatedBy(document: ProgramDocument, device: SiteDevice): Record<string, string> {
   const role = Object.entries(document.roles).find(([, each]) => each.device === device.id);
   return device.kind === "robot" && role ? { role: role[0] } : { device: device.id };
 }

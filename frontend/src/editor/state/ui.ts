@@ -5,7 +5,7 @@ import type { Clipping } from "../edits/clipping";
 import { RESTING, type Gesture } from "./tool";
 
 export type DrawerTab = "script" | "problems" | "steps";
-export type Dialog = "run" | "function" | "library" | "save_function" | "shortcuts" | null;
+export type Dialog = "run" | "function" | "library" | "save_function" | "shortcuts" | "find" | "strangers" | null;
 
 /** A field of the inspector that waits for a press on a device. */
 export interface FieldPick {
@@ -13,22 +13,46 @@ export interface FieldPick {
   readonly choose: (device: string) => void;
 }
 
+export interface NextPlace {
+  readonly branch: BranchRef;
+  readonly link: string;
+  readonly word: string;
+  /** Behind this step, or at the beginning with null; at the end of the branch where it is not said. */
+  readonly after?: string | null;
+}
+
+/** Where a step is added from the short list, and what stands there. */
+export interface QuickAdd {
+  /** Pixels of the window. */
+  readonly x: number;
+  readonly y: number;
+  /** Metres. */
+  readonly at: readonly [number, number];
+  readonly device: string | null;
+}
+
 export interface EditorUi {
   gesture: Gesture;
   selected: readonly string[];
   /** The branch that the next step goes into, where it is not the selected step's. */
-  into: { readonly branch: BranchRef; readonly link: string; readonly word: string } | null;
+  into: NextPlace | null;
   /** The step made last, until something else is selected. */
   fresh: string | null;
   drawer: { readonly open: boolean; readonly tab: DrawerTab };
   inspector: boolean;
   /** On small screens: the sheet of the program itself. */
   programSheet: boolean;
+  /** The device whose panel is open. */
+  device: string | null;
+  /** The list of constructs at a point of the map is open. */
+  quick: QuickAdd | null;
   /** The list of all constructs is open. */
   more: boolean;
   dialog: Dialog;
   /** The function that "save_function" is about. */
   dialogFunction: string | null;
+  /** What "find" begins with: the id of a device, or nothing. */
+  find: string;
   fieldPick: FieldPick | null;
   clipboard: Clipping | null;
   collapsed: ReadonlySet<string>;
@@ -43,9 +67,12 @@ const START: EditorUi = {
   drawer: { open: true, tab: "script" },
   inspector: true,
   programSheet: false,
+  device: null,
+  quick: null,
   more: false,
   dialog: null,
   dialogFunction: null,
+  find: "",
   fieldPick: null,
   clipboard: null,
   collapsed: new Set(),
@@ -68,9 +95,16 @@ export function select(ids: readonly string[]): void {
     selected: ids,
     fresh: ui.fresh !== null && ids.includes(ui.fresh) ? ui.fresh : null,
     into: null,
+    device: null,
     inspector: ids.length > 0 || ui.inspector,
     programSheet: ids.length === 0 && ui.programSheet,
   }));
+}
+
+/** Open the panel of a machine or robot. */
+export function showDevice(device: string): void {
+  select([]);
+  useUi.setState({ device, inspector: true });
 }
 
 export function toggleSelected(id: string): void {

@@ -1,13 +1,10 @@
 /** The zone tool: corner after corner, closed on the first one or with Enter. */
-import { useLayoutEffect } from "react";
 import { FEWEST_CORNERS } from "@/program/canvas/Zones";
 import type { Position, Zone } from "@/program/document/document";
 import { makeId } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { freeSpot } from "../state/freeSpot";
-import { isTyping } from "../state/focus";
-import { ZONE_TOOL } from "../state/tools";
-import { finish, RESTING, takeTool } from "../state/tool";
+import { finish, RESTING } from "../state/tool";
 import { say, useUi } from "../state/ui";
 import { selectZone, useGestures } from "../state/gestures";
 import { closes, freshNumber, freshZone, squareAround, withNextCorner } from "./shape";
@@ -42,50 +39,23 @@ export function removeZone(open: OpenProgram, id: string): void {
   say(open.t("gesture.zone.removed"), true);
 }
 
-/** Z takes the tool; Enter closes, Backspace takes a corner back, Escape gives up; Delete removes a selected zone. */
-export function useZoneKeys(open: OpenProgram): void {
-  useLayoutEffect(() => {
-    const press = (event: KeyboardEvent) => {
-      const busy = useUi.getState().dialog || isTyping(event.target) || event.ctrlKey || event.metaKey || event.altKey;
-      if (busy || event.defaultPrevented || !open.canEdit || !zoneKey(open, event)) return;
-      event.preventDefault();
-      event.stopPropagation();
-    };
-    window.addEventListener("keydown", press, { capture: true });
-    return () => window.removeEventListener("keydown", press, { capture: true });
-  }, [open]);
-}
-
-function zoneKey(open: OpenProgram, event: KeyboardEvent): boolean {
-  const { gesture } = useUi.getState();
-  if (event.key.toLowerCase() === "z") {
-    useUi.setState({ gesture: takeTool(gesture, ZONE_TOOL, true) });
-    return true;
-  }
-  return gesture.tool === ZONE_TOOL ? drawingKey(open, event.key) : selectedKey(open, event);
-}
-
-function drawingKey(open: OpenProgram, key: string): boolean {
+/** Enter: what is drawn so far is the zone; without a corner a square is set down. False while corners are missing. */
+export function closeZone(open: OpenProgram): boolean {
   const { corners } = useGestures.getState();
-  if (key === "Enter" && corners.length >= FEWEST_CORNERS) createZone(open, corners);
-  else if (key === "Enter" && corners.length === 0) createZone(open, squareAround(freeSpot(open)));
-  else if (key === "Backspace") useGestures.setState({ corners: corners.slice(0, -1) });
-  else if (key === "Escape") stopDrawing();
+  if (corners.length >= FEWEST_CORNERS) createZone(open, corners);
+  else if (corners.length === 0) createZone(open, squareAround(freeSpot(open)));
   else return false;
   return true;
 }
 
-function stopDrawing(): void {
+/** Take back the last corner. */
+export function dropCorner(): void {
+  useGestures.setState(({ corners }) => ({ corners: corners.slice(0, -1) }));
+}
+
+/** Give up the corners, and without any the tool. */
+export function leaveZone(): void {
   const { corners } = useGestures.getState();
   if (corners.length > 0) useGestures.setState({ corners: [] });
   else useUi.setState({ gesture: RESTING });
-}
-
-function selectedKey(open: OpenProgram, event: KeyboardEvent): boolean {
-  const { zone } = useGestures.getState();
-  if (zone === null || useUi.getState().selected.length > 0) return false;
-  if (event.key === "Escape") selectZone(null);
-  else if (event.key === "Delete" || event.key === "Backspace") removeZone(open, zone);
-  else return false;
-  return true;
 }

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { Device } from "@/api/types";
-import { batteryOf, filterDevices, isOnline, jobOf, methodNames, pendingOf, NO_FILTER } from "./filter";
+import { batteryOf, filterDevices, jobOf, methodNames, pendingOf, NO_FILTER } from "./filter";
 
 function device(id: string, more: Partial<Device> = {}): Device {
   const base = { id, name: id, kind: "machine", lifecycle: "approved", status: "idle", doing: "" };
@@ -71,14 +71,4 @@ test("an admin is asked about the pending device that is looked at, else about t
   expect(pendingOf(all, "mixer01")).toBe(pending);
   expect(pendingOf(all, undefined)).toBe(pending);
   expect(pendingOf([oven], "oven01")).toBeUndefined();
-});
-
-test("a pending device that has long said nothing is not online", () => {
-  const at = Date.parse("2026-11-22T08:00:00Z");
-  const seen = { ...pending, last_seen_at: "2026-11-22T07:59:30Z" };
-  expect(isOnline(seen, at)).toBe(true);
-  expect(isOnline(seen, at + 20_000)).toBe(false);
-  expect(isOnline({ ...pending, last_seen_at: null }, at)).toBe(false);
-  expect(isOnline(oven, at)).toBe(true);
-  expect(isOnline(device("gone", { status: "offline" }), at)).toBe(false);
 });

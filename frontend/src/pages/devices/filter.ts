@@ -23,15 +23,6 @@ export function filterDevices(devices: readonly Device[], filter: DeviceFilter):
     .sort((a, b) => Number(b.lifecycle === "pending") - Number(a.lifecycle === "pending"));
 }
 
-/** A device that says nothing for so long counts as offline. */
-const SILENT_MS = 45_000;
-
-/** Whether it talks: of one that waits for approval only what it said last tells that. */
-export function isOnline(device: Device, now: number): boolean {
-  if (device.lifecycle !== "pending") return device.status !== "offline";
-  return device.last_seen_at !== null && now - Date.parse(device.last_seen_at) < SILENT_MS;
-}
-
 /** Whose approval is asked for: the one that is looked at if it waits for it, the first one otherwise. */
 export function pendingOf(devices: readonly Device[], chosen: string | undefined): Device | undefined {
   const waiting = devices.filter((device) => device.lifecycle === "pending");

@@ -14,6 +14,7 @@ import { formatNumber, formatPoint, withUnit } from "@/i18n/format";
 import { StaticMap } from "@/map/StaticMap";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
+import { type Point, toPixels } from "@/map/plane/projection";
 import { MovableMachine } from "../devices/MovableMachine";
 import { MapDownloads } from "./MapDownloads";
 import styles from "./MapPage.module.css";
@@ -70,11 +71,18 @@ function ModeButtons({ mode, change }: { mode: Mode | null; change: (mode: Mode 
   });
 }
 
+/** Around the place that was asked for; its name stands on the floor. */
+function PlaceMark({ at }: { at: Point }) {
+  const { x, y } = toPixels(at);
+  return <circle cx={x} cy={y} r={30} fill="none" stroke="var(--brand)" strokeWidth={5} />;
+}
+
 function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | null }) {
   const { t } = useTranslation();
   const navigate = useNavigate();
   const [query] = useSearchParams();
   const places = usePlaces(site.slug, map);
+  const asked = map.places.find((each) => each.id === query.get("place"));
   const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
   const movable = mode === "machines" ? devices.filter((device) => device.kind === "machine") : [];
   const bare = useMemo(() => ({ ...map, places: [] }), [map]);
@@ -96,6 +104,7 @@ function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | n
             <MovableMachine key={device.id} site={site} map={map} device={device} />
           ))}
           {mode === "places" ? <PlaceHandles slug={site.slug} map={map} places={places} /> : null}
+          {asked && mode !== "places" ? <PlaceMark at={[asked.x, asked.y]} /> : null}
         </StaticMap>
       </Panel>
       <Panel className={styles.about}>

@@ -36,7 +36,8 @@ export function useStopKey(press: () => void): void {
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
       const held = (event.ctrlKey || event.metaKey) && event.shiftKey;
-      if (!held || event.code !== "Period" || event.repeat) return;
+      // Where the full stop is another key, either of the two stops: better once too often than not at all.
+      if (!held || !(event.code === "Period" || event.key === ".") || event.repeat) return;
       event.preventDefault();
       press();
     };

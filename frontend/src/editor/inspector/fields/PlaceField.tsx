@@ -15,6 +15,7 @@ interface PlaceFieldProps {
   field: string;
   accept?: MachineFilter;
   places?: boolean;
+  placeholder?: string;
   value: Place | null;
   onChange: (place: Place | null) => void;
   /** The robots that can be chosen, too: `role:` with a role of the program, or `device:` with a robot's id. */
@@ -52,7 +53,7 @@ export function PlaceField(props: PlaceFieldProps) {
             data={groups}
             value={role === null ? placeKey(value) : `${ROLE}${role}`}
             onChange={choose}
-            placeholder={t("field.choose")}
+            placeholder={props.placeholder ?? t("field.choose")}
             searchable
             nothingFoundMessage={t("palette.none")}
             disabled={disabled}

@@ -1,15 +1,13 @@
-import { Button, Tooltip } from "@mantine/core";
-import { Play } from "lucide-react";
-import { Fragment, useState } from "react";
+import { Fragment } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, DeviceMethod, MethodParameter, Site } from "@/api/types";
 import { Chip } from "@/design/Chip";
+import { TryButton } from "@/device/methods/TryButton";
 import { Panel } from "@/design/Panel";
 import { unitSign } from "@/i18n/units";
 import pages from "../../pages.module.css";
 import styles from "../detail.module.css";
 import { LegacyTopic } from "./LegacyTopic";
-import { TryMethod } from "./TryMethod";
 
 function Parameter({ parameter }: { parameter: MethodParameter }) {
   const { t } = useTranslation();
@@ -29,41 +27,6 @@ function Parameter({ parameter }: { parameter: MethodParameter }) {
       </Chip>
       {facts}
     </span>
-  );
-}
-
-/** Why a method cannot be tried now; null when it can. */
-function hindrance(
-  site: Site,
-  device: Device,
-  method: DeviceMethod,
-): "onlyOperators" | "inPrograms" | "offline" | null {
-  if (site.role === "viewer") return "onlyOperators";
-  if (device.kind === "robot" && method.name === "move") return "inPrograms";
-  return device.status === "offline" ? "offline" : null;
-}
-
-function TryButton({ site, device, method }: { site: Site; device: Device; method: DeviceMethod }) {
-  const { t } = useTranslation();
-  const [open, setOpen] = useState(false);
-  const why = hindrance(site, device, method);
-  return (
-    <>
-      <Tooltip label={why ? t(`device.try.${why}`) : t("device.try.openOf", { method: method.name })}>
-        <Button
-          size="compact-sm"
-          variant="default"
-          aria-label={t("device.try.openOf", { method: method.name })}
-          aria-disabled={why !== null}
-          data-disabled={why !== null || undefined}
-          leftSection={<Play size={13} aria-hidden="true" />}
-          onClick={() => setOpen(why === null)}
-        >
-          {t("device.try.open")}
-        </Button>
-      </Tooltip>
-      {open ? <TryMethod site={site} device={device} method={method} onClose={() => setOpen(false)} /> : null}
-    </>
   );
 }
 

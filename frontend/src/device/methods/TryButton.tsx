@@ -1,0 +1,42 @@
+/** Opens the form that tries a method, or says why it cannot be tried. */
+import { Button, Tooltip } from "@mantine/core";
+import { Play } from "lucide-react";
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import type { Device, DeviceMethod, Site } from "@/api/types";
+import { TryMethod } from "./TryMethod";
+
+/** Why a method cannot be tried now; null when it can. */
+function hindrance(
+  site: Site,
+  device: Device,
+  method: DeviceMethod,
+): "onlyOperators" | "inPrograms" | "offline" | null {
+  if (site.role === "viewer") return "onlyOperators";
+  if (device.kind === "robot" && method.name === "move") return "inPrograms";
+  return device.status === "offline" ? "offline" : null;
+}
+
+export function TryButton({ site, device, method }: { site: Site; device: Device; method: DeviceMethod }) {
+  const { t } = useTranslation();
+  const [open, setOpen] = useState(false);
+  const why = hindrance(site, device, method);
+  return (
+    <>
+      <Tooltip label={why ? t(`device.try.${why}`) : t("device.try.openOf", { method: method.name })}>
+        <Button
+          size="compact-sm"
+          variant="default"
+          aria-label={t("device.try.openOf", { method: method.name })}
+          aria-disabled={why !== null}
+          data-disabled={why !== null || undefined}
+          leftSection={<Play size={13} aria-hidden="true" />}
+          onClick={() => setOpen(why === null)}
+        >
+          {t("device.try.open")}
+        </Button>
+      </Tooltip>
+      {open ? <TryMethod site={site} device={device} method={method} onClose={() => setOpen(false)} /> : null}
+    </>
+  );
+}

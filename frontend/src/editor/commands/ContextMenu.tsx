@@ -1,0 +1,122 @@
+/** The menu over a step, an arrow, a machine or the floor, on the map and in the list of steps. */
+import { Menu } from "@mantine/core";
+import { Fragment, useEffect } from "react";
+import { useTranslation } from "react-i18next";
+import { wordsOfKeys } from "@/shell/keys/keyNames";
+import { useOpenProgram, type OpenProgram } from "../state/context";
+import { useGestures, type MenuItem } from "../state/gestures";
+import { underPointer } from "../state/under";
+import { useUi } from "../state/ui";
+import classes from "../canvas/gestures.module.css";
+import { menuOver, showMenu } from "./menu";
+import { COMMANDS } from "./table";
+
+const LONG_PRESS_MS = 500;
+/** A finger that moves farther drags the map, pixels. */
+const STILL_PX = 8;
+
+export function ContextMenu() {
+  const open = useOpenProgram();
+  const menu = useGestures((ui) => ui.menu);
+  useRightClick(open);
+  useLongPress(open);
+  const close = () => useGestures.setState({ menu: null });
+  if (!menu) return null;
+  return (
+    <Menu opened onClose={close} position="bottom-start" shadow="md" trapFocus returnFocus width={280}>
+      <Menu.Target>
+        <span className={classes.anchor} style={{ left: menu.at.x, top: menu.at.y }} />
+      </Menu.Target>
+      <Menu.Dropdown aria-label={menu.label}>
+        {menu.items.map((item, index) => (
+          <Fragment key={item.id}>
+            {index > 0 && item.group !== menu.items[index - 1]?.group ? <Menu.Divider /> : null}
+            <Item item={item} close={close} />
+          </Fragment>
+        ))}
+      </Menu.Dropdown>
+    </Menu>
+  );
+}
+
+function Item({ item, close }: { item: MenuItem; close: () => void }) {
+  const { t } = useTranslation();
+  const { icon: Icon, keys } = item;
+  const run = () => {
+    close();
+    item.run();
+  };
+  return (
+    <Menu.Item
+      onClick={run}
+      leftSection={Icon ? <Icon size={16} /> : undefined}
+      rightSection={
+        keys ? <kbd className={classes.keys}>{wordsOfKeys(keys, (key) => t(`shell.keys.${key}`, key))}</kbd> : null
+      }
+    >
+      {item.label}
+    </Menu.Item>
+  );
+}
+
+/** With a tool in hand a right click steps back instead. */
+function mayAsk(): boolean {
+  const { gesture, dialog } = useUi.getState();
+  return !dialog && (gesture.tool === "select" || gesture.tool === "pan");
+}
+
+/** What was pressed, in the list or on the map; null elsewhere. */
+function pressed(open: OpenProgram, target: EventTarget | null, at: { x: number; y: number }) {
+  if (!(target instanceof Element)) return null;
+  const row = target.closest("[data-step]")?.getAttribute("data-step");
+  if (row && row in open.document.steps) return { step: row, link: null, device: null, at: [0, 0] as const };
+  const onMap = target.closest(".react-flow__pane, .react-flow__node, .react-flow__viewport");
+  return onMap && target.closest("[data-map]") ? underPointer(open, at) : null;
+}
+
+function ask(open: OpenProgram, target: EventTarget | null, at: { x: number; y: number }): boolean {
+  const under = mayAsk() ? pressed(open, target, at) : null;
+  if (under) showMenu(COMMANDS, open, menuOver(under), at);
+  return under !== null;
+}
+
+function useRightClick(open: OpenProgram): void {
+  useEffect(() => {
+    const click = (event: MouseEvent) => {
+      if (!ask(open, event.target, { x: event.clientX, y: event.clientY })) return;
+      event.preventDefault();
+      event.stopPropagation();
+    };
+    window.addEventListener("contextmenu", click, { capture: true });
+    return () => window.removeEventListener("contextmenu", click, { capture: true });
+  }, [open]);
+}
+
+/** One finger that rests; a second one, or a move, is something else. */
+function useLongPress(open: OpenProgram): void {
+  useEffect(() => {
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    let from = { x: 0, y: 0 };
+    const stop = () => clearTimeout(timer);
+    const begin = (event: PointerEvent) => {
+      stop();
+      if (event.pointerType !== "touch" || !event.isPrimary) return;
+      from = { x: event.clientX, y: event.clientY };
+      timer = setTimeout(() => ask(open, event.target, from), LONG_PRESS_MS);
+    };
+    const move = (event: PointerEvent) => {
+      if (Math.hypot(event.clientX - from.x, event.clientY - from.y) > STILL_PX) stop();
+    };
+    const events = [
+      ["pointerdown", begin],
+      ["pointermove", move],
+      ["pointerup", stop],
+      ["pointercancel", stop],
+    ] as const;
+    for (const [name, hear] of events) window.addEventListener(name, hear as EventListener, { capture: true });
+    return () => {
+      stop();
+      for (const [name, hear] of events) window.removeEventListener(name, hear as EventListener, { capture: true });
+    };
+  }, [open]);
+}

@@ -1,0 +1,28 @@
+import { expect, test } from "vitest";
+import { clip, clippingToText } from "../edits/clipping";
+import { EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/document";
+import { drawnAs } from "./clipboard";
+
+const document: ProgramDocument = {
+  ...EMPTY_DOCUMENT,
+  steps: { a: { kind: "wait", place: ["program", "body", "A"], pos: [3, -4], params: { duration: 5 } } },
+};
+const drawn = clippingToText(clip(document, ["a"]));
+const TEXT = "class Task(object):\n    def new_task(self):\n        self.wait(5)\n";
+const kept = JSON.stringify({ text: TEXT, drawn, names: { oven: "Oven" } });
+
+test("script that was copied here is drawn as it stood", () => {
+  const found = drawnAs(TEXT.replaceAll("\n", "\r\n"), kept);
+  expect(found?.clipping.steps.a?.pos).toEqual([3, -4]);
+  expect(found?.names).toEqual({ oven: "Oven" });
+});
+
+test("other script is not, and neither is anything where nothing sound is kept", () => {
+  expect(drawnAs(TEXT.replace("5", "6"), kept)).toBeNull();
+  expect(drawnAs(TEXT, null)).toBeNull();
+  expect(drawnAs(TEXT, "{")).toBeNull();
+});
+
+test("a clipping as text is taken as before", () => {
+  expect(drawnAs(drawn, null)?.clipping.outer).toEqual(["a"]);
+});

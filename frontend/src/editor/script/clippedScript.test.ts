@@ -1,0 +1,75 @@
+import { expect, test } from "vitest";
+import { clippedScript } from "./clippedScript";
+import { looksLikeScript, scriptWith } from "./pastedScript";
+
+const PRINTED = {
+  script: `class Task(object):
+    def new_task(self):
+        if self.curing_oven.temperature > 60:
+            self.wait(1)
+        else:
+            self.tell("hot")
+        self.robot.move(self.door.location)
+
+    def tell(self, word):
+        self.notify(word, level="info")
+
+    def other(self):
+        self.wait(9)
+
+    def run(self, ctx):
+        self.robot = ctx.any()
+        self.curing_oven = ctx.get("curingOven01")
+        self.door = ctx.place("door")
+        self.new_task()
+`,
+  lines: ["", "", "if", "w1", "if", "call", "go", "", "", "say", "", "", "w9", "", "", "", "", "", "", ""],
+};
+
+test("selected steps are a small task with what stands in them, what they call and what run gives them", () => {
+  expect(clippedScript(PRINTED, ["if"])?.split("\n")).toEqual([
+    "class Task(object):",
+    "    def new_task(self):",
+    "        if self.curing_oven.temperature > 60:",
+    "            self.wait(1)",
+    "        else:",
+    '            self.tell("hot")',
+    "",
+    "    def tell(self, word):",
+    '        self.notify(word, level="info")',
+    "",
+    "    def run(self, ctx):",
+    '        self.curing_oven = ctx.get("curingOven01")',
+    "        self.new_task()",
+    "",
+  ]);
+});
+
+test("a step out of a branch begins at the margin", () => {
+  const text = clippedScript(PRINTED, ["w1", "go"]);
+  expect(text?.split("\n").slice(2, 4)).toEqual([
+    "        self.wait(1)",
+    "        self.robot.move(self.door.location)",
+  ]);
+  expect(text).not.toContain("def tell");
+});
+
+test("without its lines there is no script of a step", () => {
+  expect(clippedScript(PRINTED, ["fresh"])).toBeNull();
+  expect(clippedScript(PRINTED, [])).toBeNull();
+});
+
+test("what was copied is script that another program takes with its functions and names", () => {
+  const empty =
+    "class Task(object):\n    def new_task(self):\n        pass\n\n    def run(self, ctx):\n        self.new_task()\n";
+  const text = clippedScript(PRINTED, ["if"]) ?? "";
+  expect(looksLikeScript(text)).toBe(true);
+  expect(scriptWith(text, { script: empty, lines: [] }, null, [])).toBe(text);
+});
+
+test("a function that the program has already is not brought twice", () => {
+  const text = clippedScript(PRINTED, ["call"]) ?? "";
+  const again = scriptWith(text, PRINTED, null, []) ?? "";
+  expect(again.match(/def tell\(/g)?.length).toBe(1);
+  expect(again.match(/self\.tell\("hot"\)/g)?.length).toBe(2);
+});

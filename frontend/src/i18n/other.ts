@@ -1,0 +1,28 @@
+/** The texts of the language that is not chosen: people look for things by the words that they know. */
+import { useQuery } from "@tanstack/react-query";
+import i18next from "i18next";
+import { useMemo } from "react";
+import { useTranslation } from "react-i18next";
+import { CATALOGUES, LANGUAGES } from ".";
+
+const NOTHING = () => "";
+
+/** Reads a text of the other language; an empty one until its catalogue has come, or where it cannot be had. */
+export function useOtherLanguage(): (key: string) => string {
+  const { language } = useTranslation().i18n;
+  const other = LANGUAGES.find((each) => each !== language) ?? "en";
+  const loaded = useQuery({
+    queryKey: ["catalogue", other],
+    queryFn: async () => {
+      const { texts } = await CATALOGUES[other]();
+      i18next.addResourceBundle(other, "translation", texts);
+      return true;
+    },
+    staleTime: Infinity,
+    retry: false,
+  }).isSuccess;
+  return useMemo(() => {
+    const t = i18next.getFixedT(other);
+    return loaded ? (key: string) => t(key) : NOTHING;
+  }, [loaded, other]);
+}
