@@ -2,6 +2,9 @@
 import { useMediaQuery } from "@mantine/hooks";
 import { type CSSProperties, useEffect, useMemo } from "react";
 import type { Insets } from "@/map/plane/projection";
+import { EmptyProgram } from "./beginning/EmptyProgram";
+import { NextSteps } from "./beginning/NextSteps";
+import { Tour } from "./beginning/Tour";
 import classes from "./editor.module.css";
 import { EditorMap } from "./EditorMap";
 import { useClipboard } from "./gestures/clipboard";
@@ -13,7 +16,7 @@ import { Drawer } from "./parts/Drawer";
 import { EditorTop } from "./parts/EditorTop";
 import { NotTaken } from "./parts/NotTaken";
 import { Unopened } from "./parts/Unopened";
-import { EmptyProgram, HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
+import { HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
 import { ToolRail } from "./parts/ToolRail";
 import { ROW_PX, useToolRows } from "./parts/toolRows";
 import { pasteIfScript } from "./script/pastedScript";
@@ -63,6 +66,7 @@ export function EditorWorkspace() {
             <ToolRail />
             <EmptyProgram />
             <HelpSentence />
+            <NextSteps />
             <Toast />
             <NotTaken />
             <ProgramButton small={small} shown={inspector} />
@@ -70,6 +74,7 @@ export function EditorWorkspace() {
             <ZoneForm />
             <StepMenu />
             <Drawer small={small} />
+            <Tour />
           </>
         ) : null}
       </main>

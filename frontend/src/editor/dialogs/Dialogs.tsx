@@ -13,6 +13,7 @@ const LOAD = {
   save_function: () =>
     import("./SaveFunctionDialog").then(({ SaveFunctionDialog }) => ({ default: SaveFunctionDialog })),
   shortcuts: () => import("./ShortcutsDialog").then(({ ShortcutsDialog }) => ({ default: ShortcutsDialog })),
+  templates: () => import("../beginning/TemplateDialog").then(({ TemplateDialog }) => ({ default: TemplateDialog })),
 };
 const DIALOGS: Record<Name, ComponentType> = {
   run: lazy(LOAD.run),
@@ -20,6 +21,7 @@ const DIALOGS: Record<Name, ComponentType> = {
   library: lazy(LOAD.library),
   save_function: lazy(LOAD.save_function),
   shortcuts: lazy(LOAD.shortcuts),
+  templates: lazy(LOAD.templates),
 };
 /** So long after the program has come its dialogs are fetched, so that the first one opens at once. */
 const FETCH_AFTER_MS = 2000;

@@ -24,6 +24,7 @@ import { OperateForm } from "./forms/OperateForm";
 import { ProgramPanel } from "./ProgramPanel";
 import { ParallelForm, WaitForm } from "./forms/smallForms";
 import classes from "../panel.module.css";
+import { useFreshField } from "./fields/missingField";
 import { StepEditorContext, useStepEditor, type StepEditor } from "./fields/stepEditor";
 
 export function Inspector() {
@@ -66,6 +67,7 @@ function homeless(kind: string): string {
 function StepPanel() {
   const { t, compiled, document } = useOpenProgram();
   const { id, step } = useStepEditor();
+  useFreshField(id);
   const kind = kindOf(step.kind);
   const number = compiled?.numbers[id];
   const parent = step.place ? document.steps[step.place[0]] : undefined;
