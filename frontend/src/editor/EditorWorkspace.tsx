@@ -5,6 +5,10 @@ import type { Insets } from "@/map/plane/projection";
 import { EmptyProgram } from "./beginning/EmptyProgram";
 import { NextSteps } from "./beginning/NextSteps";
 import { Tour } from "./beginning/Tour";
+import { Announcer } from "./keyboard/Announcer";
+import { ModeBar } from "./keyboard/ModeBar";
+import { useOthersEdits } from "./keyboard/othersEdits";
+import { useModeKeys } from "./keyboard/useModeKeys";
 import classes from "./editor.module.css";
 import { EditorMap } from "./EditorMap";
 import { useClipboard } from "./gestures/clipboard";
@@ -67,6 +71,7 @@ export function EditorWorkspace() {
             <EmptyProgram />
             <HelpSentence />
             <NextSteps />
+            <ModeBar />
             <Toast />
             <NotTaken />
             <ProgramButton small={small} shown={inspector} />
@@ -79,6 +84,7 @@ export function EditorWorkspace() {
         ) : null}
       </main>
       <Dialogs />
+      <Announcer />
     </div>
   );
 }
@@ -86,6 +92,8 @@ export function EditorWorkspace() {
 /** The keys and the clipboard of the gestures, for as long as the editor is on the screen. */
 function useGestureInput(): void {
   const open = useOpenProgram();
+  useModeKeys(open);
+  useOthersEdits(open);
   useGestureKeys(open);
   useZoneKeys(open);
   useClipboard(open, pasteIfScript);

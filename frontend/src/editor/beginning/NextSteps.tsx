@@ -10,10 +10,8 @@ import { spotOf } from "@/program/surroundings";
 import { valueText } from "@/program/words/stepWords";
 import { useLanding } from "../canvas/landing";
 import { chipBoxes, createTask } from "../canvas/stepGesture";
-import { createStep } from "../state/actions";
 import { type OpenProgram, useOpenProgram } from "../state/context";
-import { freeSpot } from "../state/freeSpot";
-import { createAtDevice } from "../state/newStep";
+import { createAtDevice, createAtPlace } from "../state/newStep";
 import { RESTING } from "../state/tool";
 import { useUi } from "../state/ui";
 import classes from "./beginning.module.css";
@@ -84,15 +82,10 @@ function useDraw(open: OpenProgram, found: readonly NextStep[]) {
     const ends = endsOf(next);
     if (next.do === "carry" && ends) createTask(open, ends, next.load, routes, land);
     else if (next.do === "operate") operate(open, next);
-    else if (next.do === "drive") drive(open, next);
+    else if (next.do === "drive") createAtPlace(open, next.to);
   };
 }
 
 function operate(open: OpenProgram, { at, method }: Extract<NextStep, { do: "operate" }>): void {
   createAtDevice(open, { ...RESTING, tool: "operate" }, at, chipBoxes(open), method.name);
-}
-
-function drive(open: OpenProgram, { to }: Extract<NextStep, { do: "drive" }>): void {
-  const params = { role: "robot", to: { place: to.id } };
-  createStep(open.document, open.apply, { kind: "move", pos: freeSpot(open, "move", [to.x, to.y]), params });
 }

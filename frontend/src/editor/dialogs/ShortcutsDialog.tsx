@@ -11,6 +11,7 @@ const KEYS: readonly [string, string][] = [
   [".", "more"],
   ["Enter", "enter"],
   ["B · Shift+B", "branch"],
+  ["X · D · Q", "modes"],
   ["Ctrl+Z · Ctrl+Shift+Z", "undo"],
   ["Ctrl+C · X · V · D", "copy"],
   ["Ctrl+A", "all"],

@@ -8,6 +8,7 @@ import type { ProgramDocument } from "@/program/document/document";
 import { canLimit, duplicateSelected, limitSteps, makeId, removeSelected, settle } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
+import { enterConnect, enterMove, enterPlace } from "../keyboard/modes";
 import { copyToSystem } from "./clipboard";
 
 export interface Command {
@@ -48,6 +49,11 @@ function acting(id: string, keys: string, run: Command["run"], applies = hasStep
   return { id, keys, applies, run };
 }
 
+/** A mode of the keyboard; it says by itself where it does not apply. */
+function mode(id: string, keys: string, enter: (open: OpenProgram) => boolean): Command {
+  return acting(id, keys, (open) => void enter(open));
+}
+
 function hasSteps({ canEdit }: OpenProgram, selected: readonly string[]): boolean {
   return canEdit && selected.length > 0;
 }
@@ -74,6 +80,9 @@ export const COMMANDS: readonly Command[] = [
     "Ctrl+ArrowDown",
     one((document, id) => shiftStep(document, id, 1)),
   ),
+  mode("move_mode", "X", enterMove),
+  mode("connect_mode", "D", enterConnect),
+  mode("place_mode", "Q", enterPlace),
   decided("lift_out", "Ctrl+Shift+ArrowLeft", liftOut),
   decided("move_in", "Ctrl+Shift+ArrowRight", moveIn),
   decided("swap_branches", "", one(swapBranches)),

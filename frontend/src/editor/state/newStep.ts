@@ -1,4 +1,5 @@
 /** New steps where a gesture ends: at a device or on the floor. */
+import type { MapPlace } from "@/map/floor/floor";
 import { toPixels, type Box, type Point } from "@/map/plane/projection";
 import type { ProgramDocument, StepKind } from "@/program/document/document";
 import { type FieldRecord, fieldsOf, isStepKind } from "@/program/kinds";
@@ -11,6 +12,7 @@ import { operable } from "@/program/operation";
 import { deviceBox, type SiteDevice } from "@/program/surroundings";
 import { branchNow, createStep } from "./actions";
 import type { OpenProgram } from "./context";
+import { freeSpot } from "./freeSpot";
 import { chooseBranch, openBranchAt } from "./nextPlace";
 import { withDevice, type Gesture } from "./tool";
 import { useUi } from "./ui";
@@ -33,6 +35,12 @@ export function createAtDevice(
     make("operate", { device: operatedBy(open.document, device), ...method, args: {} });
   } else if (gesture.tool === "move") make("move", { role: "robot", to: { device: device.id } });
   else useUi.setState({ gesture: withDevice(gesture, device.id) });
+}
+
+/** A Move to a named place. */
+export function createAtPlace(open: OpenProgram, { id, x, y }: MapPlace): void {
+  const params = { role: "robot", to: { place: id } };
+  createStep(open.document, open.apply, { kind: "move", pos: freeSpot(open, "move", [x, y]), params });
 }
 
 function besideRobot({ devices }: OpenProgram, robot: SiteDevice, taken: readonly Box[]): Point {
