@@ -1,9 +1,10 @@
 /** The menu of a step, on the map and in the list: right click, long press, Shift+F10. */
 import { Menu } from "@mantine/core";
-import { useEffect } from "react";
+import { useCallback, useEffect } from "react";
 import { useOpenProgram, type OpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";
 import { COMMANDS } from "./commands";
+import { useLongPress } from "./longPress";
 import classes from "../canvas/gestures.module.css";
 import { useGestures, type MenuItem } from "../state/gestures";
 
@@ -17,6 +18,7 @@ export function StepMenu() {
     window.addEventListener("contextmenu", ask, { capture: true });
     return () => window.removeEventListener("contextmenu", ask, { capture: true });
   }, [open]);
+  useLongPress(useCallback((press) => openOver(open, press), [open]));
   const close = () => useGestures.setState({ menu: null });
   if (!menu) return null;
   return (
