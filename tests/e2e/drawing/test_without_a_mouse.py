@@ -14,15 +14,15 @@ from tests.kit.files import ROOT
 pytestmark = pytest.mark.browser
 GOLDEN = ROOT / "tests" / "cases" / "accessibility"
 DRAWN = [
-    "1, Parallel",
-    "1a.1, Pick-and-Drop, 1 \u00d7 box from Item Inventory to Painting Machine, inside Parallel 1",
-    "1b.1, Pick-and-Drop, 1 \u00d7 can from Paint Inventory to Paint Mixer A, inside Parallel 1",
-    "1b.2, Operate, Mix paint · 3 min at Paint Mixer A, inside Parallel 1",
-    "1b.3, Pick-and-Drop, 1 \u00d7 can from Paint Mixer A to Painting Machine, inside Parallel 1",
-    "2, Operate, Paint · 2 min at Painting Machine",
-    "3, Pick-and-Drop, 1 \u00d7 box from Painting Machine to Curing Oven",
-    "4, Operate, Cure paint · 4 min at Curing Oven",
-    "5, Move, Drive to Goods in",
+    "1, Pick-and-Drop, 1 \u00d7 can from Paint Inventory to Paint Mixer A",
+    "2, Parallel",
+    "2a, Pick-and-Drop, 1 \u00d7 box from Item Inventory to Painting Machine, inside Parallel 2",
+    "2b, Operate, Mix paint · 3 min at Paint Mixer A, inside Parallel 2",
+    "3, Pick-and-Drop, 1 \u00d7 can from Paint Mixer A to Painting Machine",
+    "4, Operate, Paint · 2 min at Painting Machine",
+    "5, Pick-and-Drop, 1 \u00d7 box from Painting Machine to Curing Oven",
+    "6, Operate, Cure paint · 4 min at Curing Oven",
+    "7, Move, Move to Goods in",
 ]
 
 
@@ -99,6 +99,7 @@ def test_the_painting_program_is_drawn_by_keyboard_undone_and_reloaded(sign_in: 
     page.reload()
     expect(page.get_by_role("treeitem")).to_have_count(len(DRAWN))
     assert steps_in_list(page) == DRAWN
+    expect(page.get_by_role("banner").get_by_role("button", name="Run", exact=True)).to_be_enabled()
     golden(page, "painting-outline")
     assert violations(page) == []
     page.get_by_role("treeitem").last.focus()
@@ -110,8 +111,8 @@ def test_the_painting_program_is_drawn_by_keyboard_undone_and_reloaded(sign_in: 
 
 def draw_one_after_the_other(page: Page) -> None:
     page.keyboard.press("Escape")
-    carry(page, "item", "painting")
     carry(page, "paint inv", "paint mixer a")
+    carry(page, "item", "painting")
     operate(page, "paint mixer a", "3")
     carry(page, "paint mixer a", "painting")
     operate(page, "painting", "2")
@@ -128,29 +129,29 @@ def draw_a_parallel_before_all(page: Page) -> None:
     said(page, "before 1 Pick-and-Drop")
     keys(page, "ArrowUp")
     said(page, "No more in this direction. before 1 Pick-and-Drop")
+    keys(page, "ArrowDown")
+    said(page, "after 1 Pick-and-Drop")
     keys(page, "Enter")
-    expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Step 1")
+    expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Step 2")
 
 
 def move_the_first_steps_into_it(page: Page) -> None:
     """Each by the words that are said, from the list of steps."""
     tab_to(page, "tab", "Steps")
     page.keyboard.press("Enter")
-    tab_to(page, "treeitem", "1, Parallel")
+    tab_to(page, "treeitem", "2, Parallel")
     rows = page.get_by_role("treeitem")
     expect(rows).to_have_count(9)
     for row, up, words in (
-        (1, 2, "inside 1 Parallel, branch “a”"),
-        (2, 1, "inside 1 Parallel, branch “b”"),
-        (3, 1, "after 1b.1 Pick-and-Drop"),
-        (4, 1, "after 1b.2 Operate"),
+        (2, 2, "inside 2 Parallel, branch “a”"),
+        (3, 1, "inside 2 Parallel, branch “b”"),
     ):
         keys(page, "ArrowDown")
         expect(rows.nth(row)).to_be_focused()
         keys(page, "x", *["ArrowUp"] * up)
         said(page, words)
         keys(page, "Enter")
-        expect(rows.nth(row)).to_have_attribute("aria-label", re.compile("inside Parallel 1"))
+        expect(rows.nth(row)).to_have_attribute("aria-label", re.compile("inside Parallel 2"))
         expect(rows.nth(row)).to_be_focused()
 
 
@@ -170,12 +171,12 @@ def place_the_last_step(page: Page) -> None:
 
 
 def undo_and_redo_all(page: Page) -> None:
-    """Eight steps drawn, three values, the Parallel, five moves and one placing: each is one entry."""
+    """Eight steps drawn, three values, the Parallel, three moves and one placing: each is one entry."""
     undone = 0
     while undo_button(page, "Undo").is_enabled():
         keys(page, "Control+z")
         undone += 1
-    assert undone == 18
+    assert undone == 16
     expect(page.get_by_role("heading", name="Start with one task")).to_be_visible()
     for _ in range(undone):
         keys(page, "Control+Shift+z")
