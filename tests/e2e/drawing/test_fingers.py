@@ -1,4 +1,4 @@
-"""By touch: one finger pans, two zoom, no finger leaves a moved step or an arrow behind, one that stays opens the menu."""
+"""By touch: one finger pans, two zoom, none leaves a moved step or an arrow behind, one that stays opens the menu."""
 
 from __future__ import annotations
 
