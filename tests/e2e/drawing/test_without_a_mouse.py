@@ -97,11 +97,13 @@ def test_the_painting_program_is_drawn_by_keyboard_undone_and_reloaded(sign_in: 
     undo_and_redo_all(page)
     saved(page)
     page.reload()
+    expect(page.get_by_role("tab", name="Steps")).to_be_visible()
+    assert violations(page) == []
+    page.get_by_role("tab", name="Steps").click()
     expect(page.get_by_role("treeitem")).to_have_count(len(DRAWN))
     assert steps_in_list(page) == DRAWN
     expect(page.get_by_role("banner").get_by_role("button", name="Run", exact=True)).to_be_enabled()
     golden(page, "painting-outline")
-    assert violations(page) == []
     page.get_by_role("treeitem").last.focus()
     keys(page, "Delete")
     expect(page.get_by_role("treeitem")).to_have_count(len(DRAWN) - 1)
@@ -160,7 +162,7 @@ def place_the_last_step(page: Page) -> None:
     keys(page, "Enter", "q", "g")
     said(page, "at Goods in")
     keys(page, "ArrowRight")
-    said(page, "1 m right of Goods in")
+    said(page, "1.0 m right of Goods in")
     keys(page, "Shift+ArrowRight")
     said(page, "1.1 m right of Goods in")
     keys(page, "Enter")

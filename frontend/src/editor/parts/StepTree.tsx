@@ -105,7 +105,7 @@ function RowBody({ chip, here }: { chip: Chip; here: readonly Person[] }) {
   const { t: words } = useTranslation();
   return (
     <span aria-hidden="true" className={classes.row}>
-      <span className={classes.number}>{chip.number || "–"}</span>
+      <span className={classes.number}>{chip.number || "–"}</span>{" "}
       <span style={{ color: `var(--${chip.family})`, display: "inline-flex" }}>
         <VipoIcon name={chip.icon} size={16} />
       </span>
@@ -120,11 +120,16 @@ function RowBody({ chip, here }: { chip: Chip; here: readonly Person[] }) {
         ))}
         <Where step={chip.id} />
       </span>
-      {chip.draft ? <span className={classes.branch}>{t("steps.draft")}</span> : null}
+      {chip.draft ? <Beside words={t("steps.draft")} /> : null}
       {chip.problem ? (
         <span className={classes.found} data-tone={chip.problem}>
           {chip.problem === "error" ? <OctagonAlert size={14} /> : <TriangleAlert size={14} />}
-          {chip.errors > 0 ? words("access.outline.errors", { count: chip.errors }) : t(`announce.${chip.problem}`)}
+          <Beside
+            bare
+            words={
+              chip.errors > 0 ? words("access.outline.errors", { count: chip.errors }) : t(`announce.${chip.problem}`)
+            }
+          />
         </span>
       ) : null}
       {here.map((each) => (
@@ -134,6 +139,11 @@ function RowBody({ chip, here }: { chip: Chip; here: readonly Person[] }) {
   );
 }
 
+/** Words beside the step's own: drawn, not written, since who speaks to the screen names the row by what it is. */
+function Beside({ words, bare = false }: { words: string; bare?: boolean }) {
+  return <span className={bare ? classes.drawn : `${classes.branch} ${classes.drawn}`} data-words={words} />;
+}
+
 /** The word of its arrow, or the function whose own step it is. */
 function BranchName({ step }: { step: string }) {
   const { document, t } = useOpenProgram();
@@ -141,7 +151,7 @@ function BranchName({ step }: { step: string }) {
   if (!place) return null;
   const parent = document.steps[place[0]];
   const word = parent && place[1] !== "body" ? branchWord(place[1], parent, t) : document.functions[place[0]]?.name;
-  return word ? <span className={classes.branch}>{word}</span> : null;
+  return word ? <Beside words={word} /> : null;
 }
 
 function Where({ step: id }: { step: string }) {
