@@ -104,8 +104,8 @@ def test_the_painting_program_is_drawn_by_keyboard_undone_and_reloaded(sign_in: 
     assert steps_in_list(page) == DRAWN
     expect(page.get_by_role("banner").get_by_role("button", name="Run", exact=True)).to_be_enabled()
     golden(page, "painting-outline")
-    page.get_by_role("treeitem").last.focus()
-    keys(page, "Delete")
+    page.get_by_role("treeitem").first.focus()
+    keys(page, "End", "Delete")
     expect(page.get_by_role("treeitem")).to_have_count(len(DRAWN) - 1)
     keys(page, "Control+z")
     expect(page.get_by_role("treeitem")).to_have_count(len(DRAWN))

@@ -18,7 +18,11 @@ export function useLongPress(ask: (press: PointerEvent) => void): void {
       if (press.pointerType !== "touch" || !press.isPrimary) return;
       const timer = setTimeout(() => {
         held = null;
-        if (!useFingers.getState().several) ask(press);
+        if (useFingers.getState().several) return;
+        // The finger's lift is no press of its own, which would close what it has opened.
+        const quiet = (event: Event) => event.preventDefault();
+        window.addEventListener("touchend", quiet, { capture: true, once: true, passive: false });
+        ask(press);
       }, HELD_MS);
       held = { press, timer };
     };
