@@ -92,12 +92,6 @@ function nextOf(response: Response): string | undefined {
   return next?.[1];
 }
 
-/** A part of a list, and where the next one is. */
-async function receivePart<T>(path: string): Promise<{ items: T[]; next?: string }> {
-  const response = await send("GET", path);
-  return { items: await receive<T[]>(response), next: nextOf(response) };
-}
-
 /** A whole list, which the server gives in parts. */
 async function receiveAll<T>(path: string): Promise<T[]> {
   const all: T[] = [];

@@ -22,6 +22,7 @@ import { select, showDevice, toggleSelected, useUi } from "./state/ui";
 import { swapBranches } from "./edits/branches";
 import { FollowView } from "./gestures/FollowView";
 import { Ghosts } from "./gestures/Ghosts";
+import { ModeInView, ModeMark } from "./keyboard/ModeBar";
 import { KeepInView } from "./canvas/KeepInView";
 import { joinByDot } from "./gestures/connection";
 import { JoinLine } from "./gestures/JoinLine";
@@ -86,6 +87,7 @@ export function EditorMap({ insets, fitInsets, small }: EditorMapProps) {
       <FollowView />
       <StageAtHand />
       {small ? <KeepInView /> : null}
+      <ModeInView />
       <Ghosts />
       <Cursors shared={shared} />
       <DevicePalette onChoose={presses.onDevice} />
@@ -101,6 +103,7 @@ function Plane({ drawing }: { drawing: Drawing }) {
     <>
       <PreviewLine from={drawing.from} route={drawing.preview} pointer={drawing.pointer} />
       <RouteBends />
+      <ModeMark />
       <ZoneHandles pointer={drawing.pointer} />
     </>
   );

@@ -2,6 +2,13 @@
 import { useMediaQuery } from "@mantine/hooks";
 import { type CSSProperties, useEffect, useMemo } from "react";
 import type { Insets } from "@/map/plane/projection";
+import { EmptyProgram } from "./beginning/EmptyProgram";
+import { NextSteps } from "./beginning/NextSteps";
+import { Tour } from "./beginning/Tour";
+import { Announcer } from "./keyboard/Announcer";
+import { ModeBar } from "./keyboard/ModeBar";
+import { useOthersEdits } from "./keyboard/othersEdits";
+import { useModeKeys } from "./keyboard/useModeKeys";
 import classes from "./editor.module.css";
 import { ContextMenu } from "./commands/ContextMenu";
 import { useCommandKeys } from "./commands/keys";
@@ -14,7 +21,7 @@ import { Drawer } from "./parts/Drawer";
 import { EditorTop } from "./parts/EditorTop";
 import { NotTaken } from "./parts/NotTaken";
 import { Unopened } from "./parts/Unopened";
-import { EmptyProgram, HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
+import { HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
 import { QuickAdd } from "./parts/QuickAdd";
 import { ToolRail } from "./parts/ToolRail";
 import { ROW_PX, useToolRows } from "./parts/toolRows";
@@ -64,6 +71,8 @@ export function EditorWorkspace() {
             <ToolRail />
             <EmptyProgram />
             <HelpSentence />
+            <NextSteps />
+            <ModeBar />
             <Toast />
             <NotTaken />
             <ProgramButton small={small} shown={inspector} />
@@ -72,10 +81,12 @@ export function EditorWorkspace() {
             <ContextMenu />
             <QuickAdd />
             <Drawer small={small} />
+            <Tour />
           </>
         ) : null}
       </main>
       <Dialogs />
+      <Announcer />
     </div>
   );
 }
@@ -83,6 +94,8 @@ export function EditorWorkspace() {
 /** The keys and the clipboard of the gestures, for as long as the editor is on the screen. */
 function useGestureInput(): void {
   const open = useOpenProgram();
+  useModeKeys(open);
+  useOthersEdits(open);
   useCommandKeys(open);
   useRunning(open);
   usePaletteOffer(open);

@@ -13,7 +13,7 @@ import { createStep } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { createAtDevice, createOnFloor } from "../state/newStep";
 import { openEnds } from "../state/freeSpot";
-import { useLanding } from "./landing";
+import { type Landing, useLanding } from "./landing";
 import { askOf, suggestedLoads, suits, withDevice, type Gesture } from "../state/tool";
 import { say, useUi } from "../state/ui";
 
@@ -87,7 +87,7 @@ function spotOfDevice({ surroundings, document }: OpenProgram, id: string | null
   return id ? spotOf({ device: id }, surroundings, document, null) : null;
 }
 
-function chipBoxes({ scene }: OpenProgram): Box[] {
+export function chipBoxes({ scene }: OpenProgram): Box[] {
   return [...[...scene.chips.values()].map((chip) => chip.box), ...openEnds(scene)];
 }
 
@@ -102,20 +102,30 @@ function takeDeviceFor(open: OpenProgram, gesture: Gesture, id: string): void {
   else say(t(`unsuitable.${askOf(gesture)}`, { device: found.name }));
 }
 
-/** The answer to what is carried makes the step; on a path that is not known yet it is moved when the path comes. */
+/** A Pick-and-Drop on its path; on one that is not known yet it is moved when the path comes. */
+export function createTask(
+  open: OpenProgram,
+  ends: { readonly from: Spot; readonly to: Spot },
+  load: { readonly [Name in keyof Load]: unknown },
+  routes: RouteLookup,
+  land: (landing: Landing) => void,
+): void {
+  const key = keyOfPath(ends.from, ends.to);
+  const machines = open.devices.filter((device) => device.kind !== "robot").map(deviceBox);
+  const pos = spotOnRoute(routePoints(ends, routes(key)), [...chipBoxes(open), ...machines]);
+  const params = { role: "robot", ...presentOnly(load), source: ends.from.place, target: ends.to.place };
+  const id = createStep(open.document, open.apply, { kind: "pick_and_drop", pos, params });
+  if (routes(key) === undefined) land({ id, pos, key, ends });
+}
+
+/** The answer to what is carried makes the step. */
 function useTakeLoad(open: OpenProgram, gesture: Gesture, path: DrawnPath) {
-  const { document, apply, surroundings, devices, t } = open;
+  const { document, apply, surroundings, t } = open;
   const land = useLanding(open, path.routes);
   return (load: Load) => {
     const common = { role: "robot", ...presentOnly(load) };
     const taken = chipBoxes(open);
-    if (path.ends && path.preview) {
-      const machines = devices.filter((device) => device.kind !== "robot").map(deviceBox);
-      const pos = spotOnRoute(path.preview, [...taken, ...machines]);
-      const params = { ...common, source: path.ends.from.place, target: path.ends.to.place };
-      const id = createStep(document, apply, { kind: "pick_and_drop", pos, params });
-      if (path.routes(path.key) === undefined) land({ id, pos, key: path.key, ends: path.ends });
-    }
+    if (path.ends) createTask(open, path.ends, load, path.routes, land);
     const at = gesture.tool === "pick" ? gesture.source : gesture.tool === "drop" ? gesture.target : null;
     const place = at === null ? undefined : surroundings.devices.get(at);
     if (place && (gesture.tool === "pick" || gesture.tool === "drop"))
@@ -154,6 +164,6 @@ function mostCarried(devices: readonly SiteDevice[]): number {
   return Math.max(1, ...devices.map((device) => (device.kind === "robot" ? (device.capacity ?? 1) : 1)));
 }
 
-function presentOnly(load: Load): Record<string, unknown> {
+function presentOnly(load: { readonly [Name in keyof Load]: unknown }): Record<string, unknown> {
   return Object.fromEntries(Object.entries(load).filter(([, value]) => value !== null));
 }

@@ -1,25 +1,22 @@
 /** The menu over a step, an arrow, a machine or the floor, on the map and in the list of steps. */
 import { Menu } from "@mantine/core";
-import { Fragment, useEffect } from "react";
+import { Fragment, useCallback, useEffect } from "react";
 import { useTranslation } from "react-i18next";
 import { wordsOfKeys } from "@/shell/keys/keyNames";
 import { useOpenProgram, type OpenProgram } from "../state/context";
 import { useGestures, type MenuItem } from "../state/gestures";
+import { useLongPress } from "../gestures/longPress";
 import { underPointer } from "../state/under";
 import { useUi } from "../state/ui";
 import classes from "../canvas/gestures.module.css";
 import { menuOver, showMenu } from "./menu";
 import { COMMANDS } from "./table";
 
-const LONG_PRESS_MS = 500;
-/** A finger that moves farther drags the map, pixels. */
-const STILL_PX = 8;
-
 export function ContextMenu() {
   const open = useOpenProgram();
   const menu = useGestures((ui) => ui.menu);
   useRightClick(open);
-  useLongPress(open);
+  useLongPress(useCallback((press) => void ask(open, press.target, { x: press.clientX, y: press.clientY }), [open]));
   const close = () => useGestures.setState({ menu: null });
   if (!menu) return null;
   return (
@@ -89,34 +86,5 @@ function useRightClick(open: OpenProgram): void {
     };
     window.addEventListener("contextmenu", click, { capture: true });
     return () => window.removeEventListener("contextmenu", click, { capture: true });
-  }, [open]);
-}
-
-/** One finger that rests; a second one, or a move, is something else. */
-function useLongPress(open: OpenProgram): void {
-  useEffect(() => {
-    let timer: ReturnType<typeof setTimeout> | undefined;
-    let from = { x: 0, y: 0 };
-    const stop = () => clearTimeout(timer);
-    const begin = (event: PointerEvent) => {
-      stop();
-      if (event.pointerType !== "touch" || !event.isPrimary) return;
-      from = { x: event.clientX, y: event.clientY };
-      timer = setTimeout(() => ask(open, event.target, from), LONG_PRESS_MS);
-    };
-    const move = (event: PointerEvent) => {
-      if (Math.hypot(event.clientX - from.x, event.clientY - from.y) > STILL_PX) stop();
-    };
-    const events = [
-      ["pointerdown", begin],
-      ["pointermove", move],
-      ["pointerup", stop],
-      ["pointercancel", stop],
-    ] as const;
-    for (const [name, hear] of events) window.addEventListener(name, hear as EventListener, { capture: true });
-    return () => {
-      stop();
-      for (const [name, hear] of events) window.removeEventListener(name, hear as EventListener, { capture: true });
-    };
   }, [open]);
 }

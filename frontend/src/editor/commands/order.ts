@@ -7,8 +7,11 @@ import {
   ArrowUp,
   Braces,
   Link2,
+  ListOrdered,
+  Move,
   PackageOpen,
   Route,
+  Spline,
   SquareFunction,
   Timer,
   Unlink,
@@ -20,7 +23,8 @@ import { liftOut, moveIn, swapBranches, takeApart } from "../edits/branches";
 import { disconnect, joinDrafts, shiftStep } from "../edits/joints";
 import { canLimit, limitSteps, makeId } from "../state/actions";
 import { select, useUi } from "../state/ui";
-import { command, decided, needsSteps, one, type Command } from "./command";
+import { enterConnect, enterMove, enterPlace } from "../keyboard/modes";
+import { command, decided, needsRight, needsSteps, one, type Command } from "./command";
 
 /** What came in place of something else is selected. */
 function selectMoved(edits: readonly Edit[]): void {
@@ -50,6 +54,25 @@ export const ORDER_COMMANDS: readonly Command[] = [
     keys: ["Ctrl+ArrowDown"],
     ...decided(one((document, id) => shiftStep(document, id, 1))),
   }),
+  command({
+    id: "move_mode",
+    ...ORDER,
+    icon: ListOrdered,
+    keys: ["X"],
+    when: "steps",
+    whyNot: needsSteps,
+    run: enterMove,
+  }),
+  command({
+    id: "connect_mode",
+    ...ORDER,
+    icon: Spline,
+    keys: ["D"],
+    when: "steps",
+    whyNot: needsSteps,
+    run: enterConnect,
+  }),
+  command({ id: "place_mode", ...ORDER, icon: Move, keys: ["Q"], whyNot: needsRight, run: enterPlace }),
   command({ id: "lift_out", ...ORDER, icon: ArrowLeftFromLine, keys: ["Ctrl+Shift+ArrowLeft"], ...decided(liftOut) }),
   command({ id: "move_in", ...ORDER, icon: ArrowRightToLine, keys: ["Ctrl+Shift+ArrowRight"], ...decided(moveIn) }),
   command({ id: "swap_branches", ...ORDER, icon: ArrowDownUp, ...decided(one(swapBranches)) }),

@@ -15,6 +15,7 @@ const LOAD = {
   strangers: () => import("./StrangersDialog").then(({ StrangersDialog }) => ({ default: StrangersDialog })),
   find: () => import("./FindDialog").then(({ FindDialog }) => ({ default: FindDialog })),
   shortcuts: () => import("./ShortcutsDialog").then(({ ShortcutsDialog }) => ({ default: ShortcutsDialog })),
+  templates: () => import("../beginning/TemplateDialog").then(({ TemplateDialog }) => ({ default: TemplateDialog })),
 };
 const DIALOGS: Record<Name, ComponentType> = {
   run: lazy(LOAD.run),
@@ -24,6 +25,7 @@ const DIALOGS: Record<Name, ComponentType> = {
   strangers: lazy(LOAD.strangers),
   find: lazy(LOAD.find),
   shortcuts: lazy(LOAD.shortcuts),
+  templates: lazy(LOAD.templates),
 };
 /** So long after the program has come its dialogs are fetched, so that the first one opens at once. */
 const FETCH_AFTER_MS = 2000;

@@ -25,6 +25,7 @@ import { ProgramPanel } from "./ProgramPanel";
 import { Several } from "./Several";
 import { ParallelForm, WaitForm } from "./forms/smallForms";
 import classes from "../panel.module.css";
+import { useFreshField } from "./fields/missingField";
 import { StepEditorContext, useStepEditor, type StepEditor } from "./fields/stepEditor";
 
 export function Inspector() {
@@ -69,6 +70,7 @@ function homeless(kind: string): string {
 function StepPanel() {
   const { t, compiled, document } = useOpenProgram();
   const { id, step } = useStepEditor();
+  useFreshField(id);
   const kind = kindOf(step.kind);
   const number = compiled?.numbers[id];
   const parent = step.place ? document.steps[step.place[0]] : undefined;

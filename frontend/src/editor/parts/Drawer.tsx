@@ -13,7 +13,12 @@ export function Drawer({ small }: { small: boolean }) {
   const { t, diagnostics } = useOpenProgram();
   const drawer = useUi((ui) => ui.drawer);
   return (
-    <section className={classes.drawer} data-open={drawer.open || undefined} aria-label={t("drawer.label")}>
+    <section
+      className={classes.drawer}
+      data-tour="drawer"
+      data-open={drawer.open || undefined}
+      aria-label={t("drawer.label")}
+    >
       <div className={classes.bar}>
         <div role="tablist" aria-label={t("drawer.label")} className={classes.tabs}>
           <Tab tab="script" icon={<FileCode2 size={15} aria-hidden="true" />} label={t("drawer.script")} />

@@ -157,6 +157,7 @@ function Actions() {
       <Problems />
       <SimulateButton />
       <Button
+        data-tour="run"
         leftSection={<Play size={16} aria-hidden="true" />}
         disabled={!canRun || errors > 0}
         title={errors > 0 ? t("run_blocked") : undefined}

@@ -1,15 +1,13 @@
-/** What floats over the map for a moment: a short word with Undo, and how to begin. */
-import { Button } from "@mantine/core";
+/** What floats over the map for a moment: a short word with Undo, and where the next step goes. */
 import { CircleCheck, Settings2 } from "lucide-react";
 import { useEffect } from "react";
 import { IconButton } from "@/design/IconButton";
-import { VipoIcon } from "@/design/VipoIcon";
 import classes from "../canvas/float.module.css";
 import { useOpenProgram } from "../state/context";
 import { useGestures } from "../state/gestures";
 import { branchNow } from "../state/actions";
 import { placeWords } from "../state/nextPlace";
-import { type Ask, askOf, type Gesture, RESTING, takeTool } from "../state/tool";
+import { type Ask, askOf, type Gesture } from "../state/tool";
 import { ZONE_TOOL } from "../state/tools";
 import { hideProgram, PROGRAM_BUTTON, useUi } from "../state/ui";
 
@@ -38,27 +36,6 @@ export function Toast() {
         </button>
       ) : null}
     </div>
-  );
-}
-
-export function EmptyProgram() {
-  const { t, document, canEdit } = useOpenProgram();
-  const resting = useUi((ui) => ui.gesture.tool === "select");
-  if (!canEdit || !resting || Object.keys(document.steps).length > 0) return null;
-  return (
-    <section className={classes.empty} aria-label={t("empty.title")}>
-      <span className={classes.emptyIcon}>
-        <VipoIcon name="pickdrop" size={22} />
-      </span>
-      <h2>{t("empty.title")}</h2>
-      <p>{t("empty.text")}</p>
-      <Button onClick={() => useUi.setState({ gesture: takeTool(RESTING, "pick_and_drop", false) })}>
-        {t("empty.action")}
-      </Button>
-      <button type="button" className={classes.link} onClick={() => useUi.setState({ dialog: "library" })}>
-        {t("empty.import")}
-      </button>
-    </section>
   );
 }
 

@@ -1,13 +1,19 @@
 /** The program as a list: everything that the map shows, by keyboard. */
+import { OctagonAlert, TriangleAlert } from "lucide-react";
 import { useRef, type KeyboardEvent } from "react";
+import { useTranslation } from "react-i18next";
+import { Avatar } from "@/design/Avatar";
 import { VipoIcon } from "@/design/VipoIcon";
 import { chipLabel, detailOf } from "@/program/scene/announcements";
 import type { Chip } from "@/program/scene/chips";
 import { branchWord } from "@/program/scene/links";
 import { placeName } from "@/program/words/stepWords";
 import type { Place } from "@/program/document/document";
+import { announce } from "../keyboard/announcer";
+import { beside } from "../keyboard/goals";
 import { useOpenProgram } from "../state/context";
 import { shiftInOrder } from "../state/actions";
+import type { Person } from "../state/presence";
 import { select, toggleSelected, useUi } from "../state/ui";
 import classes from "./drawer.module.css";
 
@@ -16,6 +22,7 @@ export function StepTree() {
   const { scene, t } = open;
   const selected = useUi((ui) => ui.selected);
   const list = useRef<HTMLUListElement>(null);
+  const { t: words } = useTranslation();
   const comments = [...scene.chips.values()].filter((chip) => chip.kind === "comment").map((chip) => chip.id);
   const rows = [...scene.tree.reading, ...scene.tree.loose, ...comments].flatMap((id) => scene.chips.get(id) ?? []);
   const current = selected.at(-1) ?? rows[0]?.id;
@@ -24,11 +31,16 @@ export function StepTree() {
     select([id]);
     list.current?.querySelector<HTMLElement>(`[data-step="${id}"]`)?.focus();
   };
+  /** At its ends the list stops, and says so. */
+  const walk = (from: number, by: number) => {
+    const to = beside(from, by, rows.length);
+    if (to === from) announce(words(by > 0 ? "access.outline.last" : "access.outline.first"));
+    else go(rows[to]?.id);
+  };
   const press = (event: KeyboardEvent, chip: Chip, index: number) => {
     if (event.altKey && event.shiftKey && (event.key === "ArrowUp" || event.key === "ArrowDown"))
       shiftInOrder(open, chip.id, event.key === "ArrowUp" ? -1 : 1);
-    else if (event.key === "ArrowDown") go(rows[index + 1]?.id);
-    else if (event.key === "ArrowUp") go(rows[index - 1]?.id);
+    else if (event.key in LISTED) walk(index, LISTED[event.key] ?? 0);
     else if (event.key === "Enter" || event.key === " ") select([chip.id]);
     else return;
     event.preventDefault();
@@ -49,6 +61,8 @@ export function StepTree() {
   );
 }
 
+const LISTED: Readonly<Record<string, number>> = { ArrowDown: 1, ArrowUp: -1, Home: -Infinity, End: Infinity };
+
 function StepRow({
   chip,
   current,
@@ -58,8 +72,15 @@ function StepRow({
   current: boolean;
   onPress: (event: KeyboardEvent) => void;
 }) {
-  const { scene, speaker, t } = useOpenProgram();
+  const { scene, speaker, t, people } = useOpenProgram();
+  const { t: words } = useTranslation();
   const selected = useUi((ui) => ui.selected);
+  const here = people.filter((each) => !each.me && (each.selection.includes(chip.id) || each.editing === chip.id));
+  const label = [
+    chipLabel(chip, speaker),
+    chip.draft ? t("steps.draft") : "",
+    here.length > 0 ? words("access.outline.people", { names: here.map(({ name }) => name).join(", ") }) : "",
+  ];
   return (
     <li
       data-step={chip.id}
@@ -67,13 +88,24 @@ function StepRow({
       role="treeitem"
       aria-level={scene.tree.depth(chip.id) + 1}
       aria-selected={selected.includes(chip.id)}
-      aria-label={chipLabel(chip, speaker)}
+      aria-label={label.filter(Boolean).join(", ")}
       tabIndex={current ? 0 : -1}
       style={{ paddingLeft: 8 + scene.tree.depth(chip.id) * 22 }}
       onClick={(event) => (event.shiftKey ? toggleSelected(chip.id) : select([chip.id]))}
       onKeyDown={onPress}
     >
-      <span className={classes.number}>{chip.number || "–"}</span>
+      {/* The label says all of it, in the words of who listens. */}
+      <RowBody chip={chip} here={here} />
+    </li>
+  );
+}
+
+function RowBody({ chip, here }: { chip: Chip; here: readonly Person[] }) {
+  const { t } = useOpenProgram();
+  const { t: words } = useTranslation();
+  return (
+    <span aria-hidden="true" className={classes.row}>
+      <span className={classes.number}>{chip.number || "–"}</span>{" "}
       <span style={{ color: `var(--${chip.family})`, display: "inline-flex" }}>
         <VipoIcon name={chip.icon} size={16} />
       </span>
@@ -88,9 +120,28 @@ function StepRow({
         ))}
         <Where step={chip.id} />
       </span>
-      {chip.draft ? <span className={classes.branch}>{t("steps.draft")}</span> : null}
-    </li>
+      {chip.draft ? <Beside words={t("steps.draft")} /> : null}
+      {chip.problem ? (
+        <span className={classes.found} data-tone={chip.problem}>
+          {chip.problem === "error" ? <OctagonAlert size={14} /> : <TriangleAlert size={14} />}
+          <Beside
+            bare
+            words={
+              chip.errors > 0 ? words("access.outline.errors", { count: chip.errors }) : t(`announce.${chip.problem}`)
+            }
+          />
+        </span>
+      ) : null}
+      {here.map((each) => (
+        <Avatar key={each.client} name={each.name} initials={each.initials} colour={each.colour} size={18} />
+      ))}
+    </span>
   );
+}
+
+/** Words beside the step's own: drawn, not written, since who speaks to the screen names the row by what it is. */
+function Beside({ words, bare = false }: { words: string; bare?: boolean }) {
+  return <span className={bare ? classes.drawn : `${classes.branch} ${classes.drawn}`} data-words={words} />;
 }
 
 /** The word of its arrow, or the function whose own step it is. */
@@ -100,7 +151,7 @@ function BranchName({ step }: { step: string }) {
   if (!place) return null;
   const parent = document.steps[place[0]];
   const word = parent && place[1] !== "body" ? branchWord(place[1], parent, t) : document.functions[place[0]]?.name;
-  return word ? <span className={classes.branch}>{word}</span> : null;
+  return word ? <Beside words={word} /> : null;
 }
 
 function Where({ step: id }: { step: string }) {

@@ -136,8 +136,8 @@ export function pasteScript(open: OpenProgram, pasted: string): void {
   );
 }
 
-/** Draw the lines, or say why that cannot be. */
-async function drawPasted(open: OpenProgram, pasted: string, chosen: Chosen): Promise<void> {
+/** Draw the lines, or say why that cannot be; `chosen` stands in for devices that are not here. */
+export async function drawPasted(open: OpenProgram, pasted: string, chosen: Chosen): Promise<void> {
   const { compiled, shared, program, devices, t } = open;
   if (!compiled) return;
   const behind = useUi.getState().selected.at(-1) ?? null;

@@ -1,6 +1,6 @@
 /** A free place for a chip that belongs to no place of its own. */
 import { knownBox } from "@/map/floor/floor";
-import { toMetres, type Box, type Point } from "@/map/plane/projection";
+import { toMetres, toPixels, type Box, type Point } from "@/map/plane/projection";
 import type { PixelPoint } from "@/map/plane/paths";
 import { boxAt, grown, legBoxes, overlaps } from "@/program/scene/geometry";
 import { isFramed } from "@/program/kinds";
@@ -23,11 +23,11 @@ const WAYS = [
   [-1, -1],
 ] as const;
 
-/** On the floor near the selected or the last step, covering neither chips, frames nor machines. */
-export function freeSpot(open: OpenProgram, kind = ""): Point {
+/** On the floor near a point, else near the selected or the last step, covering neither chips, frames nor machines. */
+export function freeSpot(open: OpenProgram, kind = "", near?: Point): Point {
   const { scene, devices, plan } = open;
   const last = useUi.getState().selected.at(-1) ?? scene.tree.reading.at(-1);
-  const from = (last ? scene.chips.get(last)?.at : undefined) ?? scene.start;
+  const from = near ? toPixels(near) : ((last ? scene.chips.get(last)?.at : undefined) ?? scene.start);
   const taken = [
     ...[...scene.chips.values()].map((chip) => outerBox(scene, chip.id) ?? chip.box),
     ...devices.filter((device) => device.kind !== "robot").map(deviceBox),

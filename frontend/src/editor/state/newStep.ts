@@ -1,4 +1,5 @@
 /** New steps where a gesture ends: at a device or on the floor. */
+import type { MapPlace } from "@/map/floor/floor";
 import { toPixels, type Box, type Point } from "@/map/plane/projection";
 import type { ProgramDocument, StepKind } from "@/program/document/document";
 import { type FieldRecord, fieldsOf, isStepKind } from "@/program/kinds";
@@ -11,20 +12,35 @@ import { operable } from "@/program/operation";
 import { deviceBox, type SiteDevice } from "@/program/surroundings";
 import { branchNow, createStep } from "./actions";
 import type { OpenProgram } from "./context";
+import { freeSpot } from "./freeSpot";
 import { chooseBranch, openBranchAt } from "./nextPlace";
 import { withDevice, type Gesture } from "./tool";
 import { useUi } from "./ui";
 
-export function createAtDevice(open: OpenProgram, gesture: Gesture, device: SiteDevice, taken: readonly Box[]): void {
+/** A step at a machine or a robot; an Operate of its only method, where none is given. */
+export function createAtDevice(
+  open: OpenProgram,
+  gesture: Gesture,
+  device: SiteDevice,
+  taken: readonly Box[],
+  chosen?: string,
+): void {
   const pos = device.kind === "robot" ? besideRobot(open, device, taken) : spotOnMachine(deviceBox(device), taken);
   const make = (kind: "move" | "operate", params: Record<string, unknown>) =>
     createStep(open.document, open.apply, { kind, pos, params });
   if (gesture.tool === "operate") {
     const methods = operable(device);
-    const method = methods.length === 1 ? { method: methods[0]?.name } : {};
+    const name = chosen ?? (methods.length === 1 ? methods[0]?.name : undefined);
+    const method = name === undefined ? {} : { method: name };
     make("operate", { device: operatedBy(open.document, device), ...method, args: {} });
   } else if (gesture.tool === "move") make("move", { role: "robot", to: { device: device.id } });
   else useUi.setState({ gesture: withDevice(gesture, device.id) });
+}
+
+/** A Move to a named place. */
+export function createAtPlace(open: OpenProgram, { id, x, y }: MapPlace): void {
+  const params = { role: "robot", to: { place: id } };
+  createStep(open.document, open.apply, { kind: "move", pos: freeSpot(open, "move", [x, y]), params });
 }
 
 function besideRobot({ devices }: OpenProgram, robot: SiteDevice, taken: readonly Box[]): Point {

@@ -5,7 +5,8 @@ import type { Clipping } from "../edits/clipping";
 import { RESTING, type Gesture } from "./tool";
 
 export type DrawerTab = "script" | "problems" | "steps";
-export type Dialog = "run" | "function" | "library" | "save_function" | "shortcuts" | "find" | "strangers" | null;
+export type Dialog =
+  "run" | "function" | "library" | "save_function" | "shortcuts" | "find" | "strangers" | "templates" | null;
 
 /** A field of the inspector that waits for a press on a device. */
 export interface FieldPick {

@@ -11,6 +11,7 @@ import { RobotLayer, RobotPaths } from "@/map/robots/RobotLayer";
 import { buildNodes } from "./buildNodes";
 import { Drawing } from "./Drawing";
 import { deviceUnder, type LevelOfDetail, StageFlow, usePress, useBoxDirection } from "./StageFlow";
+import { useFingerCount } from "../touch/fingers";
 import { type Guide, useSnapping } from "./snapping";
 import classes from "./stage.module.css";
 import { StageContext, type StageHandle } from "./stageContext";
@@ -87,14 +88,16 @@ function Lines({ scene, looks, onStep, lines }: MapStageProps) {
 /** The pointer over the floor and on machines, from the way down to the way up. */
 function usePointing({ onPointer, onDeviceDown, onDeviceUp }: MapStageProps) {
   const press = usePress();
+  useFingerCount();
   return {
     onPointerMove: onPointer ? (event: PointerEvent) => onPointer(press(event).at) : undefined,
     onPointerUp: (event: PointerEvent) => {
-      const device = deviceUnder(event);
+      const device = event.pointerType === "touch" ? null : deviceUnder(event);
       if (device) onDeviceUp?.(device);
     },
     onPointerDown: (event: PointerEvent) => {
-      const device = deviceUnder(event);
+      // A finger that presses here may be about to pan or pinch: what it means is known when it is lifted, by its tap.
+      const device = event.pointerType === "touch" ? null : deviceUnder(event);
       if (device && event.button === 0) onDeviceDown?.(device);
     },
   };

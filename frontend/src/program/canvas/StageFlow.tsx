@@ -15,6 +15,7 @@ import { toMetres } from "@/map/plane/projection";
 import type { ViewportCell } from "@/map/plane/viewport";
 import { DEVICE_PREFIX, START_ID } from "./buildNodes";
 import { nodeTypes, type StageNode } from "./nodes";
+import { useFingers } from "../touch/fingers";
 import type { MapStageProps, StagePress } from "./stageProps";
 import type { MovingNodes } from "./useMovingNodes";
 
@@ -42,6 +43,8 @@ export function usePress() {
 export function StageFlow(props: StageFlowProps) {
   const { moving, box, viewport, mode, looks } = props;
   const flow = useReactFlow();
+  // One finger pans and two zoom; a mouse boxes, and pans with its wheel.
+  const touching = useFingers((fingers) => fingers.touching);
   return (
     <ReactFlow<StageNode>
       nodes={moving.nodes}
@@ -62,7 +65,7 @@ export function StageFlow(props: StageFlowProps) {
         props.onLevel(view.zoom < 0.35 ? "dot" : view.zoom < 0.6 ? "icon" : "full");
       }}
       selectionMode={box.mode}
-      panOnDrag={mode === "pan" || !looks.editable ? true : [1]}
+      panOnDrag={mode === "pan" || !looks.editable || touching ? true : [1]}
       panActivationKeyCode="Space"
       deleteKeyCode={null}
       disableKeyboardA11y
@@ -97,6 +100,7 @@ function usePresses(props: StageFlowProps) {
 }
 
 function useSelecting({ moving, box, mode, looks }: StageFlowProps) {
+  const touching = useFingers((fingers) => fingers.touching);
   return {
     onSelectionDragStop: moving.onSelectionDragStop,
     onSelectionStart: box.begin,
@@ -104,7 +108,7 @@ function useSelecting({ moving, box, mode, looks }: StageFlowProps) {
       box.end();
       moving.onSelectionEnd();
     },
-    selectionOnDrag: mode === "select" && looks.editable,
+    selectionOnDrag: mode === "select" && looks.editable && !touching,
     selectionKeyCode: null,
     multiSelectionKeyCode: "Shift",
   };
@@ -115,7 +119,8 @@ function useJoining({ scene, viewport, onJoin }: StageFlowProps): OnConnectEnd {
   return (event, state) => {
     const at = pointOf(event);
     const from = state.fromNode?.id;
-    if (from === undefined || !at) return;
+    // A pinch leaves no arrow that one of its fingers happened to begin.
+    if (from === undefined || !at || useFingers.getState().several) return;
     const to = joinTarget(scene.chips, from, flow.screenToFlowPosition(at), viewport.get().zoom);
     if (to !== null) onJoin?.(from, to, at);
   };

@@ -2,6 +2,7 @@
 import { applyNodeChanges, type Node, type NodeChange, type NodePositionChange } from "@xyflow/react";
 import { useCallback, useEffect, useRef, useState, type RefObject } from "react";
 import { toMetres, toPixels, type Point } from "@/map/plane/projection";
+import { useFingers } from "../touch/fingers";
 import type { Guide, Snapped } from "./snapping";
 import type { StageNode } from "./nodes";
 
@@ -44,11 +45,21 @@ export function useMovingNodes(
   useEffect(() => {
     setNodes((now) => (dragging.current.size === 0 ? built : keepDragged(built, now, dragging.current)));
   }, [built]);
+  useGivenUp(
+    useCallback(() => {
+      if (dragging.current.size === 0) return;
+      dragging.current.clear();
+      snapped.current.clear();
+      setGuides(NO_GUIDES);
+      setNodes(built);
+      onDragging?.(null);
+    }, [built, onDragging]),
+  );
   const onNodesChange = useCallback(
     (changes: NodeChange<StageNode>[]) => {
       noteSelection(changes, boxed.current);
       const moves = changes.filter((change) => change.type === "position");
-      if (moves.length === 0) return;
+      if (moves.length === 0 || useFingers.getState().several) return;
       for (const move of moves) if (move.dragging) dragging.current.add(move.id);
       const [placed, lines] =
         dragging.current.size === 1 ? snapMoves(moves, snapTo, snapped.current) : [moves, NO_GUIDES];
@@ -84,6 +95,17 @@ export function useMovingNodes(
     onSelectionDragStop: useCallback((_event, all) => drop(all), [drop]),
     onSelectionEnd: useBoxEnd(boxed, onSelectMany),
   };
+}
+
+/** A second finger never moves a node: React Flow ends the drag then, and says so to nobody. */
+function useGivenUp(giveUp: () => void): void {
+  useEffect(
+    () =>
+      useFingers.subscribe((now, before) => {
+        if (now.several && !before.several) giveUp();
+      }),
+    [giveUp],
+  );
 }
 
 function useBoxEnd(

@@ -39,7 +39,7 @@ export function FieldFrame({
     if (!event.currentTarget.contains(event.relatedTarget)) showEditing(false);
   };
   return (
-    <div className={classes.field} onFocus={() => showEditing(true)} onBlur={leave}>
+    <div className={classes.field} data-field={field} onFocus={() => showEditing(true)} onBlur={leave}>
       <label htmlFor={control}>{label}</label>
       {children({ control, note: `${control}-note`, bad: messages.length > 0 })}
       {messages.length > 0 ? (
