@@ -15,7 +15,7 @@ import { useCommandKeys } from "./commands/keys";
 import { usePaletteOffer } from "./commands/offer";
 import { EditorMap } from "./EditorMap";
 import { useClipboard } from "./gestures/clipboard";
-import { Inspector, loadStepForm } from "./inspector/Inspector";
+import { Inspector, loadPanels } from "./inspector/Inspector";
 import { Dialogs } from "./dialogs/Dialogs";
 import { Drawer } from "./parts/Drawer";
 import { EditorTop } from "./parts/EditorTop";
@@ -103,7 +103,7 @@ export function EditorWorkspace() {
 
 function useFormsLater(): void {
   useEffect(() => {
-    const fetchAll = () => [loadStepForm, loadZoneForm].forEach((load) => void load().catch(() => {}));
+    const fetchAll = () => [loadPanels, loadZoneForm].forEach((load) => void load().catch(() => {}));
     const timer = setTimeout(fetchAll, FETCH_AFTER_MS);
     return () => clearTimeout(timer);
   }, []);

@@ -11,14 +11,18 @@ import { duplicateSelected, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { say, useUi } from "../state/ui";
 import { FormBody } from "../canvas/FormBody";
-import { DevicePanel } from "./DevicePanel";
 import { ProgramPanel } from "./ProgramPanel";
-import { Several } from "./Several";
 import classes from "../panel.module.css";
 import { StepEditorContext, useStepEditor, type StepEditor } from "./fields/stepEditor";
 
 /** The forms of steps are loaded when the first step is looked at, or once the program is on the screen. */
-export const loadStepForm = () => import("./forms/StepForm");
+const loadStepForm = () => import("./forms/StepForm");
+const loadDevicePanel = () => import("./DevicePanel");
+const loadSeveral = () => import("./Several");
+const DevicePanel = lazy(async () => ({ default: (await loadDevicePanel()).DevicePanel }));
+const Several = lazy(async () => ({ default: (await loadSeveral()).Several }));
+/** Fetch what the inspector shows, so that it opens at once. */
+export const loadPanels = () => Promise.all([loadStepForm(), loadDevicePanel(), loadSeveral()]);
 const StepForm = lazy(async () => ({ default: (await loadStepForm()).StepForm }));
 
 export function Inspector() {
@@ -28,9 +32,19 @@ export function Inspector() {
   const device = useUi((ui) => ui.device);
   const id = selected.at(-1);
   const step = id ? document.steps[id] : undefined;
-  if (selected.length > 1) return <Several />;
+  if (selected.length > 1)
+    return (
+      <Suspense fallback={null}>
+        <Several />
+      </Suspense>
+    );
   if (id && step) return <One key={id} id={id} />;
-  if (device !== null) return <DevicePanel key={device} id={device} />;
+  if (device !== null)
+    return (
+      <Suspense fallback={null}>
+        <DevicePanel key={device} id={device} />
+      </Suspense>
+    );
   return zone === null ? <ProgramPanel /> : null;
 }
 

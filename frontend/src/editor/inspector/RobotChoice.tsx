@@ -9,7 +9,7 @@ import { unitText, valueText } from "@/program/words/valueWords";
 import { type Choice, choiceOf, choiceValue, typedValue } from "../edits/choices";
 import { useOpenProgram } from "../state/context";
 import classes from "../panel.module.css";
-import { SIGNS } from "./forms/ConditionForm";
+import { SIGNS } from "./forms/signs";
 
 interface Props {
   readonly id: string;

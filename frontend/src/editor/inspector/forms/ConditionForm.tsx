@@ -13,20 +13,13 @@ import { settle } from "../../state/actions";
 import { useOpenProgram } from "../../state/context";
 import { ExpressionField } from "../expression/ExpressionField";
 import { Reading } from "../expression/Readings";
+import { SIGNS } from "./signs";
 import { FieldFrame, useFieldProblems } from "../fields/FieldFrame";
 import { useStepEditor } from "../fields/stepEditor";
 import classes from "../../panel.module.css";
 
 /** What stands before a role among the keys of the list; no device's id begins so. */
 const ROLE = ":role ";
-export const SIGNS = [
-  { value: "==", label: "=" },
-  { value: "!=", label: "≠" },
-  { value: "<", label: "<" },
-  { value: "<=", label: "≤" },
-  { value: ">", label: ">" },
-  { value: ">=", label: "≥" },
-];
 
 export function ConditionForm({ field }: { field: string }) {
   const { t: words } = useTranslation();
