@@ -19,7 +19,7 @@ from registry.api.people import begin_session
 from registry.audit.acting import client_address
 from registry.models import User
 from registry.people.access import require
-from registry.shapes import Asked, AsTyped, Line, Role, signed_in
+from registry.shapes import Asked, AsTyped, Line, Role, refuses, signed_in
 from registry.sites import invitations
 from registry.sites.invitations import MOST_DAYS, MOST_USES, InvitationView, Wanted
 from registry.sites.mail import can_mail, mail_invitation
@@ -140,7 +140,7 @@ def revoke_invitation(request: HttpRequest, slug: str, invitation: int) -> Statu
     return Status(204, None)
 
 
-@router.post("/invitations/look", response=OfferShape, auth=None)
+@router.post("/invitations/look", response=OfferShape, auth=None, openapi_extra=refuses(404, 410))
 def look_at_invitation(request: HttpRequest, response: HttpResponse, body: LinkCode) -> dict[str, Any]:
     """Say what a link offers; one that has ended says so (410), and one that is none tells of no site (404)."""
     _require_page(request)
@@ -149,14 +149,14 @@ def look_at_invitation(request: HttpRequest, response: HttpResponse, body: LinkC
     return asdict(found)
 
 
-@router.post("/invitations/accept", response=Joined, auth=session_only)
+@router.post("/invitations/accept", response=Joined, auth=session_only, openapi_extra=refuses(404, 410))
 def accept_invitation(request: HttpRequest, body: LinkCode) -> dict[str, str]:
     """Join a site by a link as who is signed in."""
     user, address = signed_in(request), client_address(request)
     return {"site": invitations.accept_invitation(code=body.code, user=user, address=address, now=timezone.now())}
 
 
-@router.post("/invitations/join", response={201: Joined}, auth=None)
+@router.post("/invitations/join", response={201: Joined}, auth=None, openapi_extra=refuses(404, 410))
 def join_as_new(request: HttpRequest, response: HttpResponse, body: NewPerson) -> Status[dict[str, str]]:
     """Make an account by a link, join the site, and begin a session."""
     _require_page(request)

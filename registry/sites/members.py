@@ -45,6 +45,10 @@ class NoSuchMember(RegistryError):
     status = 404
 
 
+_MOST_IDS = 2**63
+"""No row has a number that the databases could not keep."""
+
+
 @dataclass(frozen=True, slots=True)
 class MemberView:
     """A member; `came_by` is who invited them, if they came by a link, `is_closed` says that they sign in no more."""
@@ -197,7 +201,7 @@ def _rows(site: str) -> QuerySet[Membership]:
 
 
 def _find(rows: QuerySet[Membership], person: int) -> Membership:
-    member = rows.filter(user_id=person).first()
+    member = rows.filter(user__pk=person).first() if person < _MOST_IDS else None
     if member is None:
         raise NoSuchMember("There is no such member. They may have left, or been removed.")
     return member
