@@ -24,9 +24,12 @@ def draw(page: Page) -> None:
 
 
 def test_ten_people_draw_one_program_and_all_see_the_same(sign_in: SignIn, faults: list[str]) -> None:
-    first = sign_in("author")
+    first = sign_in("author", width=1200, height=700)
     path = make_program(first, "Ten people")
-    pages = [first, *(sign_in("admin" if number % 2 else "author", path) for number in range(1, PEOPLE))]
+    pages = [
+        first,
+        *(sign_in("admin" if number % 2 else "author", path, width=1200, height=700) for number in range(1, PEOPLE)),
+    ]
     for page in pages:
         opened(page)
     away = pages[3]
