@@ -21,6 +21,7 @@ from editor.versions.shapes import (
     ChangedShape,
     ChangesToMake,
     ComparisonShape,
+    PinnedVersionShape,
     RestoreAsked,
     VersionShape,
     VersionToPin,
@@ -46,7 +47,7 @@ def list_versions(
     return tell_rest(request, response, services.list_versions(program_id=program, part=asked.part()))
 
 
-@router.post("/programs/{program}/versions", response={200: VersionShape, 201: VersionShape})
+@router.post("/programs/{program}/versions", response={200: PinnedVersionShape, 201: PinnedVersionShape})
 def pin_version(request: HttpRequest, program: UUID, body: VersionToPin) -> Status[VersionView]:
     """Make the program as it is now a version; the answer is 200 with the last one if nothing has changed since."""
     program_for(request.user, program, "author")

@@ -32,10 +32,15 @@ class VersionShape(Schema):
     created_at: datetime
 
 
-class WholeVersionShape(VersionShape):
-    """A version with its document and its script."""
+class PinnedVersionShape(VersionShape):
+    """A version with its script."""
 
     script: str
+
+
+class WholeVersionShape(PinnedVersionShape):
+    """A version with its script and its document."""
+
     document: Document
 
 

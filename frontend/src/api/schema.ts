@@ -3517,6 +3517,22 @@ export interface components {
             initials: string;
             name: string;
         };
+        /** @description A version with its script. */
+        PinnedVersionShape: {
+            author: components["schemas"]["Author"] | null;
+            /** @description Who had drawn since the version before. */
+            authors: components["schemas"]["Author"][];
+            /** @enum {string} */
+            cause: "" | "run" | "rehearsal" | "import" | "restore";
+            /** Format: date-time */
+            created_at: string;
+            /** Format: uuid */
+            id: string;
+            message: string;
+            name: string;
+            number: number;
+            script: string;
+        };
         Place: components["schemas"]["DevicePlace"] | components["schemas"]["NamedPlace"] | components["schemas"]["PointPlace"] | components["schemas"]["ParameterUse"];
         /** @description What is to be another about a place; what is left out stays. */
         PlaceEdit: {
@@ -4227,7 +4243,7 @@ export interface components {
         Whereabouts: {
             at: components["schemas"]["Place"] | components["schemas"]["RoleUse"];
         };
-        /** @description A version with its document and its script. */
+        /** @description A version with its script and its document. */
         WholeVersionShape: {
             author: components["schemas"]["Author"] | null;
             /** @description Who had drawn since the version before. */
@@ -5788,7 +5804,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["VersionShape"];
+                    "application/json": components["schemas"]["PinnedVersionShape"];
                 };
             };
             /** @description Created */
@@ -5799,7 +5815,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["VersionShape"];
+                    "application/json": components["schemas"]["PinnedVersionShape"];
                 };
             };
             400: components["responses"]["Refused400"];
