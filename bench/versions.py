@@ -58,9 +58,9 @@ def measure_laws() -> Iterator[dict[str, object]]:
     """Try the laws on chance: a difference applied, and restores while five people draw."""
     from editor.language.comparison.changes import apply_changes, is_same
     from editor.language.comparison.difference import compare
-    from tests.kit.document_edits import edited as edited_by_chance
-    from tests.kit.document_edits import empty
-    from tests.kit.restores import lost_in_a_restore
+    from tests.kit.drawn.edits import edited as edited_by_chance
+    from tests.kit.drawn.edits import empty
+    from tests.kit.drawn.restores import lost_in_a_restore
 
     wrong = 0
     for seed in range(SEQUENCES):

@@ -347,7 +347,7 @@ def _set_step(steps: Any, name: str, wanted: Mapping[str, Any]) -> None:
 def _rewrite(steps: Any, name: str, wanted: Mapping[str, Any]) -> None:
     """Give a step other parameters, one by one where they are shared one by one."""
     step = steps[name]
-    params = step["params"] if isinstance(step, Map) else None
+    params = step.get("params") if isinstance(step, Map) else None
     if not isinstance(step, Map):
         steps[name] = wanted
     elif not isinstance(params, Map):

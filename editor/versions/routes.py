@@ -35,6 +35,9 @@ from editor.versions.sides import compare_sides
 from registry.shapes import PartAsked, refuses, sends, signed_in, tell_rest
 
 router = Router(tags=["editor"])
+_SENDS_A_FILE = {
+    "responses": {**sends("application/json", "text/plain")["responses"], **refuses(409)["responses"]},
+}
 _MAY_BE_AWAY = refuses(409, 503)
 
 
@@ -81,7 +84,7 @@ def copy_version(request: HttpRequest, program: UUID, number: int, body: Program
 
 @router.get(
     "/programs/{program}/versions/{number}/export",
-    openapi_extra=sends("application/json", "text/plain") | refuses(409),
+    openapi_extra=_SENDS_A_FILE,
 )
 def export_version(
     request: HttpRequest, program: UUID, number: int, form: Literal["document", "script"] = "document"

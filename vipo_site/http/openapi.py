@@ -52,6 +52,7 @@ _REFUSALS = {
     403: "The role or the token's scope does not suffice, or X-CSRFToken is missing.",
     404: "It does not exist, or the asker is no member of its site.",
     409: "Not in the state that things are in.",
+    410: "It was there, and is over.",
     412: "It is not any more what the asker knows (If-Match).",
     413: "It is longer than it may be.",
     415: "Its content type is not one that is taken here.",
@@ -63,7 +64,7 @@ _REFUSALS = {
     503: "What it takes is away; nothing was changed.",
 }
 """What calls are refused with; `default` says how any other refusal would be told."""
-_RARE = (412, 413, 415, 428, 501)
+_RARE = (410, 412, 413, 415, 428, 501)
 """Only of calls that say so themselves (`refuses`)."""
 
 

@@ -108,7 +108,7 @@ def test_every_kind_has_a_case_a_section_and_a_picture():
 def worded(construct):
     """Return the words that the editor needs for a construct, by their keys in the catalogue."""
     fields = [field for field in construct.fields if field.type in {"place", "value", "variable", "choice", "text"}]
-    own = re.search(r"FORMS.*?};", (FRONTEND / "editor/inspector/Inspector.tsx").read_text(), re.DOTALL)
+    own = re.search(r"FORMS.*?};", (FRONTEND / "editor/inspector/forms/StepForm.tsx").read_text(), re.DOTALL)
     keys = {f"kind.{construct.kind}", f"about.{construct.kind}"}
     if not re.search(rf"^  {construct.kind}: ", own[0], re.MULTILINE):
         labelled = [field for field in fields if field.wanted != "boolean"]

@@ -21,7 +21,7 @@ from editor.language.comparison.changes import (
     read_change,
 )
 from editor.language.comparison.difference import compare
-from tests.kit.document_edits import edited, empty
+from tests.kit.drawn.edits import edited, empty
 
 SEEDS = st.integers(0, 2**32)
 COUNTS = st.integers(0, 40)

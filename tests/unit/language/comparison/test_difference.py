@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from editor.language.comparison.difference import ConstructChange, Difference, compare
-from tests.kit.document_edits import edited, empty
+from tests.kit.drawn.edits import edited, empty
 from tests.kit.programs import document, step
 
 SEEDS = st.integers(0, 2**32)

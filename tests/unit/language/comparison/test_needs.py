@@ -11,7 +11,7 @@ from editor.language.comparison.changes import apply_changes, find_changes, is_s
 from editor.language.comparison.difference import Name, name_of
 from editor.language.comparison.needs import restore_all, restore_some
 from editor.language.document.outline import make_outline
-from tests.kit.document_edits import edited, empty
+from tests.kit.drawn.edits import edited, empty
 from tests.kit.programs import document, step
 
 SEEDS = st.integers(0, 2**32)

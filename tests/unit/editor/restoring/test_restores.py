@@ -10,8 +10,8 @@ from pycrdt import Map
 from editor.documents.shared_document import SharedDocument, encode_document
 from editor.language.comparison.changes import apply_changes
 from editor.language.comparison.needs import restore_some
+from tests.kit.drawn.restores import lost_in_a_restore
 from tests.kit.programs import document, step
-from tests.kit.restores import lost_in_a_restore
 
 
 @pytest.mark.parametrize("seed", range(40))

@@ -1,0 +1,1 @@
+"""Documents that are edited by chance, and what restoring does to them."""
