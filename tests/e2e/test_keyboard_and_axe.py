@@ -112,6 +112,9 @@ def make_things(page: Page) -> dict[str, str]:
     programs = {each["name"]: each["id"] for each in ask(page, f"{SITE}/programs")}
     page.keyboard.press("Control+a")
     page.keyboard.press("Delete")
+    page.keyboard.press("n")  # another step instead, where the map proposes
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("complementary", name="Selected step")).to_be_visible()
     saved(page)
     return {
         "comparison": f"{task}/compare?old=1&new=draft",
