@@ -34,6 +34,8 @@ MADE = {
     "use_robot_map": Place("show_map", ("slug",), {}),
     "restore_map": Place("show_map", ("slug",), {}),
     "add_place": Place("show_place", ("slug",), {"place_id": "id"}),
+    "make_invitation": Place("list_invitations", ("slug",), {}),
+    "join_as_new": Place("show_site", (), {"slug": "site"}),
     "create_program": Place("show_program", (), {"program": "id"}),
     "copy_version": Place("show_program", (), {"program": "id"}),
     "pin_version": Place("show_version", ("program",), {"number": "number"}),

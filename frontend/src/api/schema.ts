@@ -4617,6 +4617,8 @@ export interface operations {
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8705,6 +8707,8 @@ export interface operations {
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {

@@ -42,7 +42,12 @@ def make_each(client: Client) -> dict[str, Any]:
     task = editor.create_program(site=SITE, name="Task", document=TASK).id
     image = SimpleUploadedFile("a.pgm", b"P5 2 2 255 " + bytes([255] * 4))
     function = {"program": str(source), "function": "f", "name": "Greet"}
+    invitation = post_json(client, f"{AT_SITE}/invitations", {"role": "viewer"})
+    code = invitation.json()["link"].rpartition("#")[2]
+    person = {"code": code, "name": "Nora Lind", "email": "nora@vipo.example", "password": "a-horse-in-the-rain-9"}
     return {
+        "make_invitation": invitation,
+        "join_as_new": post_json(Client(), "/api/invitations/join", person),
         "upload_site": client.post(
             "/api/sites", {"name": "New", "yaml": SimpleUploadedFile("a.yaml", YAML), "image": image}
         ),
