@@ -8,7 +8,7 @@ import type { Place } from "@/program/document/document";
 import { type Command, selection } from "../commands/command";
 import { runCommand } from "../commands/keys";
 import { COMMANDS, commandOf } from "../commands/table";
-import { type CommonField, commonFields, setForAll } from "../edits/common";
+import { type CommonField, commonFields, setForAll } from "../edits/commonFields";
 import { knownNames } from "../edits/variables";
 import { useOpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { Step } from "@/program/document/document";
-import { commonFields, setForAll } from "./common";
+import { commonFields, setForAll } from "./commonFields";
 
 const step = (kind: Step["kind"], params: Step["params"]): Step => ({ kind, pos: [0, 0], place: null, params });
 const said = (steps: readonly Step[]) =>
