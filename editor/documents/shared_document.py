@@ -332,32 +332,26 @@ def _client_id(digest: str, state: bytes) -> int:
 def _set_step(steps: Any, name: str, wanted: Mapping[str, Any]) -> None:
     """Make a step what is wanted, field by field where it is shared so: what others do to the rest of it stays."""
     shared = steps.get(name)
-    if not isinstance(shared, Map):
+    if isinstance(shared, Map):
+        _set_all(shared, wanted, but="params")
+        _rewrite(steps, name, wanted)
+    else:
         steps[name] = Map({**wanted, "params": Map(dict(wanted["params"]))})
-        return
-    fields = {field: value for field, value in wanted.items() if field != "params"}
-    for field in sorted({*shared.keys(), *fields} - {"params"}):
-        if field not in fields:
-            del shared[field]
-        elif field not in shared.keys() or plain(shared[field]) != fields[field]:  # noqa: SIM118 - a Yjs map, no dict
-            shared[field] = fields[field]
-    _rewrite(steps, name, wanted)
 
 
 def _rewrite(steps: Any, name: str, wanted: Mapping[str, Any]) -> None:
     """Give a step other parameters, one by one where they are shared one by one."""
     step = steps[name]
-    params = step.get("params") if isinstance(step, Map) else None
     if not isinstance(step, Map):
         steps[name] = wanted
-    elif not isinstance(params, Map):
-        step["params"] = wanted["params"]
-    else:
+    elif isinstance(params := step.get("params"), Map):
         _set_all(params, wanted["params"])
+    else:
+        step["params"] = wanted["params"]
 
 
-def _set_all(shared: Any, wanted: Mapping[str, Any]) -> None:
-    for name in sorted({*shared.keys(), *wanted}):
+def _set_all(shared: Any, wanted: Mapping[str, Any], *, but: str = "") -> None:
+    for name in sorted({*shared.keys(), *wanted} - {but}):
         if name not in wanted:
             del shared[name]
         elif name not in shared.keys() or plain(shared[name]) != wanted[name]:  # noqa: SIM118 - a Yjs map, no dict
@@ -367,14 +361,12 @@ def _set_all(shared: Any, wanted: Mapping[str, Any]) -> None:
 def merge(updates: Iterable[bytes]) -> bytes:
     """Return one update that holds them all, whatever their order. Raises BadUpdate."""
     parts = [update for update in updates if update and update != EMPTY_UPDATE]
-    if not parts:
-        return EMPTY_UPDATE
     try:
         while len(parts) > 1:  # few at a time: thousands at once take ten times as long, and hold all threads up
             parts = [_merged(parts[at : at + _MERGED_AT_ONCE]) for at in range(0, len(parts), _MERGED_AT_ONCE)]
     except ValueError as error:
         raise BadUpdate(str(error)) from error
-    return parts[0]
+    return parts[0] if parts else EMPTY_UPDATE
 
 
 def _merged(updates: list[bytes]) -> bytes:
@@ -402,8 +394,7 @@ def encode_document(plain: Mapping[str, Any]) -> bytes:
         if plain.get("start_pos") is not None:
             roots["meta"]["start_pos"] = plain["start_pos"]
         for step, body in plain["steps"].items():
-            roots["steps"][step] = Map({**body, "params": Map(dict(body["params"]))})
+            _set_step(roots["steps"], step, body)
         for name in _CONTENT[1:]:
-            for key, value in plain[name].items():
-                roots[name][key] = value
+            _set_all(roots[name], plain[name])
     return document.get_update()
