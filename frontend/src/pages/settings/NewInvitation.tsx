@@ -1,8 +1,8 @@
 /** The form for a new invitation, and its link, shown this one time. */
-import { Button, CopyButton, Modal, NativeSelect, Radio, TextInput } from "@mantine/core";
-import { Check, Copy } from "lucide-react";
+import { Button, Modal, NativeSelect, Radio, TextInput } from "@mantine/core";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
+import { SecretField } from "@/design/SecretField";
 import type { MadeInvitation, Role } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
@@ -126,27 +126,12 @@ export function LinkShown({ made, onClose }: { made: MadeInvitation; onClose: ()
           </p>
         )}
         <p>{t("people.shown.once")}</p>
-        <div className={styles.shown}>
-          <TextInput
-            classNames={{ input: styles.mono }}
-            label={t("people.shown.field")}
-            readOnly
-            data-autofocus
-            value={made.link}
-            onFocus={(event) => event.currentTarget.select()}
-          />
-          <CopyButton value={made.link} timeout={4000}>
-            {({ copied, copy }) => (
-              <Button
-                variant="default"
-                onClick={copy}
-                leftSection={copied ? <Check size={16} aria-hidden="true" /> : <Copy size={16} aria-hidden="true" />}
-              >
-                {t(copied ? "people.shown.copied" : "people.shown.copy")}
-              </Button>
-            )}
-          </CopyButton>
-        </div>
+        <SecretField
+          label={t("people.shown.field")}
+          value={made.link}
+          copy={t("people.shown.copy")}
+          copied={t("people.shown.copied")}
+        />
         <Button onClick={onClose}>{t("people.shown.close")}</Button>
       </div>
     </Modal>

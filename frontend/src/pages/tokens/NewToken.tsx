@@ -1,8 +1,8 @@
 /** The form for a new token, and the token itself, shown this one time. */
-import { Button, Checkbox, CopyButton, Modal, NativeSelect, TextInput } from "@mantine/core";
-import { Check, Copy } from "lucide-react";
+import { Button, Checkbox, Modal, NativeSelect, TextInput } from "@mantine/core";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
+import { SecretField } from "@/design/SecretField";
 import type { MadeToken, Site, TokenScope } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
@@ -116,27 +116,12 @@ export function TokenShown({ token, onClose }: { token: MadeToken; onClose: () =
     >
       <div className={pages.form}>
         <p>{t("tokens.shownOnce")}</p>
-        <div className={styles.shown}>
-          <TextInput
-            classNames={{ input: styles.mono }}
-            label={t("tokens.field")}
-            readOnly
-            data-autofocus
-            value={token.token}
-            onFocus={(event) => event.currentTarget.select()}
-          />
-          <CopyButton value={token.token} timeout={4000}>
-            {({ copied, copy }) => (
-              <Button
-                variant="default"
-                onClick={copy}
-                leftSection={copied ? <Check size={16} aria-hidden="true" /> : <Copy size={16} aria-hidden="true" />}
-              >
-                {t(copied ? "tokens.copied" : "tokens.copy")}
-              </Button>
-            )}
-          </CopyButton>
-        </div>
+        <SecretField
+          label={t("tokens.field")}
+          value={token.token}
+          copy={t("tokens.copy")}
+          copied={t("tokens.copied")}
+        />
         {token.broker ? <BrokerWay way={token.broker} /> : null}
         <Button onClick={onClose}>{t("tokens.close")}</Button>
       </div>

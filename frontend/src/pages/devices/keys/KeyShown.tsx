@@ -1,7 +1,7 @@
 /** A device's new key, shown this one time. */
-import { Button, CopyButton, Modal, TextInput } from "@mantine/core";
-import { Check, Copy } from "lucide-react";
+import { Button, Modal } from "@mantine/core";
 import { useTranslation } from "react-i18next";
+import { SecretField } from "@/design/SecretField";
 import { create } from "zustand";
 import { useFocusInList } from "../focus";
 import styles from "./keys.module.css";
@@ -26,28 +26,7 @@ function KeyDialog({ shown }: { shown: ShownKey }) {
     >
       <div className={styles.key}>
         <p>{t("keys.shownOnce")}</p>
-        <div className={styles.row}>
-          <TextInput
-            className={styles.field}
-            classNames={{ input: styles.mono }}
-            label={t("keys.field")}
-            readOnly
-            data-autofocus
-            value={shown.credential}
-            onFocus={(event) => event.currentTarget.select()}
-          />
-          <CopyButton value={shown.credential} timeout={4000}>
-            {({ copied, copy }) => (
-              <Button
-                variant="default"
-                onClick={copy}
-                leftSection={copied ? <Check size={16} aria-hidden="true" /> : <Copy size={16} aria-hidden="true" />}
-              >
-                {t(copied ? "keys.copied" : "keys.copy")}
-              </Button>
-            )}
-          </CopyButton>
-        </div>
+        <SecretField label={t("keys.field")} value={shown.credential} copy={t("keys.copy")} copied={t("keys.copied")} />
         <p>{t(shown.taken ? "keys.taken" : "keys.notTaken")}</p>
         <Button onClick={forget}>{t("keys.close")}</Button>
       </div>
