@@ -148,7 +148,13 @@ AXE = ROOT / "frontend" / "node_modules" / "axe-core" / "axe.min.js"
 SERIOUS = {"serious", "critical"}
 
 
+STILL = """() => document.getAnimations().every(
+  (each) => each.playState !== "running" || each.effect?.getTiming().iterations === Infinity)"""
+"""What fades in has the colours of both: contrast is measured when nothing moves but what always does."""
+
+
 def violations(page: Page) -> list[str]:
+    page.wait_for_function(STILL)
     page.evaluate(AXE.read_text())
     result: dict[str, Any] = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")
     return [

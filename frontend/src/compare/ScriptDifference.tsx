@@ -40,7 +40,6 @@ export function ScriptDifference({ pictures, chosen, known, onChoose }: ScriptPr
         id="script-difference"
         className={styles.script}
         hidden={!open}
-        // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
         tabIndex={0}
         role="region"
         aria-label={t("compare.lines")}

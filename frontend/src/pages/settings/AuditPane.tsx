@@ -92,7 +92,7 @@ export function AuditPane({ slug }: { slug: string }) {
         </Button>
       </div>
       <Filters filter={filter} choose={setFilter} />
-      <div className={styles.record}>
+      <div className={styles.record} role="region" aria-label={t("people.audit.lines")} tabIndex={0}>
         {audit.isLoadingError ? <LoadProblem error={audit.error} again={() => void audit.refetch()} /> : null}
         {audit.isPending ? <TableSkeleton /> : null}
         {first && lines.length === 0 ? <p className={styles.none}>{t("people.audit.none")}</p> : null}

@@ -6,7 +6,6 @@ export function SourceView({ text, dialect, label }: { text: string; dialect: Di
   const lines = text.replace(/\n+$/, "").split("\n");
   return (
     // A region that scrolls must be reachable by keyboard.
-    // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
     <div className={styles.source} role="region" aria-label={label} tabIndex={0}>
       {lines.map((line, index) => (
         <div key={index} className={styles.line}>
