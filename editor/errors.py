@@ -56,7 +56,7 @@ class NotApproved(EditorError):
 class NeedsPerson(EditorError):
     """A token asks for what a person alone decides."""
 
-    code = "not_allowed"
+    code = "not_for_tokens"
     status = 403
 
 
