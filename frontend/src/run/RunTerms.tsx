@@ -21,9 +21,7 @@ export function RunTerms({ run, now }: { run: RunSummary; now: number }) {
           {t(late ? "run.terms.late" : "run.terms.due", { at: formatMoment(run.deadline) })}
         </Chip>
       ) : null}
-      {run.permit?.emergency ? (
-        <Chip tone="error">{t("review.run.emergency", { why: run.permit.emergency })}</Chip>
-      ) : run.permit ? (
+      {run.permit && !run.permit.emergency ? (
         <Chip tone="done">{t("review.run.approved", { people: run.permit.approved_by.join(", ") })}</Chip>
       ) : null}
     </>

@@ -1,6 +1,6 @@
 /** A sentence that goes with what somebody asks or says of a version. */
 import { Button, Textarea } from "@mantine/core";
-import { useState } from "react";
+import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { problemText } from "../LoadProblem";
 import styles from "./review.module.css";
@@ -19,11 +19,12 @@ interface NoteProps {
 export function NoteForm({ label, send, required, busy, error, onSend, onCancel }: NoteProps) {
   const { t } = useTranslation();
   const [note, setNote] = useState("");
+  const field = useRef<HTMLTextAreaElement>(null);
+  useEffect(() => field.current?.focus(), []);
   return (
     <div className={styles.form}>
       <Textarea
-        data-autofocus
-        autoFocus
+        ref={field}
         label={label}
         autosize
         minRows={2}
