@@ -70,14 +70,20 @@ def why_astray(name: str, begin: Point | None, here: Point | None) -> str:
     return f"The way begins {away_m:.1f} m from where {name} will be." if away_m > ASTRAY_M else ""
 
 
-def duration_s(method: MethodSpec, arguments: Mapping[str, object]) -> float:
-    """Return how long the method takes: its argument `time` (minutes unless it says otherwise), else 2 s."""
+def said_duration_s(method: MethodSpec, arguments: Mapping[str, object]) -> float | None:
+    """Return how long a call's arguments say that it takes: `time` (minutes unless it says otherwise); None if none."""
     for parameter in method.parameters:
         value = arguments.get(parameter.name)
         lasts = parameter.name == "time" or (bool(parameter.unit) and parameter.unit in SECONDS)
         if lasts and is_number(value):
             return max(0.0, float(value)) * SECONDS.get(parameter.unit, 60.0)
-    return DEFAULT_DURATION_S
+    return None
+
+
+def duration_s(method: MethodSpec, arguments: Mapping[str, object]) -> float:
+    """Return how long the method takes: as its arguments say, else 2 s."""
+    said_s = said_duration_s(method, arguments)
+    return DEFAULT_DURATION_S if said_s is None else said_s
 
 
 def counted_object(arguments: Mapping[str, object]) -> CountedObject | str:
