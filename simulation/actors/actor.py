@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from simulation.behaviour import Behaviour
 from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
 from vipo_device.kit.answers import REMEMBERED, AnswerLedger
-from vipo_device.kit.arguments import said_duration_s
+from vipo_device.kit.arguments import duration_s
 from vipo_device.protocol.arguments import refusal_of_arguments
 from vipo_device.protocol.description import Description, MethodSpec, PropertySpec, Scalar
 from vipo_device.protocol.messages import CONTROLS, AckMessage
@@ -108,7 +108,7 @@ class Actor(ABC):
 
     def _lasts_s(self, method: MethodSpec | None, arguments: Mapping[str, object]) -> float:
         """Return how long a job takes: what its arguments say to the second, all else with the spread of its kind."""
-        said_s = None if method is None else said_duration_s(method, arguments)
+        said_s = None if method is None else duration_s(method, arguments)
         if said_s is not None:
             return said_s
         usual_s, spread = self.behaviour.job_s, self.behaviour.spread

@@ -13,6 +13,8 @@ from vipo_device.protocol.description import Description, PropertySpec, Scalar
 DEADBAND = 0.5
 AT_REST = 0.05
 MOST_COUNTED = 2**31
+KEPT = frozenset({"stock", "freeSlots"})
+"""Readings that follow from what a machine holds, so that no argument sets them."""
 _TEMPERATURES = {"DEG_C": (1.0, 0.0), "K": (1.0, -273.15), "DEG_F": (5 / 9, -160 / 9)}
 _PRESSURES = {
     "BAR": (1.0, 0.0),
@@ -133,7 +135,7 @@ class MachineReadings:
                 changed[name] = min(before + 1, within(self._description.property(name), MOST_COUNTED))
         for spec in self._description.properties:
             value = arguments.get(spec.name)
-            if spec.name not in self._laws and _suits(spec, value):
+            if spec.name not in self._laws and spec.name not in KEPT and _suits(spec, value):
                 changed[spec.name] = value  # type: ignore[assignment]  # `_suits` has looked at the type
         return changed
 

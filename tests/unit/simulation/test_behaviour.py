@@ -87,6 +87,12 @@ def test_a_press_that_nobody_wrote_shows_what_it_was_told_and_counts() -> None:
     assert readings_after(PRESS, press, press, press, press)["cycles"] == 2, "its range ends there"
 
 
+def test_no_argument_sets_what_follows_from_the_stock() -> None:
+    count = method("recount", ParameterSpec("stock", "number"))
+    cupboard = replace(PRESS, methods=(count,), properties=(PropertySpec("stock", "number", "", 0, 9),), gives=("box",))
+    assert readings_after(cupboard, ("recount", {"stock": 4}))["stock"] == 9
+
+
 def test_readings_keep_to_their_units() -> None:
     world = make_world(scene=Scene(hall(), (PRESS,)), driver="kinematic")
     world.command("press01", "pressPart", {"force": 1, "die": "flat", "dwell": 600}, "c")
