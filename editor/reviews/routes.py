@@ -16,6 +16,7 @@ from editor.reviews.shapes import (
     ReviewToAsk,
     SetReviewRule,
     VerdictToGive,
+    VersionAsked,
     review_to_shape,
 )
 from registry.services import require
@@ -40,10 +41,10 @@ def set_review_rule(request: HttpRequest, slug: str, body: SetReviewRule) -> rul
 
 
 @router.get("/programs/{program}/review", response=ReviewShape, openapi_extra=_MAY_REFUSE)
-def show_review(request: HttpRequest, program: UUID, version: int | None = Query(None, ge=1, lt=2**31)) -> ReviewShape:
+def show_review(request: HttpRequest, program: UUID, asked: Query[VersionAsked]) -> ReviewShape:
     """Show how a version stands, or the program as it is drawn now: who approved it, what is missing for a run."""
     program_for(request.user, program, "viewer")
-    return _show(request, program, version)
+    return _show(request, program, asked.version)
 
 
 @router.post("/programs/{program}/review/ask", response=ReviewShape, openapi_extra=_MAY_REFUSE)

@@ -32,6 +32,12 @@ class SetReviewRule(Asked):
     least_role: LeastRole
 
 
+class VersionAsked(Asked):
+    """Which version is asked about; without one, the program as it is drawn now."""
+
+    version: int | None = Field(None, ge=1, lt=2**31)
+
+
 class WordShape(Schema):
     """What somebody said about this content; `counts` says whether it still does."""
 

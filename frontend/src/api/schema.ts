@@ -4318,6 +4318,10 @@ export interface components {
             verdict: "approved" | "changes" | "withdrawn";
             version: number;
         };
+        /** @description Which version is asked about; without one, the program as it is drawn now. */
+        VersionAsked: {
+            version?: number | null;
+        };
         /** @description A version without what is in it; `cause` says before what it was made by itself. */
         VersionShape: {
             author: components["schemas"]["Author"] | null;
