@@ -37,7 +37,9 @@ export function ReviewBar({ program, role, asked, onSince }: BarProps) {
             {t("review.since", { number: since })}
           </Button>
         ) : null}
-        {role === "viewer" || review.may_run ? null : <AskForReview program={program} version={number ?? null} />}
+        {role === "viewer" || review.may_run || review.why_not === "" ? null : (
+          <AskForReview program={program} version={number ?? null} />
+        )}
         {review.number === null || role === "viewer" ? null : (
           <Say key={review.number} program={program} review={review} number={review.number} />
         )}
