@@ -23,6 +23,7 @@ NAMES = (
     "start",
     "paths",
     "runs",
+    "canvas",
 )
 
 
