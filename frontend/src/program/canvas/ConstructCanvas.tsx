@@ -3,7 +3,7 @@ import { useEffect, useRef } from "react";
 import type { ViewportSource } from "@/map/plane/viewport";
 import type { PaintedLooks } from "../painting/looks";
 import type { Pieces } from "../scene/pieces";
-import { ConstructPainter } from "./constructPainter";
+import { ConstructPainter } from "../painting/constructPainter";
 import classes from "./stage.module.css";
 
 interface ConstructCanvasProps {

@@ -2,8 +2,8 @@
 import { watchPalette, type Palette } from "@/map/plane/palette";
 import type { Viewport } from "@/map/plane/projection";
 import type { ViewportSource } from "@/map/plane/viewport";
-import type { PaintedLooks } from "../painting/looks";
-import { type Content, covers, type Job, paintPieces, seenBox, unitsOf, work } from "../painting/picture";
+import type { PaintedLooks } from "./looks";
+import { type Content, covers, type Job, paintPieces, seenBox, unitsOf, work } from "./picture";
 import { detailAt } from "../scene/detail";
 import type { Pieces } from "../scene/pieces";
 
