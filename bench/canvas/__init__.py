@@ -149,6 +149,9 @@ def _frames(gesture: str, seen: Seen, more: dict[str, object]) -> Iterator[dict[
     frames = {**more, "frames": len(seen.frames_ms)}
     for name, quantile in (("p50", 0.5), ("p95", 0.95)):
         yield figure(f"{gesture}: interval of frames, {name}", share(seen.frames_ms, quantile), "ms", **frames)
+        yield figure(
+            f"{gesture}: main thread at work for a frame, {name}", share(seen.at_work_ms, quantile), "ms", **more
+        )
     turns = MOVES if gesture != "zoom" else MOVES // 2
     yield figure(f"{gesture}: renderer at work for a move", seen.renderer_s * 1000 / turns, "ms", **more)
     yield figure(f"{gesture}: browser at work for a move", seen.all_s * 1000 / turns, "ms", **more)

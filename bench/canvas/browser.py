@@ -50,7 +50,7 @@ setInterval(() => {
   for (const [number, [id, x, y]] of ROBOTS.entries()) {
     const angle = turn / 20 + number;
     const location = { x: x + 1.5 * Math.cos(angle), y: y + 1.5 * Math.sin(angle), z: 0, theta: angle };
-    say({ type: "device", device: { id, location, status: "busy" } });
+    say({ type: "device", device: { id, location } });
     robots[id] = { route: [[location.x, location.y], [x, y], [x + 3, y]], reserved: [], wait: null };
   }
   say({ type: "traffic", robots });
@@ -61,9 +61,11 @@ setInterval(() => {
 
 @dataclass(frozen=True)
 class Seen:
-    """What a gesture took: intervals between frames, processor time of the renderer, and styles reckoned anew."""
+    """What a gesture took: intervals between frames, processor time, and styles reckoned anew."""
 
     frames_ms: list[float]
+    at_work_ms: list[float]
+    """Of each frame: the processor time of the page's main thread, which no other process changes."""
     renderer_s: float
     all_s: float
     recalculations: int
@@ -143,7 +145,7 @@ class Traced:
         self._page.mouse.up(button=button)
 
     def _measure(self, gesture: Callable[[], None]) -> Seen:
-        self._browser.start_tracing(page=self._page, categories=["devtools.timeline"])
+        self._browser.start_tracing(page=self._page, categories=["devtools.timeline", "cc"])
         self._page.evaluate("window.__frames.length = 0")
         before, every = self._processor_s()
         gesture()
@@ -152,7 +154,10 @@ class Traced:
         events = json.loads(self._browser.stop_tracing())["traceEvents"]
         restyled = [int(e["args"]["elementCount"]) for e in events
                     if e["name"] == "UpdateLayoutTree" and "elementCount" in e.get("args", {})]  # fmt: skip
-        return Seen(frames, after - before, every_after - every, len(restyled), sum(restyled), max(restyled, default=0))
+        at_work = [float(e["tdur"]) / 1000 for e in events if e["name"] == "ProxyMain::BeginMainFrame" and "tdur" in e]
+        return Seen(
+            frames, at_work, after - before, every_after - every, len(restyled), sum(restyled), max(restyled, default=0)
+        )
 
     def _processor_s(self) -> tuple[float, float]:
         told = self._all.send("SystemInfo.getProcessInfo")["processInfo"]

@@ -1,5 +1,5 @@
 /** The editor: a program drawn on its map, by several people at once. */
-import { useCallback, useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
+import { memo, useCallback, useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
@@ -118,6 +118,9 @@ function useShowUser(shared: SharedProgram, user: User | null): void {
   );
 }
 
+/** Drawn anew for what is open, not for each pose that a robot tells. */
+const Workspace = memo(EditorWorkspace);
+
 interface LoadedProps {
   program: Program;
   site: Site;
@@ -176,7 +179,7 @@ function Loaded({ program, site, devices: live, shared, canEdit, user, openAnew 
   }, [program, site, plan, devices, shared, document, compiled, parts, people, loaded, draws, language, openAnew]);
   return (
     <ProgramContext value={open}>
-      <EditorWorkspace />
+      <Workspace />
     </ProgramContext>
   );
 }

@@ -1,13 +1,13 @@
 /** Where things stand on the editor's screen. */
 import { useMediaQuery } from "@mantine/hooks";
-import { type CSSProperties, useEffect, useMemo } from "react";
+import { type CSSProperties, lazy, Suspense, useEffect, useMemo } from "react";
 import type { Insets } from "@/map/plane/projection";
 import classes from "./editor.module.css";
 import { EditorMap } from "./EditorMap";
 import { useClipboard } from "./gestures/clipboard";
 import { useGestureKeys } from "./gestures/keys";
 import { StepMenu } from "./gestures/StepMenu";
-import { Inspector } from "./inspector/Inspector";
+import { Inspector, loadStepForm } from "./inspector/Inspector";
 import { Dialogs } from "./dialogs/Dialogs";
 import { Drawer } from "./parts/Drawer";
 import { EditorTop } from "./parts/EditorTop";
@@ -18,23 +18,29 @@ import { ToolRail } from "./parts/ToolRail";
 import { ROW_PX, useToolRows } from "./parts/toolRows";
 import { pasteIfScript } from "./script/pastedScript";
 import { useOpenProgram } from "./state/context";
-import { resetGestures } from "./state/gestures";
+import { resetGestures, useGestures } from "./state/gestures";
 import { useShortcuts } from "./state/shortcuts";
 import { useUi } from "./state/ui";
 import { useZoneKeys } from "./zones/zoneTool";
-import { ZoneForm } from "./zones/ZoneForm";
+
+const loadZoneForm = () => import("./zones/ZoneForm");
+const ZoneForm = lazy(async () => ({ default: (await loadZoneForm()).ZoneForm }));
+/** So long after the program has come its forms are fetched, so that the first one opens at once. */
+const FETCH_AFTER_MS = 2000;
 
 const FITTED: Insets = { left: 100, right: 336, top: 34, bottom: 300 };
 
 export function EditorWorkspace() {
   useShortcuts();
   useGestureInput();
+  useFormsLater();
   const small = useMediaQuery("(max-width: 1179px)") ?? false;
   const drawerOpen = useUi((ui) => ui.drawer.open);
   const selected = useUi((ui) => ui.selected.length > 0);
   const resting = useUi((ui) => ui.gesture.tool === "select");
   // The program itself is shown beside a resting hand only: while something is drawn the map needs the room.
   const wanted = useUi((ui) => (small && !selected ? ui.programSheet : ui.inspector));
+  const zone = useGestures((ui) => ui.zone !== null);
   const { loaded, canEdit } = useOpenProgram();
   const lifted = (useToolRows(canEdit) - 1) * ROW_PX;
   const inspector = loaded && wanted && (selected || resting);
@@ -67,7 +73,11 @@ export function EditorWorkspace() {
             <NotTaken />
             <ProgramButton small={small} shown={inspector} />
             {inspector ? <Inspector /> : null}
-            <ZoneForm />
+            {zone ? (
+              <Suspense fallback={null}>
+                <ZoneForm />
+              </Suspense>
+            ) : null}
             <StepMenu />
             <Drawer small={small} />
           </>
@@ -76,6 +86,14 @@ export function EditorWorkspace() {
       <Dialogs />
     </div>
   );
+}
+
+function useFormsLater(): void {
+  useEffect(() => {
+    const fetchAll = () => [loadStepForm, loadZoneForm].forEach((load) => void load().catch(() => {}));
+    const timer = setTimeout(fetchAll, FETCH_AFTER_MS);
+    return () => clearTimeout(timer);
+  }, []);
 }
 
 /** The keys and the clipboard of the gestures, for as long as the editor is on the screen. */

@@ -1,30 +1,24 @@
 /** The inspector: the selected step's values, each with its problems under it. */
 import { CircleAlert, Copy, Trash2, X } from "lucide-react";
-import { useMemo, type ReactNode } from "react";
+import { lazy, Suspense, useMemo } from "react";
 import { Button } from "@mantine/core";
 import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/design/VipoIcon";
 import { useGestures } from "../state/gestures";
 import { knownNames } from "../edits/variables";
-import type { StepKind } from "@/program/document/document";
-import { isStepKind, kindOf } from "@/program/kinds";
+import { kindOf } from "@/program/kinds";
 import { canLimit, duplicateSelected, limitSteps, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
 import { FormBody } from "../canvas/FormBody";
-import { CallForm } from "./forms/CallForm";
-import { AskForm } from "./forms/AskForm";
-import { IfForm } from "./forms/ConditionForm";
-import { ConstructForm } from "./forms/ConstructForm";
-import { ForEachForm, ReturnForm } from "./forms/flowForms";
-import { TryForm } from "./forms/TryForm";
-import { LoadForm } from "./forms/LoadForm";
-import { OperateForm } from "./forms/OperateForm";
 import { ProgramPanel } from "./ProgramPanel";
-import { ParallelForm, WaitForm } from "./forms/smallForms";
 import classes from "../panel.module.css";
 import { StepEditorContext, useStepEditor, type StepEditor } from "./fields/stepEditor";
+
+/** The forms of steps are loaded when the first step is looked at, or once the program is on the screen. */
+export const loadStepForm = () => import("./forms/StepForm");
+const StepForm = lazy(async () => ({ default: (await loadStepForm()).StepForm }));
 
 export function Inspector() {
   const { document } = useOpenProgram();
@@ -92,33 +86,13 @@ function StepPanel() {
       <FormBody>
         <Summary />
         <Editing />
-        <Form kind={step.kind} />
+        <Suspense fallback={null}>
+          <StepForm kind={step.kind} />
+        </Suspense>
       </FormBody>
       <Footer />
     </aside>
   );
-}
-
-/** Forms in which fields depend on each other; all others follow from the records of constructs. */
-const FORMS: Readonly<Partial<Record<StepKind, () => ReactNode>>> = {
-  pick_and_drop: LoadForm,
-  pick: LoadForm,
-  drop: LoadForm,
-  operate: OperateForm,
-  wait: WaitForm,
-  if: IfForm,
-  for_each: ForEachForm,
-  parallel: ParallelForm,
-  try: TryForm,
-  call: CallForm,
-  ask: AskForm,
-  return: ReturnForm,
-};
-
-function Form({ kind }: { kind: string }) {
-  if (!isStepKind(kind)) return null;
-  const Chosen = FORMS[kind] ?? ConstructForm;
-  return <Chosen />;
 }
 
 /** "1 field needs a value". */

@@ -1,6 +1,6 @@
 /** The program itself, while no step is selected: its parameters, its robots, its variables and zones. */
 import { ArrowRight, X } from "lucide-react";
-import { useEffect, useRef } from "react";
+import { lazy, Suspense, useEffect, useRef } from "react";
 import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/design/VipoIcon";
 import { namesSet } from "../edits/variables";
@@ -12,12 +12,14 @@ import { useOpenProgram } from "../state/context";
 import { isTyping } from "../state/focus";
 import { hideProgram, select, useUi } from "../state/ui";
 import { selectZone } from "../state/gestures";
-import { AddParameter } from "./forms/FunctionForm";
+import { AddParameter } from "./fields/AddParameter";
 import classes from "../panel.module.css";
 import { FormBody } from "../canvas/FormBody";
-import { ParameterCard } from "./fields/ParameterCard";
 import { RolesSection } from "./RolesSection";
 import { Section } from "./fields/FieldFrame";
+
+/** Loaded with the first parameter. */
+const ParameterCard = lazy(async () => ({ default: (await import("./fields/ParameterCard")).ParameterCard }));
 
 export function ProgramPanel() {
   const { t, program } = useOpenProgram();
@@ -71,15 +73,17 @@ function Parameters() {
   const parameters = Object.entries(document.parameters);
   return (
     <Section title={t("program.parameters")} note={t("program.parameters_note")}>
-      {parameters.map(([id, parameter]) => (
-        <ParameterCard
-          key={id}
-          parameter={parameter}
-          disabled={!canEdit}
-          onChange={(next) => apply(changeProgramParameter(document, id, next))}
-          onRemove={() => apply([{ do: "set_parameter", id, value: null }])}
-        />
-      ))}
+      <Suspense fallback={null}>
+        {parameters.map(([id, parameter]) => (
+          <ParameterCard
+            key={id}
+            parameter={parameter}
+            disabled={!canEdit}
+            onChange={(next) => apply(changeProgramParameter(document, id, next))}
+            onRemove={() => apply([{ do: "set_parameter", id, value: null }])}
+          />
+        ))}
+      </Suspense>
       <AddParameter
         taken={Object.values(document.parameters)}
         disabled={!canEdit}

@@ -3,15 +3,16 @@ import { Popover } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
 import i18next from "i18next";
 import { CircleHelp } from "lucide-react";
-import { useEffect } from "react";
+import { lazy, Suspense, useEffect } from "react";
 import { useTranslation } from "react-i18next";
 import { useQuestions, useSite } from "@/api/queries";
 import type { Question } from "@/api/types";
 import { type Notice, useLiveStore } from "@/live/store";
-import { QuestionCard } from "./QuestionCard";
 import styles from "./questions.module.css";
 import { openCount, shownQuestions } from "./openQuestions";
 
+/** Loaded with the first question. */
+const QuestionCard = lazy(async () => ({ default: (await import("./QuestionCard")).QuestionCard }));
 const NONE: Question[] = [];
 /** What this browser has shown as a toast, for all pages of the visit. */
 const toasted = new Set<string>();
@@ -62,9 +63,11 @@ export function QuestionsBell({ slug }: { slug: string }) {
         </button>
       </Popover.Target>
       <Popover.Dropdown className={styles.list}>
-        {shownQuestions(questions).map((question) => (
-          <QuestionCard key={question.id} question={question} allowed={allowed} />
-        ))}
+        <Suspense fallback={null}>
+          {shownQuestions(questions).map((question) => (
+            <QuestionCard key={question.id} question={question} allowed={allowed} />
+          ))}
+        </Suspense>
       </Popover.Dropdown>
     </Popover>
   );

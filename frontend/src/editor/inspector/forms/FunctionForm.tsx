@@ -1,11 +1,12 @@
 /** A function of the program: its name, what it takes, what it gives back. */
 import { Button } from "@mantine/core";
-import { Library, Plus } from "lucide-react";
+import { Library } from "lucide-react";
 import { changeParameter } from "../../edits/names";
-import type { FunctionDefinition, Parameter } from "@/program/document/document";
+import type { FunctionDefinition } from "@/program/document/document";
 import { useOpenProgram } from "../../state/context";
 import { useUi } from "../../state/ui";
 import classes from "../../panel.module.css";
+import { AddParameter } from "../fields/AddParameter";
 import { NamedField } from "../fields/NamedField";
 import { ParameterCard, TypeFields } from "../fields/ParameterCard";
 
@@ -80,32 +81,5 @@ function Result({
         onUnit={(unit) => store({ result: { type: "number", ...(unit ? { unit } : {}) } })}
       />
     </div>
-  );
-}
-
-export function AddParameter({
-  taken,
-  disabled,
-  onAdd,
-}: {
-  taken: readonly Parameter[];
-  disabled: boolean;
-  onAdd: (parameter: Parameter) => void;
-}) {
-  const { t } = useOpenProgram();
-  const names = taken.map((each) => each.name);
-  const fresh = Array.from({ length: names.length + 1 }, (_, index) => t("call.fresh", { count: index + 1 }));
-  const name = fresh.find((each) => !names.includes(each)) ?? "";
-  return (
-    <Button
-      variant="default"
-      size="xs"
-      className={classes.between}
-      leftSection={<Plus size={14} aria-hidden="true" />}
-      disabled={disabled}
-      onClick={() => onAdd({ name, type: "number" })}
-    >
-      {t("call.add_parameter")}
-    </Button>
   );
 }
