@@ -1,4 +1,4 @@
-/** All constructs and lines that are no elements, on one canvas below those that are. */
+/** Constructs and lines that are no elements, on one canvas. */
 import { useEffect, useRef } from "react";
 import type { ViewportSource } from "@/map/plane/viewport";
 import type { PaintedLooks } from "../painting/looks";
@@ -12,10 +12,11 @@ interface ConstructCanvasProps {
   looks: PaintedLooks;
   without: ReadonlySet<string>;
   /** Called when the canvas shows all but these. */
-  onPainted: (without: ReadonlySet<string>) => void;
+  onPainted?: (without: ReadonlySet<string>) => void;
+  count?: number;
 }
 
-export function ConstructCanvas({ viewport, pieces, looks, without, onPainted }: ConstructCanvasProps) {
+export function ConstructCanvas({ viewport, pieces, looks, without, onPainted, count }: ConstructCanvasProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const painter = useRef<ConstructPainter | null>(null);
   useEffect(() => {
@@ -25,6 +26,9 @@ export function ConstructCanvas({ viewport, pieces, looks, without, onPainted }:
     painter.current = made;
     return () => made.end();
   }, [viewport, onPainted]);
-  useEffect(() => painter.current?.show({ pieces, looks, without }), [pieces, looks, without, viewport, onPainted]);
+  useEffect(
+    () => painter.current?.show({ pieces, looks, without, count }),
+    [pieces, looks, without, count, viewport, onPainted],
+  );
   return <canvas ref={canvas} className={classes.constructs} aria-hidden="true" />;
 }

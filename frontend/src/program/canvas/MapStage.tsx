@@ -3,6 +3,7 @@ import { ReactFlowProvider, useReactFlow } from "@xyflow/react";
 import "@xyflow/react/dist/style.css";
 import { type PointerEvent, useCallback, useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
 import { type FloorPlan, knownBox } from "@/map/floor/floor";
+import { isRobot } from "@/map/devices/device";
 import { FloorCanvas } from "@/map/floor/FloorCanvas";
 import { type Box, fitViewport, PIXELS_PER_METRE, type Viewport } from "@/map/plane/projection";
 import { useSize } from "@/map/plane/useSize";
@@ -11,7 +12,8 @@ import { RobotLayer, RobotPaths } from "@/map/robots/RobotLayer";
 import type { PaintedLooks } from "../painting/looks";
 import { detailAt } from "../scene/detail";
 import { overlaps } from "../scene/geometry";
-import { type Pieces, piecesOf } from "../scene/pieces";
+import { type Pieces, piecesOf, splitOver } from "../scene/pieces";
+import { deviceBox } from "../surroundings";
 import { buildNodes, keepUnchanged, placeLabels } from "./buildNodes";
 import { ConstructCanvas } from "./ConstructCanvas";
 import { Drawing } from "./Drawing";
@@ -45,6 +47,12 @@ function Stage(props: MapStageProps) {
   const chosenLink = lines?.chosenLink;
   const { selected } = looks;
   const near = useNear({ pieces, viewport, size, pointed, selected, carried: props.carried, chosenLink });
+  const painted = usePaintedLooks(props);
+  const { below, over } = useMemo(() => splitOver(pieces, machineBoxes(devices)), [pieces, devices]);
+  const count = useMemo(
+    () => pieces.chips.items.filter(({ id }) => !near.without.has(id)).length,
+    [pieces, near.without],
+  );
   const snapping = useSnapping(scene, devices, viewport);
   const shown = useStageNodes(props, viewport, near.mounted);
   const box = useBoxDirection();
@@ -72,17 +80,22 @@ function Stage(props: MapStageProps) {
     >
       <FloorCanvas plan={plan} viewport={viewport} />
       {robots ? <RobotPaths source={robots} viewport={viewport} trails={props.trails} /> : null}
-      <ConstructCanvas viewport={viewport} pieces={pieces} looks={usePaintedLooks(props)} {...near} />
+      <ConstructCanvas viewport={viewport} pieces={below} looks={painted} count={count} {...near} />
       <StageFlow {...props} moving={moving} box={box} viewport={viewport} pieces={pieces}>
         {props.under}
         <Lines {...props} pieces={pieces} mounted={near.mounted} />
         {props.plane}
         <Guides guides={moving.guides} />
       </StageFlow>
+      <ConstructCanvas viewport={viewport} pieces={over} looks={painted} without={near.without} />
       {robots ? <RobotLayer source={robots} viewport={viewport} isTaken={useTaken(pieces)} /> : null}
       <StageContext value={handle}>{props.children}</StageContext>
     </div>
   );
+}
+
+function machineBoxes(devices: MapStageProps["devices"]): Box[] {
+  return devices.filter((device) => !isRobot(device)).map(deviceBox);
 }
 
 /** The nodes of machines, the start and those constructs that are elements, as others hold them. */

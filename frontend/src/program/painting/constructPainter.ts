@@ -17,6 +17,8 @@ export interface Shown {
   readonly pieces: Pieces;
   readonly looks: PaintedLooks;
   readonly without: ReadonlySet<string>;
+  /** How many constructs are painted, on this canvas or another; on the element, for whoever looks from outside. */
+  readonly count?: number;
 }
 
 interface Picture {
@@ -49,7 +51,7 @@ export class ConstructPainter {
     private readonly element: HTMLCanvasElement,
     private readonly context: CanvasRenderingContext2D,
     private readonly viewport: ViewportSource,
-    private readonly onPainted: (without: ReadonlySet<string>) => void,
+    private readonly onPainted?: (without: ReadonlySet<string>) => void,
   ) {
     const resize = new ResizeObserver(() => this.#measure());
     resize.observe(element);
@@ -166,8 +168,8 @@ export class ConstructPainter {
   #tell(content: Content): void {
     if (this.#told === content) return;
     this.#told = content;
-    this.element.dataset.constructs = String(content.pieces.chips.items.length - content.without.size);
-    this.onPainted(content.without);
+    if (content.count !== undefined) this.element.dataset.constructs = String(content.count);
+    this.onPainted?.(content.without);
   }
 }
 

@@ -14,6 +14,7 @@ export interface Content {
   /** What elements show instead, by their pieces' ids. */
   readonly without: ReadonlySet<string>;
   readonly palette: Palette;
+  readonly count?: number;
 }
 
 /** What is painted of a view, in order; the work of each is in the units below. */

@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import type { Chip } from "./chips";
 import { areNear, detailAt } from "./detail";
 import { boxAt } from "./geometry";
-import { chipAt, chipsIn, lineAt, piecesOf } from "./pieces";
+import { chipAt, chipsIn, lineAt, piecesOf, splitOver } from "./pieces";
 import { SpatialIndex } from "./spatialIndex";
 
 const chip = (id: string, x: number, y: number) =>
@@ -63,6 +63,14 @@ test("a box drawn to the right takes what lies in it, one drawn to the left what
   const pieces = scene([chip("inside", 100, 100), chip("cut", 190, 100), chip("outside", 500, 100)]);
   const drawn = { left: 40, right: 200, top: 60, bottom: 140 };
   expect([chipsIn(pieces, drawn, false), chipsIn(pieces, drawn, true)]).toEqual([["inside"], ["inside", "cut"]]);
+});
+
+test("what stands on a machine is painted over it, all else below", () => {
+  const pieces = scene([chip("beside", 0, 0), chip("docked", 300, 0), chip("far", 900, 0)]);
+  const { below, over } = splitOver(pieces, [boxAt({ x: 380, y: 0 }, 80, 80)]);
+  expect(below.chips.items.map(({ id }) => id)).toEqual(["beside", "far"]);
+  expect(over.chips.items.map(({ id }) => id)).toEqual(["docked"]);
+  expect(splitOver(pieces, []).below).toBe(pieces);
 });
 
 test("constructs are elements while they can be read and are few; those that are, do not turn at the first one more", () => {

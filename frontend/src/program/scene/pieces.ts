@@ -51,6 +51,16 @@ export function piecesOf(scene: Pick<Scene, "chips" | "routes" | "links" | "fram
   };
 }
 
+/** Apart: the constructs that stand on one of the boxes, which would cover them, and all else. */
+export function splitOver(pieces: Pieces, boxes: readonly Box[]): { readonly below: Pieces; readonly over: Pieces } {
+  const on = new Set(boxes.flatMap((box) => pieces.chips.within(box).filter(({ chip }) => touches(chip.box, box))));
+  if (on.size === 0) return { below: pieces, over: NO_PIECES };
+  const chips = (isOver: boolean) => new SpatialIndex(pieces.chips.items.filter((each) => on.has(each) === isOver));
+  return { below: { lines: pieces.lines, chips: chips(false) }, over: { lines: NO_PIECES.lines, chips: chips(true) } };
+}
+
+const NO_PIECES: Pieces = { lines: new SpatialIndex([]), chips: new SpatialIndex([]) };
+
 function linkId(link: Link): string {
   return `link:${link.id}`;
 }
