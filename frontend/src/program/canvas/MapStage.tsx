@@ -74,6 +74,7 @@ function Stage(props: MapStageProps) {
       role="application"
       aria-label={props.label}
       onPointerMoveCapture={watch}
+      onPointerLeave={pointing.onLeave}
       onFocus={pointing.onFocus}
       onBlur={pointing.onBlur}
       {...usePointing(props)}

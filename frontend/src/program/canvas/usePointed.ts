@@ -13,6 +13,7 @@ export interface Pointed {
 export interface Pointing {
   readonly pointed: Pointed;
   readonly onMove: (event: PointerEvent) => void;
+  readonly onLeave: () => void;
   readonly onFocus: (event: FocusEvent) => void;
   readonly onBlur: () => void;
 }
@@ -50,6 +51,7 @@ export function usePointed(pieces: Pieces, active: boolean): Pointing {
     () => ({
       pointed,
       onMove,
+      onLeave: () => turn({ chip: null, line: null }),
       onFocus: (event) => turn({ focus: nodeUnder(event.target) }),
       onBlur: () => turn({ focus: null }),
     }),
