@@ -48,6 +48,7 @@ function Stage(props: MapStageProps) {
   const { selected } = looks;
   const near = useNear({ pieces, viewport, size, pointed, selected, carried: props.carried, chosenLink });
   const painted = usePaintedLooks(props);
+  const isTaken = useTaken(pieces);
   const { below, over } = useMemo(() => splitOver(pieces, machineBoxes(devices)), [pieces, devices]);
   const count = useMemo(
     () => pieces.chips.items.filter(({ id }) => !near.without.has(id)).length,
@@ -89,7 +90,7 @@ function Stage(props: MapStageProps) {
         <Guides guides={moving.guides} />
       </StageFlow>
       <ConstructCanvas viewport={viewport} pieces={over} looks={painted} without={near.without} />
-      {robots ? <RobotLayer source={robots} viewport={viewport} isTaken={useTaken(pieces)} /> : null}
+      {robots ? <RobotLayer source={robots} viewport={viewport} isTaken={isTaken} /> : null}
       <StageContext value={handle}>{props.children}</StageContext>
     </div>
   );
