@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import sys
-from typing import Any
+from typing import Any, Literal
 
 import django
 
@@ -93,7 +93,7 @@ def _fill_devices() -> None:
     from registry.models import Device, Site
     from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
 
-    def describe(name: str, number: int, kind: str, at: Pose) -> Description:
+    def describe(name: str, number: int, kind: Literal["machine", "robot"], at: Pose) -> Description:
         methods = ("move", "pick", "drop") if kind == "robot" else ("heat", "dispense", "accept")
         return Description(
             name, f"{kind.title()} {number}", kind, "turtlebot" if kind == "robot" else "oven", at, Size(0.4, 0.4, 0.4),
