@@ -78,7 +78,7 @@ def test_many_constructs_are_painted_and_each_is_an_element_once_it_is_wanted(si
     expect(page.locator('.react-flow__node-step.selected[data-id="s599"]')).to_have_count(1)
     leave(page)
     page.keyboard.press("ArrowLeft")
-    expect(steps(page)).not_to_have_attribute("data-id", "s599")
+    expect(page.locator(".react-flow__node-step.selected")).not_to_have_attribute("data-id", "s599")
     page.keyboard.press("Control+a")
     expect(steps(page)).to_have_count(0)
     assert elements(page) <= MOST_ELEMENTS
@@ -105,4 +105,5 @@ def test_a_frame_of_pan_or_zoom_restyles_next_to_nothing(sign_in: SignIn, chromi
         if each["name"] == "UpdateLayoutTree" and "elementCount" in each.get("args", {})
     ]  # fmt: skip
     assert len(restyled) >= 10
-    assert sorted(restyled)[-2] <= MOST_RESTYLED  # once, where the gesture begins or rests, more may be
+    few = [each for each in restyled if each <= MOST_RESTYLED]
+    assert len(few) >= 0.8 * len(restyled)  # where the gesture begins and rests, more may be
