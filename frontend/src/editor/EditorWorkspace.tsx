@@ -4,7 +4,7 @@ import { type CSSProperties, lazy, Suspense, useEffect, useMemo } from "react";
 import type { Insets } from "@/map/plane/projection";
 import { EmptyProgram } from "./beginning/EmptyProgram";
 import { NextSteps } from "./beginning/NextSteps";
-import { leaveTour, useTour } from "./beginning/tourStops";
+import { Tour } from "./beginning/Tour";
 import { Announcer } from "./keyboard/Announcer";
 import { ModeBar } from "./keyboard/ModeBar";
 import { useOthersEdits } from "./keyboard/othersEdits";
@@ -22,7 +22,7 @@ import { EditorTop } from "./parts/EditorTop";
 import { NotTaken } from "./parts/NotTaken";
 import { Unopened } from "./parts/Unopened";
 import { HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
-import { loadQuickList, QuickAdd } from "./parts/QuickAdd";
+import { QuickAdd } from "./parts/QuickAdd";
 import { ToolRail } from "./parts/ToolRail";
 import { ROW_PX, useToolRows } from "./parts/toolRows";
 import { pasteIfScript } from "./script/pastedScript";
@@ -31,8 +31,6 @@ import { resetGestures, useGestures } from "./state/gestures";
 import { useUi } from "./state/ui";
 import { useRunning } from "./state/useRunning";
 
-const loadTour = () => import("./beginning/Tour");
-const Tour = lazy(async () => ({ default: (await loadTour()).Tour }));
 const loadZoneForm = () => import("./zones/ZoneForm");
 const ZoneForm = lazy(async () => ({ default: (await loadZoneForm()).ZoneForm }));
 /** So long after the program has come its forms are fetched, so that the first one opens at once. */
@@ -51,7 +49,6 @@ export function EditorWorkspace() {
   const device = useUi((ui) => ui.device !== null);
   const wanted = useUi((ui) => (small && !selected && !device ? ui.programSheet : ui.inspector));
   const zone = useGestures((ui) => ui.zone !== null);
-  const touring = useTour((tour) => tour.at !== null);
   const { loaded, canEdit } = useOpenProgram();
   const lifted = (useToolRows(canEdit) - 1) * ROW_PX;
   const inspector = loaded && wanted && (selected || resting);
@@ -94,11 +91,7 @@ export function EditorWorkspace() {
             <ContextMenu />
             <QuickAdd />
             <Drawer small={small} />
-            {touring ? (
-              <Suspense fallback={null}>
-                <Tour />
-              </Suspense>
-            ) : null}
+            <Tour />
           </>
         ) : null}
       </main>
@@ -110,8 +103,7 @@ export function EditorWorkspace() {
 
 function useFormsLater(): void {
   useEffect(() => {
-    const fetchAll = () =>
-      [loadPanels, loadZoneForm, loadTour, loadQuickList].forEach((load) => void load().catch(() => {}));
+    const fetchAll = () => [loadPanels, loadZoneForm].forEach((load) => void load().catch(() => {}));
     const timer = setTimeout(fetchAll, FETCH_AFTER_MS);
     return () => clearTimeout(timer);
   }, []);
@@ -127,5 +119,4 @@ function useGestureInput(): void {
   usePaletteOffer(open);
   useClipboard(open, pasteIfScript);
   useEffect(() => resetGestures, [open.program.id]);
-  useEffect(() => leaveTour, []);
 }

@@ -1,7 +1,7 @@
 /** A walk around the editor in five stops, which can be left at any of them. */
 import { Button } from "@mantine/core";
 import { X } from "lucide-react";
-import { type KeyboardEvent, useLayoutEffect, useRef, useState } from "react";
+import { type KeyboardEvent, useEffect, useLayoutEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { IconButton } from "@/design/IconButton";
 import { focusMap } from "../state/focus";
@@ -10,6 +10,7 @@ import { cardSpot, leaveTour, type Rectangle, stopBeside, TOUR_STOPS, type TourS
 
 export function Tour() {
   const at = useTour((tour) => tour.at);
+  useEffect(() => leaveTour, []);
   const stop = at === null ? undefined : TOUR_STOPS[at];
   // Each stop is a card of its own, so that it takes the focus and is read out.
   return at !== null && stop ? <Stop key={at} at={at} stop={stop} /> : null;

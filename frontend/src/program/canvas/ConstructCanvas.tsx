@@ -1,10 +1,13 @@
 /** Constructs and lines that are no elements, on one canvas. */
-import { useEffect, useRef } from "react";
+import { useEffect, useRef, useState } from "react";
 import type { ViewportSource } from "@/map/plane/viewport";
 import type { PaintedLooks } from "../painting/looks";
 import type { Pieces } from "../scene/pieces";
-import { ConstructPainter } from "../painting/constructPainter";
+import type { ConstructPainter } from "../painting/constructPainter";
 import classes from "./stage.module.css";
+
+/** Fetched beside the program, which is longer on its way; elements do not wait for it. */
+const loading = import("../painting/constructPainter");
 
 interface ConstructCanvasProps {
   viewport: ViewportSource;
@@ -18,17 +21,21 @@ interface ConstructCanvasProps {
 
 export function ConstructCanvas({ viewport, pieces, looks, without, onPainted, count }: ConstructCanvasProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
-  const painter = useRef<ConstructPainter | null>(null);
+  const [painter, setPainter] = useState<ConstructPainter | null>(null);
   useEffect(() => {
-    const context = canvas.current?.getContext("2d");
-    if (!canvas.current || !context) return;
-    const made = new ConstructPainter(canvas.current, context, viewport, onPainted);
-    painter.current = made;
-    return () => made.end();
+    let made: ConstructPainter | null = null;
+    let ended = false;
+    void loading.then(({ ConstructPainter: Painter }) => {
+      const context = canvas.current?.getContext("2d");
+      if (ended || !canvas.current || !context) return;
+      made = new Painter(canvas.current, context, viewport, onPainted);
+      setPainter(made);
+    });
+    return () => {
+      ended = true;
+      made?.end();
+    };
   }, [viewport, onPainted]);
-  useEffect(
-    () => painter.current?.show({ pieces, looks, without, count }),
-    [pieces, looks, without, count, viewport, onPainted],
-  );
+  useEffect(() => painter?.show({ pieces, looks, without, count }), [painter, pieces, looks, without, count]);
   return <canvas ref={canvas} className={classes.constructs} aria-hidden="true" />;
 }

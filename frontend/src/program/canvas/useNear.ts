@@ -1,7 +1,7 @@
 /** Which constructs and lines are elements of the page, so that they can be pressed, dragged, read out and reached. */
 import { useCallback, useEffect, useMemo, useState } from "react";
+import { seenBox } from "@/map/plane/projection";
 import type { ViewportCell } from "@/map/plane/viewport";
-import { seenBox } from "../painting/picture";
 import { areNear, MOST_HELD } from "../scene/detail";
 import { type LinePiece, type Pieces } from "../scene/pieces";
 import type { Pointed } from "./usePointed";

@@ -90,6 +90,12 @@ function paintBox(brush: Brush, painted: Painted): void {
   if (other) paintFlag(canvas, palette, other, width / 2 + 8, -height / 2);
 }
 
+/** A border's width as browsers draw it: whole dots of the screen, rounded down. */
+function asStyled(width: number): number {
+  const dots = window.devicePixelRatio || 1;
+  return Math.max(1, Math.floor(width * dots)) / dots;
+}
+
 /** Behind the head of a frame, where the whole frame was added or removed. */
 function paintGround({ canvas }: Brush, { state, body }: Painted, width: number, height: number): void {
   if (state !== "added" && state !== "removed") return;
@@ -107,7 +113,7 @@ function paintBody({ canvas, detail }: Brush, painted: Painted, width: number, h
     paintHalo(canvas, painted, { width, height }, { wide: 3, alpha: 0.16 });
   else if (detail === "full" && !chip.inner && !quiet && state !== "same")
     paintShadow(canvas, width, height, radiusOf(chip, height));
-  const border = quiet || chip.shape === "note" ? 1.2 : chip.shape === "root" ? 2 : 1.6;
+  const border = asStyled(quiet || chip.shape === "note" ? 1.2 : chip.shape === "root" ? 2 : 1.6);
   canvas.beginPath();
   canvas.roundRect(
     -width / 2 + border / 2,

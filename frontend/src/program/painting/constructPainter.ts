@@ -1,9 +1,9 @@
 /** Keeps a canvas showing the constructs of a view: at once where they are few, else by a picture painted in slices. */
 import { watchPalette, type Palette } from "@/map/plane/palette";
-import type { Viewport } from "@/map/plane/projection";
+import { seenBox, type Viewport } from "@/map/plane/projection";
 import type { ViewportSource } from "@/map/plane/viewport";
 import type { PaintedLooks } from "./looks";
-import { type Content, covers, type Job, paintPieces, seenBox, unitsOf, work } from "./picture";
+import { type Content, covers, type Job, paintPieces, unitsOf, work } from "./picture";
 import { detailAt } from "../scene/detail";
 import type { Pieces } from "../scene/pieces";
 

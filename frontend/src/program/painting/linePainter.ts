@@ -8,7 +8,7 @@ import type { Hull } from "../scene/hulls";
 import { type Link, wordPlace } from "../scene/links";
 import type { LinePiece, SharedRoute } from "../scene/pieces";
 import { OF_CHANGE } from "./chipFaces";
-import { resolved, type Brush, type StepState } from "./looks";
+import { furthest, resolved, type Brush, type StepState } from "./looks";
 import { markOf, paintMark } from "./marks";
 
 const HEAD = 11;
@@ -36,15 +36,6 @@ function paintHull({ canvas, palette, zoom }: Brush, hull: Hull): void {
     canvas.stroke(path);
     canvas.setLineDash([]);
   }
-}
-
-/** The one of the steps that share a line that has come furthest. */
-export function furthest(route: SharedRoute, stateOf: (step: string) => StepState) {
-  const rank = (step: string) => ["running", "failed", "done"].indexOf(stateOf(step) ?? "");
-  const ranked = route.steps
-    .filter(({ step }) => rank(step) >= 0)
-    .sort((one, other) => rank(one.step) - rank(other.step));
-  return ranked[0] ?? route.steps[0];
 }
 
 function paintRoute(brush: Brush, route: SharedRoute): void {

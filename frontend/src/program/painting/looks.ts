@@ -3,6 +3,7 @@ import type { Palette } from "@/map/plane/palette";
 import type { BranchRef } from "../document/tree";
 import type { Chip } from "../scene/chips";
 import type { LevelOfDetail } from "../scene/detail";
+import type { SharedRoute } from "../scene/pieces";
 
 /** What happened to a step between two documents that are compared. */
 export type ComparedState = "added" | "removed" | "changed" | "moved" | "same";
@@ -49,4 +50,13 @@ export interface Painted {
 export function resolved(palette: Palette, colour: string): string {
   const name = /^var\(--([\w-]+)\)$/.exec(colour)?.[1];
   return (name && (palette as Readonly<Record<string, string>>)[name]) || colour;
+}
+
+/** The one of the steps that share a line that has come furthest. */
+export function furthest(route: SharedRoute, stateOf: (step: string) => StepState) {
+  const rank = (step: string) => ["running", "failed", "done"].indexOf(stateOf(step) ?? "");
+  const ranked = route.steps
+    .filter(({ step }) => rank(step) >= 0)
+    .sort((one, other) => rank(one.step) - rank(other.step));
+  return ranked[0] ?? route.steps[0];
 }

@@ -1,11 +1,12 @@
 import { expect, test } from "vitest";
 import type { Palette } from "@/map/plane/palette";
+import { seenBox } from "@/map/plane/projection";
 import type { Chip } from "../scene/chips";
 import { boxAt } from "../scene/geometry";
 import { piecesOf } from "../scene/pieces";
 import { resolved } from "./looks";
 import { markOf } from "./marks";
-import { type Content, covers, seenBox, unitsOf, work } from "./picture";
+import { type Content, covers, unitsOf, work } from "./picture";
 
 const chip = (id: string, x: number, y: number) =>
   ({ id, at: { x, y }, box: boxAt({ x, y }, 100, 28), shape: "pill", tagWidth: 0 }) as unknown as Chip;

@@ -64,16 +64,6 @@ export function work(job: Job, units: number): boolean {
   return false;
 }
 
-/** The part of the drawing plane that a pane shows, with so many pixels of the screen around it. */
-export function seenBox(view: Viewport, size: { width: number; height: number }, margin = 0): Box {
-  return {
-    left: (-margin - view.x) / view.zoom,
-    top: (-margin - view.y) / view.zoom,
-    right: (size.width + margin - view.x) / view.zoom,
-    bottom: (size.height + margin - view.y) / view.zoom,
-  };
-}
-
 /** Whether a picture of one view shows another one as it is: the same size, and its margin not used up. */
 export function covers(picture: Viewport, view: Viewport, margin: number): boolean {
   const [dx, dy] = [view.x - picture.x, view.y - picture.y];
