@@ -56,6 +56,8 @@ export const keys = {
   versions: (id: string) => ["versions", id] as const,
   version: (id: string, number: number) => ["version", id, number] as const,
   comparison: (id: string) => ["comparison", id] as const,
+  reviews: ["review"] as const,
+  reviewRule: (slug: string) => ["review-rule", slug] as const,
   rehearsals: (slug: string) => ["rehearsals", slug] as const,
 };
 
