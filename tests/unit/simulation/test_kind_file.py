@@ -11,8 +11,8 @@ HEAD = 'version = 1\n[[kinds]]\nname = "saw"\n'
 
 def test_the_kinds_that_vipo_comes_with_are_told_by_what_devices_can_do() -> None:
     kinds = default_kinds()
-    assert [kind.name for kind in kinds] == ["any machine", "curing", "painting", "any robot"]
-    assert [kind.when.classes for kind in kinds] == [()] * 4
+    assert [kind.name for kind in kinds] == ["any machine", "curing", "drying", "painting", "any robot"]
+    assert [kind.when.classes for kind in kinds] == [()] * 5
 
 
 @pytest.mark.parametrize(
