@@ -176,7 +176,7 @@ function useHandle(
     },
     [flow, plan, size.width, size.height, insets],
   );
-  useFirstFit(fit, plan && size.width > 0 ? plan : null, insets.bottom, viewport);
+  useFirstFit(fit, plan && size.width > 0 ? plan : null, `${size.width} ${size.height} ${insets.bottom}`, viewport);
   return useMemo<StageHandle>(
     () => ({ viewport, pane: size, fit: () => void fit(true), flow }),
     [viewport, size, fit, flow],
@@ -184,22 +184,22 @@ function useHandle(
 }
 
 /**
- * The map is brought into the free area when it is first there, and again when what stands below it opens or closes;
- * once people have moved it, it stays where they put it.
+ * The map is brought into the free area when it is first there, and again when the `area` is another one: the window is
+ * resized, or what stands below opens or closes. Once people have moved it, it stays where they put it.
  */
 export function useFirstFit(
   fit: (animate: boolean) => Viewport | null,
   plan: FloorPlan | null,
-  bottom: number,
+  area: string,
   viewport: StageHandle["viewport"],
 ): void {
-  const last = useRef<{ plan: FloorPlan; bottom: number; view: Viewport | null } | null>(null);
+  const last = useRef<{ plan: FloorPlan; area: string; view: Viewport | null } | null>(null);
   useEffect(() => {
     const before = last.current;
-    if (!plan || (before?.plan === plan && before.bottom === bottom)) return;
+    if (!plan || (before?.plan === plan && before.area === area)) return;
     const moved = before?.plan === plan && !isSameView(before.view, viewport.get());
-    last.current = { plan, bottom, view: moved ? null : fit(false) };
-  }, [fit, plan, bottom, viewport]);
+    last.current = { plan, area, view: moved ? null : fit(false) };
+  }, [fit, plan, area, viewport]);
 }
 
 function isSameView(one: Viewport | null, other: Viewport): boolean {
