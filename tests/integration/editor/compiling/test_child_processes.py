@@ -239,8 +239,11 @@ def test_a_parent_that_ends_leaves_no_process_behind(how: signal.Signals) -> Non
         assert parent.stdout is not None
         pids = [int(pid) for pid in parent.stdout.readline().split()]
         assert len(pids) >= 2
-        parent.send_signal(how)
-        parent.wait(20)
+        try:
+            parent.send_signal(how)
+            parent.wait(20)
+        finally:
+            parent.kill()  # else this test would wait for ever for one that goes on
     wait_for("the processes have ended", lambda: not any(_runs(pid) for pid in pids), every_s=0.05)
 
 
