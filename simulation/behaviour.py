@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from math import inf
 from typing import Literal
 
 from vipo_device.protocol.description import Description
+from vipo_device.protocol.units import convert, same_dimension
 
 Law = Literal["progress", "approach", "while_working", "counts", "drawn"]
 
@@ -59,7 +61,10 @@ class Behaviour:
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """Which descriptions a kind is for: all that is said has to fit; of `classes` and `ids`, one."""
+    """Which descriptions a kind is for: all that is said has to fit; of `classes` and `ids`, one.
+
+    `reaches_c` asks for a temperature that may become so high (°C) by its described range.
+    """
 
     kind: str = ""
     methods: tuple[str, ...] = ()
@@ -68,6 +73,7 @@ class Condition:
     takes: tuple[str, ...] = ()
     classes: tuple[str, ...] = ()
     ids: tuple[str, ...] = ()
+    reaches_c: float | None = None
 
     def fits(self, description: Description) -> bool:
         """Tell whether the kind is for this device."""
@@ -79,7 +85,14 @@ class Condition:
             and set(self.takes) <= set(description.takes)
             and (not self.classes or description.device_class in self.classes)
             and (not self.ids or description.id in self.ids)
+            and (self.reaches_c is None or highest_c(description) >= self.reaches_c)
         )
+
+
+def highest_c(description: Description) -> float:
+    """Return the highest temperature (°C) that a device may show by its described ranges; -inf if none is said."""
+    ranges = [(p.maximum, p.unit) for p in description.properties if same_dimension(p.unit, "DEG_C")]
+    return max((convert(top, unit, "DEG_C") for top, unit in ranges if top is not None), default=-inf)
 
 
 @dataclass(frozen=True, slots=True)

@@ -78,6 +78,8 @@ def _kind(entry: object, number: int) -> Kind:
 
 
 def _asked(name: str, word: str, value: object) -> Any:
+    if word == "reaches_c":
+        return _number(name, word, value)
     if word != "kind":
         return _words(name, word, value)
     if value not in {"machine", "robot"}:

@@ -9,7 +9,6 @@ from uuid import UUID
 from editor.documents.store import get_document
 from editor.language.expressions.names import member_name
 from editor.language.expressions.printing import quote
-from editor.language.expressions.units import is_measure
 from editor.language.one_line.scope import LineScope, make_line_scope
 from editor.language.one_line.values import NotUnderstood, parse_line, print_line, type_of_line
 from editor.language.tree.robots import readings_told, short_reading
@@ -17,6 +16,7 @@ from editor.programs.checking import build_surroundings
 from editor.programs.compilations import print_program
 from editor.programs.programs import get_program
 from vipo_device.protocol.texts import cleaned_json
+from vipo_device.protocol.units import is_measure
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,12 +6,12 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from editor.language.expressions.units import unit_symbol
 from editor.language.tree.program import Parameter
 from execution.errors import NotReady
 from vipo_device.protocol.arguments import is_number
 from vipo_device.protocol.description import Scalar
 from vipo_device.protocol.texts import find_unfit
+from vipo_device.protocol.units import unit_symbol
 
 LARGEST = 1e15
 LONGEST_TEXT = 500

@@ -9,22 +9,13 @@ from simulation.actors.actor import Chance
 from simulation.behaviour import Behaviour, ReadingLaw
 from vipo_device.protocol.arguments import is_number
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
+from vipo_device.protocol.units import convert, same_dimension
 
 DEADBAND = 0.5
 AT_REST = 0.05
 MOST_COUNTED = 2**31
 KEPT = frozenset({"stock", "freeSlots"})
 """Readings that follow from what a machine holds, so that no argument sets them."""
-_TEMPERATURES = {"DEG_C": (1.0, 0.0), "K": (1.0, -273.15), "DEG_F": (5 / 9, -160 / 9)}
-_PRESSURES = {
-    "BAR": (1.0, 0.0),
-    "MilliBAR": (0.001, 0.0),
-    "PA": (1e-5, 0.0),
-    "KiloPA": (0.01, 0.0),
-    "MegaPA": (10.0, 0.0),
-}
-_QUANTITIES = (_TEMPERATURES, _PRESSURES)
-"""For each quantity its units: by which factor and offset a value in it becomes one in the first of them."""
 
 
 def within(spec: PropertySpec | None, value: float) -> float:
@@ -36,12 +27,8 @@ def within(spec: PropertySpec | None, value: float) -> float:
 
 
 def converted(value: float, unit: str, shown_in: str) -> float:
-    """Return a temperature or a pressure in another unit; any other pair of units leaves the value as it is."""
-    for units in _QUANTITIES:
-        if unit != shown_in and unit in units and shown_in in units:
-            (factor, offset), (into, from_zero) = units[unit], units[shown_in]
-            return (value * factor + offset - from_zero) / into
-    return value
+    """Return a value in the unit in which a reading shows it; where that measures something else, as it is."""
+    return convert(value, unit, shown_in) if same_dimension(unit, shown_in) else value
 
 
 class Approach:
@@ -155,7 +142,7 @@ class MachineReadings:
 def _law_of(spec: PropertySpec, behaviour: Behaviour) -> ReadingLaw | None:
     """Return the law of a reading: by its name, else as a temperature by its unit; none whose type does not suit."""
     law = behaviour.readings.get(spec.name)
-    if law is None and spec.unit in _TEMPERATURES:
+    if law is None and same_dimension(spec.unit, "DEG_C"):
         law = behaviour.readings.get("temperature")
     if law is None:
         return None

@@ -45,7 +45,6 @@ from editor.language.document.catches import KINDS_OF
 from editor.language.document.outline import PROGRAM, Outline
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Expression
-from editor.language.expressions.units import PLAIN
 from editor.language.expressions.value_types import LIST, NUMBER, SECONDS, TEXT, ValueType, constant_value
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
 from editor.language.messages.phrases import Options
@@ -57,6 +56,7 @@ from editor.language.tree.program import Tree
 from editor.language.tree.traversal import first_uses, needed_of_roles
 from editor.language.tree.variable_types import type_of_items
 from vipo_device.protocol.description import Description, ParameterSpec
+from vipo_device.protocol.units import PLAIN
 
 
 def check(

@@ -11,7 +11,6 @@ from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading
 from editor.language.expressions.ranges import ANY, NOTHING_KNOWN, Here, Range, first_limited_reading, possible
 from editor.language.expressions.unit_conversion import convert_units
-from editor.language.expressions.units import PLAIN, UNITS, declared_unit, is_measure, same_dimension
 from editor.language.expressions.value_types import (
     BOOLEAN,
     NUMBER,
@@ -31,6 +30,7 @@ from editor.language.messages.diagnostics import Fix, TextArguments, fix_value
 from editor.language.messages.phrases import Amounts, Driver, Options, Plural, Span
 from editor.language.tree import nodes as n
 from vipo_device.protocol.description import MethodSpec, ParameterSpec
+from vipo_device.protocol.units import PLAIN, UNITS, declared_unit, is_measure, same_dimension
 
 
 def has_missing(expression: Expression) -> bool:

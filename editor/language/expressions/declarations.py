@@ -8,8 +8,8 @@ from typing import Final
 
 from editor.language.expressions.nodes import AnswerSpec
 from editor.language.expressions.printing import quote
-from editor.language.expressions.units import unit_code, unit_symbol
 from editor.language.expressions.values import is_number, plain
+from vipo_device.protocol.units import unit_code, unit_symbol
 
 TYPE_NAMES: Final[Mapping[str, str]] = {
     "number": "Number",

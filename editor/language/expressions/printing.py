@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading, Variable
-from editor.language.expressions.units import unit_symbol
 from editor.language.expressions.values import FUNCTIONS
 from vipo_device.protocol.description import Scalar
+from vipo_device.protocol.units import unit_symbol
 
 _STRENGTH = {"or": 1, "and": 2, "not": 3, "+": 5, "-": 5, "*": 6, "/": 6}
 _COMPARISON = 4

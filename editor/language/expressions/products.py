@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
-from editor.language.expressions.units import PLAIN, UNITS, UNSAID, conversion, is_measure, same_dimension
+from vipo_device.protocol.units import PLAIN, UNITS, UNSAID, conversion, is_measure, same_dimension
 
 
 @dataclass(frozen=True, slots=True)

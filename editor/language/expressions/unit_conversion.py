@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading
 from editor.language.expressions.products import product_of
-from editor.language.expressions.units import conversion, convert, is_measure, same_dimension, tidy, unit_symbol
 from editor.language.expressions.value_types import TypeChecker, ValueType, common_unit, is_written
 from editor.language.expressions.values import ARITHMETIC, COMPARISONS, is_number, operation
 from editor.language.site.surroundings import Surroundings
+from vipo_device.protocol.units import conversion, convert, is_measure, same_dimension, tidy, unit_symbol
 
 _WITH_UNITS = frozenset({"now", "distance", "nearest", "text"})
 _MEETING = frozenset({*COMPARISONS, "+", "-", "min", "max", "abs", "round", "list"})

@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.expressions.products import product_of
-from editor.language.expressions.units import (
+from editor.language.expressions.values import COMPARISONS, parts_of
+from editor.language.site.surroundings import Surroundings
+from vipo_device.protocol.description import PropertySpec
+from vipo_device.protocol.units import (
     PLAIN,
     UNITS,
     UNSAID,
@@ -19,9 +22,6 @@ from editor.language.expressions.units import (
     same_dimension,
     unit_symbol,
 )
-from editor.language.expressions.values import COMPARISONS, parts_of
-from editor.language.site.surroundings import Surroundings
-from vipo_device.protocol.description import PropertySpec
 
 if TYPE_CHECKING:
     from dataclasses import dataclass

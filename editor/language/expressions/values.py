@@ -19,8 +19,8 @@ from editor.language.expressions.nodes import (
     Reading,
     Variable,
 )
-from editor.language.expressions.units import unit_code
 from vipo_device.protocol.description import Scalar
+from vipo_device.protocol.units import unit_code
 
 COMPARISONS = ("<", "<=", ">", ">=", "==", "!=", "in", "not in")
 ARITHMETIC = ("+", "-", "*", "/")

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, field
 from typing import Final
 
-from editor.language.expressions.units import UNITS
+from vipo_device.protocol.units import UNITS
 
 _SIGNS: Final = {"≤": "<=", "≥": ">=", "≠": "!=", "\u00d7": "*", "·": "*", "÷": "/", "\u2212": "-", "\u2013": "-"}
 _WORDS = sorted({word for unit in UNITS.values() for word in (unit.symbol, *unit.also)}, key=len, reverse=True)

@@ -12,7 +12,6 @@ from editor.language.document.references import with_document_names, with_role_i
 from editor.language.expressions.names import member_name
 from editor.language.expressions.nodes import MISSING, Expression, Located, Quantity
 from editor.language.expressions.printing import quantity_text, read_of, scalar_text, write_expression
-from editor.language.expressions.units import UNITS, unit_symbol
 from editor.language.expressions.value_types import TypeChecker, ValueType
 from editor.language.expressions.values import FUNCTIONS, UnknownParameter, read_value, write_value
 from editor.language.messages.phrases import LANGUAGES, Refusal
@@ -21,6 +20,7 @@ from editor.language.one_line.scope import LineScope
 from editor.language.parsing.expressions import parse_expression
 from editor.language.parsing.scope import Refused
 from editor.language.tree.robots import short_reading
+from vipo_device.protocol.units import UNITS, unit_symbol
 
 LONGEST_LINE = 2000
 _CALLED = frozenset({*FUNCTIONS, "quantity", "point"})

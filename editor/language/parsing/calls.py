@@ -15,10 +15,10 @@ from editor.language.expressions import nodes as e
 from editor.language.expressions.declarations import ANSWER_TYPES, normal_answer
 from editor.language.expressions.nodes import AnswerSpec
 from editor.language.expressions.printing import quote
-from editor.language.expressions.units import unit_code
 from editor.language.parsing.expressions import parse_expression, parse_place, parse_point, parse_scalar
 from editor.language.parsing.scope import Refused, Scope, quoted
 from editor.language.tree import nodes as n
+from vipo_device.protocol.units import unit_code
 
 Given = dict[str, ast.expr]
 CallParser = Callable[[Scope, ast.Call, str], n.Node]

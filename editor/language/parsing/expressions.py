@@ -21,7 +21,6 @@ from editor.language.expressions.nodes import (
     Reading,
     Variable,
 )
-from editor.language.expressions.units import UNITS, unit_code
 from editor.language.expressions.values import (
     DEEPEST_EXPRESSION,
     FUNCTIONS,
@@ -50,6 +49,7 @@ from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_
 from editor.language.tree.choice import ITSELF
 from editor.language.tree.robots import own_methods, readings_called, readings_of, short_name
 from vipo_device.protocol.description import Scalar
+from vipo_device.protocol.units import UNITS, unit_code
 
 _BINARY: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 _COMPARE: Mapping[type[ast.cmpop], str] = {

@@ -7,13 +7,13 @@ from dataclasses import replace
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity
 from editor.language.expressions.printing import quantity_text, quote, scalar_text, write_expression
 from editor.language.expressions.unit_conversion import convert_units
-from editor.language.expressions.units import UNITS, is_measure, unit_symbol
 from editor.language.expressions.value_types import TypeChecker
 from editor.language.expressions.values import COMPARISONS, is_number, rename_roles
 from editor.language.plan.instructions import RoleBinding
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree.choice import of_role
 from editor.language.tree.program import Role
+from vipo_device.protocol.units import UNITS, is_measure, unit_symbol
 
 
 def binding_of(role: Role, surroundings: Surroundings) -> RoleBinding:

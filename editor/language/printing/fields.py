@@ -10,8 +10,8 @@ from editor.language.constructs.record import Field, FieldType
 from editor.language.constructs.script_form import ScriptCall
 from editor.language.expressions.nodes import AnswerSpec, Point
 from editor.language.expressions.printing import quote, scalar_text
-from editor.language.expressions.units import unit_symbol
 from editor.language.printing.writer import Printer, point_text
+from vipo_device.protocol.units import unit_symbol
 
 Prints = Callable[[Printer, Any, int], None]
 _Text = Callable[[Printer, Any], str]

@@ -11,7 +11,6 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.expressions.nodes import OF_PROBLEM, Expression, Variable
-from editor.language.expressions.units import PLAIN, UNSAID, is_measure
 from editor.language.expressions.value_types import NUMBER, TEXT, UNKNOWN_TYPE, TypeChecker, ValueType, declared_type
 from editor.language.expressions.values import parts_of
 from editor.language.site.surroundings import Surroundings
@@ -19,6 +18,7 @@ from editor.language.tree import nodes as n
 from editor.language.tree.nodes import blocks_of
 from editor.language.tree.program import Function, Parameter, Tree
 from editor.language.tree.variables import read_by, set_by
+from vipo_device.protocol.units import PLAIN, UNSAID, is_measure
 
 Types = Mapping[str, ValueType]
 _Loops = tuple[n.ForEach, ...]

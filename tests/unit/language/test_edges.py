@@ -10,11 +10,11 @@ import pytest
 from editor.language import compile_document, parse_script, tree_to_document
 from editor.language.expressions.nodes import MISSING, Constant, Operation, Reading
 from editor.language.expressions.ranges import ANY, Here, Range
-from editor.language.expressions.units import conversion, convert
 from editor.language.expressions.values import LARGEST, is_number, read_value
 from editor.language.parsing.script import LONGEST_SCRIPT
 from tests.kit.demo_site import codes, factory, with_device
 from vipo_device.protocol.description import ParameterSpec
+from vipo_device.protocol.units import conversion, convert
 
 EMPTY = "class Task(object):\n    def new_task(self):\n        pass\n"
 CARRY = {"role": "robot", "object": "box", "quantity": 1}

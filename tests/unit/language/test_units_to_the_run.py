@@ -12,11 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from editor.language import Diagnostic, compile_document, parse_script, tree_to_document
-from editor.language.expressions.units import UNITS
 from execution.machine import machine
 from execution.machine import messages as m
 from tests.kit.demo_site import factory
 from vipo_device.protocol.description import PropertySpec
+from vipo_device.protocol.units import UNITS
 
 OVEN = {("curingOven01", "temperature"): 80.0, ("curingOven01", "speed"): 0.5, ("curingOven01", "left"): 3}
 RUN = """

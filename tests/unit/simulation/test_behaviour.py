@@ -26,7 +26,7 @@ PRESS = Description(
     properties=(
         PropertySpec("force", "number", "KiloN", 0, 400),
         PropertySpec("die", "text", options=("flat", "round")),
-        PropertySpec("oil", "number", "K", 250, 400),
+        PropertySpec("oil", "number", "K", 250, 370),
         PropertySpec("pressure", "number", "KiloPA", 0, 1000),
         PropertySpec("cycles", "number", "", 0, 2),
         PropertySpec("locked", "boolean"),
@@ -41,6 +41,7 @@ PRESS = Description(
         method("lock", ParameterSpec("locked", "boolean")),
     ),
 )
+TIME = ParameterSpec("time", "number", "MIN", 1, 60)
 CURE = ("curePaint", {"time": 1})
 
 
@@ -103,6 +104,29 @@ def test_readings_keep_to_their_units() -> None:
     assert oil == pytest.approx(273.15 + 34, abs=0.6)
     world.advance(20.0)
     assert world.readings()["press01"]["pressure"] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("unit", "most", "shown"),
+    [
+        ("DEG_C", 100.0, 80.0),
+        ("K", 1500.0, 353.15),
+        ("DEG_F", 212.0, 176.0),
+        ("DEG_C", 99.0, 34.0),
+        ("DEG_C", None, 34.0),
+    ],
+)
+def test_what_may_reach_100_degrees_by_its_range_is_hot_while_it_works_whatever_it_is_called(
+    unit: str, most: float | None, shown: float
+) -> None:
+    heat = PropertySpec("heat", "number", unit, None, most)
+    lehr = replace(
+        PRESS, id="lehr", device_class="annealing-lehr", properties=(heat,), methods=(method("anneal", TIME),)
+    )
+    world = make_world(scene=Scene(hall(), (lehr,)), driver="kinematic")
+    world.command("lehr", "anneal", {"time": 20}, "c")
+    world.advance(1190.0)
+    assert world.readings()["lehr"]["heat"] == pytest.approx(shown, abs=0.6)
 
 
 def test_a_set_point_is_what_a_machine_warms_to() -> None:

@@ -11,7 +11,7 @@ HEAD = 'version = 1\n[[kinds]]\nname = "saw"\n'
 
 def test_the_kinds_that_vipo_comes_with_are_told_by_what_devices_can_do() -> None:
     kinds = default_kinds()
-    assert [kind.name for kind in kinds] == ["any machine", "curing", "drying", "painting", "any robot"]
+    assert [kind.name for kind in kinds] == ["any machine", "hot while it works", "curing", "painting", "any robot"]
     assert [kind.when.classes for kind in kinds] == [()] * 5
 
 
@@ -36,7 +36,8 @@ def test_the_kinds_that_vipo_comes_with_are_told_by_what_devices_can_do() -> Non
         (HEAD + "when = 3", "saw: when must be a table."),
         (
             HEAD + 'when = { colour = ["red"] }',
-            "saw: colour in when is not known. Known are: classes, gives, ids, kind, methods, properties, takes.",
+            "saw: colour in when is not known. "
+            "Known are: classes, gives, ids, kind, methods, properties, reaches_c, takes.",
         ),
         (
             HEAD + 'readings = { heat = { law = "jump" } }',

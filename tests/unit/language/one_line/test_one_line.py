@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from editor.language.expressions.units import UNITS
 from editor.language.expressions.value_types import ValueType
 from editor.language.expressions.values import FUNCTIONS
 from editor.language.one_line.scope import LineScope, make_line_scope
 from editor.language.one_line.values import NotUnderstood, parse_line, print_line, type_of_line
 from tests.kit.demo_site import factory
+from vipo_device.protocol.units import UNITS
 
 DOCUMENT: dict[str, Any] = {
     "format": 2,

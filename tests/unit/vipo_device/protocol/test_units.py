@@ -2,7 +2,7 @@
 
 import pytest
 
-from editor.language.expressions.units import (
+from vipo_device.protocol.units import (
     UNITS,
     DifferentDimensions,
     conversion,
