@@ -213,7 +213,8 @@ def _three_edits() -> list[bytes]:
 
 
 PARENT = """
-import asyncio, sys, django
+import asyncio, signal, django
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell starts what runs beside it with SIGINT ignored
 django.setup()
 from tests.integration.editor.compiling.test_child_processes import Edited
 from editor.compiling.compilers import Compilers
