@@ -6,8 +6,18 @@ import type { Pieces } from "../scene/pieces";
 import type { ConstructPainter } from "../painting/constructPainter";
 import classes from "./stage.module.css";
 
+const fetchPainter = () => import("../painting/constructPainter");
 /** Fetched beside the program, which is longer on its way; elements do not wait for it. */
-const loading = import("../painting/constructPainter");
+const first = fetchPainter().catch(() => null);
+const AGAIN_MS = 3000;
+
+/** What could not be fetched is asked for again for as long as the map is there: without it no line is seen. */
+async function loadPainter(isOver: () => boolean) {
+  for (let found = await first; ; found = await fetchPainter().catch(() => null)) {
+    if (found || isOver()) return found;
+    await new Promise((resolve) => setTimeout(resolve, AGAIN_MS));
+  }
+}
 
 interface ConstructCanvasProps {
   viewport: ViewportSource;
@@ -25,10 +35,10 @@ export function ConstructCanvas({ viewport, pieces, looks, without, onPainted, c
   useEffect(() => {
     let made: ConstructPainter | null = null;
     let ended = false;
-    void loading.then(({ ConstructPainter: Painter }) => {
+    void loadPainter(() => ended).then((found) => {
       const context = canvas.current?.getContext("2d");
-      if (ended || !canvas.current || !context) return;
-      made = new Painter(canvas.current, context, viewport, onPainted);
+      if (ended || !found || !canvas.current || !context) return;
+      made = new found.ConstructPainter(canvas.current, context, viewport, onPainted);
       setPainter(made);
     });
     return () => {
