@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 from uuid import UUID
 
@@ -24,6 +24,8 @@ from vipo_device.protocol.texts import find_unfit, normal
 Verdict = Literal["approved", "changes", "withdrawn"]
 WhyNot = Literal["", "role", "own"]
 MOST_NOTE = 500
+MOST_WORDS = 100
+"""So often a person may ask and say something about one content; to withdraw is always possible."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +34,8 @@ class Review:
 
     `number` is its newest version with this content, None where it is drawn and not pinned. `compare_with` is the
     version before it that was approved last. `why_not` says why the asker cannot approve it; `errors` and `warnings`
-    are the findings of the checker at this content, at the site as it is now.
+    are the findings of the checker at this content, at the site as it is now, None where nothing is reviewed: most
+    sites demand nothing, and ask this before every run.
     """
 
     rule: Rule
@@ -40,8 +43,8 @@ class Review:
     number: int | None
     compare_with: int | None
     why_not: WhyNot
-    errors: int
-    warnings: int
+    errors: int | None = None
+    warnings: int | None = None
 
 
 def show_review(*, program_id: UUID, user: Any, number: int | None = None) -> Review:
@@ -53,16 +56,12 @@ def show_review(*, program_id: UUID, user: Any, number: int | None = None) -> Re
         same = Version.objects.filter(program_id=program_id, digest=digest).order_by("-number").first()
         number = same.number if same else None
     line = _Line(program_id, site, rule, number)
+    standing = read_standing(site=site, program_id=program_id, digest=digest, rule=rule)
+    review = Review(rule, standing, number, line.approved_before(), line.why_not(user))
+    if not rule.approvals and not standing.history:
+        return review
     summary = compile_program(document, build_surroundings(site=site)).summary
-    return Review(
-        rule=rule,
-        standing=read_standing(site=site, program_id=program_id, digest=digest, rule=rule),
-        number=number,
-        compare_with=line.approved_before(),
-        why_not=line.why_not(user),
-        errors=summary.errors,
-        warnings=summary.warnings,
-    )
+    return replace(review, errors=summary.errors, warnings=summary.warnings)
 
 
 def ask_for_review(*, program_id: UUID, user: Any, number: int | None = None, note: str = "") -> int:
@@ -159,10 +158,16 @@ def _require_own_word(program_id: UUID, number: int, user: Any) -> None:
 
 def _write(program_id: UUID, number: int, kind: str, user: Any, note: str) -> None:
     version = find_version(program_id=program_id, number=number)
+    digest = content_digest(version.document)
+    said = ReviewEntry.objects.filter(program_id=program_id, digest=digest, person=user)
+    if kind != ReviewEntry.Kind.WITHDRAWN and said.count() >= MOST_WORDS:
+        raise BadRequest(
+            f"You have asked or said something about this content {MOST_WORDS} times. Talk about it, or change it."
+        )
     ReviewEntry.objects.create(
         program_id=program_id,
         number=number,
-        digest=content_digest(version.document),
+        digest=digest,
         kind=kind,
         person=user,
         name=user.display_name,

@@ -49,8 +49,8 @@ def hold_rule(site: str) -> Rule:
 
 
 def _lock(site: str) -> ReviewRule:
-    row, _ = ReviewRule.objects.get_or_create(site_id=registry.get_site_id(site=site))
-    return ReviewRule.objects.select_for_update().get(pk=row.pk)
+    row, _ = ReviewRule.objects.select_for_update().get_or_create(site_id=registry.get_site_id(site=site))
+    return row
 
 
 def _view(row: ReviewRule) -> Rule:

@@ -54,7 +54,7 @@ class ReviewShape(Schema):
     """How a program's content stands; `may_run` is what the gate would say now.
 
     `number` is the version that holds it, `compare_with` the one that was approved last before it. `why_not` says why
-    the asker cannot approve it. `errors` and `warnings` are what the checker finds.
+    the asker cannot approve it. `errors` and `warnings` are what the checker finds; null where nothing is reviewed.
     """
 
     needed: int
@@ -63,8 +63,8 @@ class ReviewShape(Schema):
     number: int | None
     compare_with: int | None
     why_not: Literal["", "role", "own"]
-    errors: int
-    warnings: int
+    errors: int | None
+    warnings: int | None
     history: list[WordShape]
 
 

@@ -3946,18 +3946,18 @@ export interface components {
          * @description How a program's content stands; `may_run` is what the gate would say now.
          *
          *     `number` is the version that holds it, `compare_with` the one that was approved last before it. `why_not` says why
-         *     the asker cannot approve it. `errors` and `warnings` are what the checker finds.
+         *     the asker cannot approve it. `errors` and `warnings` are what the checker finds; null where nothing is reviewed.
          */
         ReviewShape: {
             compare_with: number | null;
-            errors: number;
+            errors: number | null;
             history: components["schemas"]["WordShape"][];
             /** @enum {string} */
             least_role: "operator" | "author" | "admin";
             may_run: boolean;
             needed: number;
             number: number | null;
-            warnings: number;
+            warnings: number | null;
             /** @enum {string} */
             why_not: "" | "role" | "own";
         };

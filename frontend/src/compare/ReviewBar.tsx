@@ -4,10 +4,10 @@ import { notifications } from "@mantine/notifications";
 import { Check, MessageSquareWarning } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
+import { FactList } from "@/design/FactList";
 import { AskForReview } from "@/shell/review/AskForReview";
 import { NoteForm } from "@/shell/review/NoteForm";
 import { factsOf, findingsOf, isReviewed, useReview, useVerdict, type Verdict } from "@/shell/review/review";
-import { ReviewFacts } from "@/shell/review/ReviewFacts";
 import type { Review, Role } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
 import styles from "./compare.module.css";
@@ -30,7 +30,7 @@ export function ReviewBar({ program, role, asked, onSince }: BarProps) {
   const since = review.compare_with;
   return (
     <div className={styles.review}>
-      <ReviewFacts facts={[...factsOf(review, t), findingsOf(review, t)]} />
+      <FactList label={t("review.title")} facts={[...factsOf(review, t), ...findingsOf(review, t)]} />
       <div className={styles.verdict}>
         {since !== null && String(since) !== asked?.[0] ? (
           <Button size="xs" variant="default" onClick={() => onSince(String(since))}>

@@ -1,10 +1,11 @@
 /** Run asks once: which robots, which checks; then the run's own screen opens. */
 import { Button, Modal } from "@mantine/core";
-import { useMutation } from "@tanstack/react-query";
-import { Bot, CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
-import { type ReactNode, useState } from "react";
+import { useMutation, useQueryClient } from "@tanstack/react-query";
+import { useState } from "react";
 import { useNavigate } from "react-router-dom";
 import { useOnce } from "@/api/once";
+import { keys } from "@/api/queries";
+import { type Fact, FactList } from "@/design/FactList";
 import { ReviewBeforeRun, useRunReview } from "@/shell/review/ReviewBeforeRun";
 import type { Run } from "@/api/types";
 import { useOpenProgram } from "../state/context";
@@ -81,6 +82,7 @@ function useStartRun(
   const { program, shared } = useOpenProgram();
   const navigate = useNavigate();
   const begin = useOnce();
+  const queries = useQueryClient();
   return useMutation({
     mutationFn: async () => {
       await shared.stored();
@@ -94,6 +96,8 @@ function useStartRun(
       onStarted();
       void navigate(`/runs/${started.id}`);
     },
+    // What was known before may be what it was refused for.
+    onError: () => queries.invalidateQueries({ queryKey: keys.reviews }),
   });
 }
 
@@ -107,32 +111,20 @@ function useProblemCounts() {
 function Facts() {
   const { t, site } = useOpenProgram();
   const { errors, warnings } = useProblemCounts();
+  const robots = useRobotLines().map((text): Fact => ({ tone: "robot", text }));
   return (
-    <ul className={classes.facts}>
-      {useRobotLines().map((line) => (
-        <li key={line}>
-          <Bot size={16} aria-hidden="true" />
-          {line}
-        </li>
-      ))}
-      <Fact tone={errors > 0 ? "error" : "done"}>
-        {errors > 0 ? t("run_dialog.errors", { count: errors }) : t("run_dialog.checked")}
-      </Fact>
-      {warnings > 0 ? <Fact tone="warn">{t("run_dialog.warnings", { count: warnings })}</Fact> : null}
-      {site.stop.active ? <Fact tone="error">{t("run_dialog.stopped", { by: site.stop.by ?? "?" })}</Fact> : null}
-    </ul>
-  );
-}
-
-const SIGNS = { done: CircleCheck, warn: TriangleAlert, error: OctagonAlert } as const;
-
-function Fact({ tone, children }: { tone: keyof typeof SIGNS; children: ReactNode }) {
-  const Sign = SIGNS[tone];
-  return (
-    <li data-tone={tone}>
-      <Sign size={16} aria-hidden="true" />
-      {children}
-    </li>
+    <FactList
+      facts={[
+        ...robots,
+        errors > 0
+          ? { tone: "error", text: t("run_dialog.errors", { count: errors }) }
+          : { tone: "done", text: t("run_dialog.checked") },
+        ...(warnings > 0 ? [{ tone: "warn", text: t("run_dialog.warnings", { count: warnings }) } as const] : []),
+        ...(site.stop.active
+          ? [{ tone: "error", text: t("run_dialog.stopped", { by: site.stop.by ?? "?" }) } as const]
+          : []),
+      ]}
+    />
   );
 }
 

@@ -3,12 +3,16 @@ import { TextInput } from "@mantine/core";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Role } from "@/api/types";
+import { FactList } from "@/design/FactList";
 import { AskForReview } from "./AskForReview";
 import { factsOf, useReview } from "./review";
-import { ReviewFacts } from "./ReviewFacts";
 import styles from "./review.module.css";
 
-/** How the content stands, and the reason of an emergency as it is typed; `open` once a run may be asked for. */
+/**
+ * How the content stands, and the reason of an emergency as it is typed; `open` unless a run is known to be refused.
+ *
+ * Where nobody knows yet, or it cannot be read, the server decides and says why.
+ */
 export function useRunReview(program: string, version: number | null) {
   const review = useReview(program, version).data;
   const [reason, setReason] = useState("");
@@ -20,7 +24,7 @@ export function useRunReview(program: string, version: number | null) {
     setReason,
     missing,
     emergency,
-    open: review !== undefined && (!missing || emergency !== ""),
+    open: !missing || emergency !== "",
   };
 }
 
@@ -38,7 +42,7 @@ export function ReviewBeforeRun({ program, version, role, state, before }: Befor
   if (!review || review.needed === 0) return null;
   return (
     <div className={styles.before}>
-      <ReviewFacts facts={factsOf(review, t)} />
+      <FactList label={t("review.title")} facts={factsOf(review, t)} />
       {missing ? (
         <>
           <p>{t(`review.who.${review.least_role}`)}</p>

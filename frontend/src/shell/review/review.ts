@@ -3,6 +3,7 @@ import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { Review, ReviewRule } from "@/api/types";
+import type { Fact } from "@/design/FactList";
 
 export type Verdict = "approved" | "changes" | "withdrawn";
 export type LeastRole = ReviewRule["least_role"];
@@ -58,11 +59,6 @@ export function isReviewed(review: Review | undefined): review is Review {
   return review !== undefined && (review.needed > 0 || review.history.length > 0);
 }
 
-export interface Fact {
-  readonly tone: "done" | "warn" | "error" | "plain";
-  readonly text: string;
-}
-
 type Words = (key: string, values?: Record<string, unknown>) => string;
 
 /** What there is to say of a review, the most important first. */
@@ -97,7 +93,8 @@ function standingOf(needed: number, names: readonly string[], t: Words): readonl
 }
 
 /** What the checker finds, as a fact beside what people say. */
-export function findingsOf({ errors, warnings }: Review, t: Words): Fact {
-  if (errors + warnings === 0) return { tone: "done", text: t("review.findings_none") };
-  return { tone: errors > 0 ? "error" : "warn", text: t("review.findings", { errors, warnings }) };
+export function findingsOf({ errors, warnings }: Review, t: Words): readonly Fact[] {
+  if (errors === null || warnings === null) return [];
+  if (errors + warnings === 0) return [{ tone: "done", text: t("review.findings_none") }];
+  return [{ tone: errors > 0 ? "error" : "warn", text: t("review.findings", { errors, warnings }) }];
 }

@@ -40,11 +40,15 @@ class Team:
         set_rule(site=SITE, rule=Rule(approvals, least_role))
 
     def draw(self, who: str, seconds: float) -> None:
-        """Let somebody make the wait of the program that long, as a room stores it."""
+        """Let somebody make the wait of the program that long."""
+        waits = {"params": {"duration": seconds}}
+        self.change(who, lambda now: {"steps": {**now["steps"], "w": {**now["steps"]["w"], **waits}}})
+
+    def change(self, who: str, news: Callable[[dict[str, Any]], dict[str, Any]]) -> None:
+        """Let somebody draw: what is said of the document replaces what it had, and is stored as by a room."""
         shared = SharedDocument(load_document(self.program).updates)
         before, now = shared.state(), shared.to_json()
-        steps = {**now["steps"], "w": {**now["steps"]["w"], "params": {"duration": seconds}}}
-        shared.change_to({**now, "steps": steps})
+        shared.change_to({**now, **news(now)})
         append_changes(self.program, [Change(find_person(who).pk, shared.encode(before))], datetime.now(UTC))
 
     def pin(self, who: str = "ann") -> int:

@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 from django.test import Client
 
-from editor import services as editor
+from editor.reviews import reviews
 from execution import services
 from execution.models import ArmedProgram, Rehearsal, Run
 from registry import services as registry
 from registry.models import AuditLine
 from tests.integration.execution.reviews.conftest import Team
-from tests.kit.programs import SITE, heat_oven
+from tests.kit.programs import SITE, heat_oven, step
 from tests.kit.sign_in import find_person, post_json, signed_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -198,18 +198,35 @@ def test_a_copy_and_another_version_of_an_approved_program_are_reviewed_by_thems
 
 
 def test_what_stands_in_a_function_is_part_of_the_content(team: Team) -> None:
+    cool = {"g": {"name": "cool", "parameters": []}}
+    team.change("ann", lambda now: {"functions": cool, "steps": {**now["steps"], "c": step("call", function="g")}})
+    team.change("ann", lambda now: {"steps": {**now["steps"], "b": step("wait", ("g", "body"), duration=1)}})
     approved(team)
-    document = dict(editor.get_document(program_id=team.program))
     assert team.start().status_code == 202
-    called = {**document, "functions": {"g": {"name": "cool", "parameters": []}}}
-    made = editor.create_program(site=SITE, name="Calls", document=called, user=find_person("ann"))
-    other = Team(made.id)
-    assert other.say("bob", "approved").status_code == 200
-    assert other.start().status_code == 202
-    from editor.reviews.gate import content_digest
+    team.change("ann", lambda now: {"steps": {**now["steps"], "b": step("wait", ("g", "body"), duration=600)}})
+    assert team.start().json()["code"] == "not_approved"
+    team.change("ann", lambda now: {"steps": {**now["steps"], "b": step("wait", ("g", "body"), duration=1)}})
+    assert team.start().status_code == 202
 
-    changed = {**called, "functions": {"g": {"name": "heat", "parameters": []}}}
-    assert content_digest(called) != content_digest(changed)
+
+def test_the_checker_is_asked_only_where_something_is_reviewed(team: Team) -> None:
+    assert (team.look()["may_run"], team.look()["errors"], team.look()["warnings"]) == (True, None, None)
+    team.demand(1)
+    assert (team.look()["may_run"], team.look()["errors"]) == (False, 0)
+
+
+def test_who_says_much_about_one_content_is_stopped_and_may_still_withdraw(
+    team: Team, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(reviews, "MOST_WORDS", 2)
+    team.demand(1)
+    number = team.pin()
+    said = [team.say("bob", verdict, number).status_code for verdict in ("approved", "withdrawn", "approved")]
+    assert said == [200, 200, 422]
+    team.draw("ann", 7)
+    number = team.pin("ann")
+    said = [team.say("bob", verdict, number).status_code for verdict in ("approved", "withdrawn")]
+    assert said == [200, 200], "another content"
 
 
 @pytest.mark.parametrize("state", [approved, withdrawn, more_demanded], ids=lambda state: state.__name__)
