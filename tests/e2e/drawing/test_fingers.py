@@ -9,6 +9,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import PATIENCE_MS, Demo, SignIn
 from tests.e2e.screens import chip, draw_task, make_program, saved, the_map
+from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
 TASK = "1, Pick-and-Drop"
@@ -51,6 +52,19 @@ def middle(of: Locator) -> Spot:
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
+def resting(of: Locator) -> Spot:
+    """Return where something is once it has stood there for a moment: what is pinched goes on for some frames."""
+    places: list[Spot] = [middle(of)]
+
+    def is_still() -> bool:
+        of.page.wait_for_timeout(200)
+        places.append(middle(of))
+        return places[-1] == places[-2]
+
+    wait_for("it rests", is_still)
+    return places[-1]
+
+
 def step(page: Page) -> dict[str, Any]:
     """The one step as the map's nodes have it: where it stands on the floor does not change with the view."""
     found: dict[str, Any] = page.evaluate(
@@ -86,7 +100,7 @@ def test_fingers_pan_zoom_and_leave_nothing_behind(sign_in: SignIn, demo: Demo, 
     fingers.move((at, (at[0] - 60, at[1] - 60)), ((at[0] + 40, at[1] + 40), (at[0] + 140, at[1] + 140)))
     expect(page.locator(".react-flow__connection")).to_have_count(0)
     assert step(page)["at"] == before["at"]
-    fingers.hold(middle(chip(page, TASK)))
+    fingers.hold(resting(chip(page, TASK)))
     page.get_by_role("menuitem", name="Duplicate").tap()
     expect(page.locator(".react-flow__node-step")).to_have_count(2)
     small = page.evaluate(
