@@ -138,7 +138,7 @@ function CompareTop({ program, site }: { program: Program; site: Site }) {
       actions={
         <Button
           variant="default"
-          className={styles.sign}
+          className={styles.back}
           title={t("compare.back")}
           leftSection={<ArrowLeft size={16} aria-hidden="true" />}
           onClick={() => void navigate(`/programs/${program.id}`)}
