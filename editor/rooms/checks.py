@@ -97,7 +97,7 @@ class Checks:
 
     async def check(self) -> float:
         """Have the document checked, and tell all processes what was found; return for how long that was computed."""
-        room = self.room
+        room, news = self.room, self._news
         try:
             around = await self._read_around()
             said, summary, after, took_s = await self._look(around)
@@ -105,6 +105,9 @@ class Checks:
             log.warning("Program %s was not checked: %s", room.program, error)
             room.touched = isinstance(error, DatabaseError)  # then it is tried again a little later
             return 0.0
+        if self._news != news:  # what was heard behind the look around is not in this check
+            room.touched = True
+            self.wake()
         room.to_publish.append(encode_check(said, after=after, more=room.touched, against=around.fingerprint))
         await self._publish()
         self._checked = _Checked(said["revision"], summary, around.fingerprint)
