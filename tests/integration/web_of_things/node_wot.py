@@ -149,7 +149,7 @@ def check_observer(admin: httpx.Client, address: str, folder: Path, authority: s
         seen.wait("tried")
         assert [is_granted for _, is_granted in seen.said("granted")] == [False, False, False, True]
         time.sleep(1)
-        assert seen.said("echo") == []
+        assert seen.said("echo") == [], seen.out.read_text()
         since = time.time()
         assert admin.delete(f"/api/sites/{SITE}/tokens/{made['id']}").status_code == 204
         wait_for("the end", lambda: [at for at in seen.said("closed") if at > since], 10, story=seen.out.read_text)

@@ -10,6 +10,8 @@ const { Servient } = require("@node-wot/core");
 const { HttpClientFactory } = require("@node-wot/binding-http");
 const { MqttClientFactory, MqttsClientFactory } = require("@node-wot/binding-mqtt");
 const mqtt = createRequire(require.resolve("@node-wot/binding-mqtt"))("mqtt");
+/** No device says this of itself: a share of work done is from 0 to 100. */
+const FORGED = "-4711";
 const say = (what) => process.stdout.write(JSON.stringify(what) + "\n");
 
 const finder = new Servient();
@@ -53,8 +55,8 @@ process.stdin.on("data", () => {
       const granted = await other.subscribeAsync(filter).catch(() => [{ qos: 128 }]);
       say({ granted: [filter, granted[0].qos !== 128] });
     }
-    other.on("message", (at, payload) => payload.toString() === "99" && say({ echo: at }));
-    other.publish(topic, "99", { retain: true });
+    other.on("message", (at, payload) => payload.toString() === FORGED && say({ echo: at }));
+    other.publish(topic, FORGED, { retain: true });
     say({ tried: true });
   });
 });
