@@ -101,7 +101,15 @@ def test_one_asks_another_approves_an_edit_voids_it_and_it_runs_once_it_is_appro
     admin.get_by_role("button", name="Only what changed since v1").click()
     expect(admin.get_by_role("heading", name="1 change")).to_be_visible()
     assert violations(admin) == []
+    admin.get_by_role("button", name="Rehearse both").press("Enter")
+    rehearsed = admin.get_by_role("table", name="Both sides rehearsed")
+    expect(rehearsed.get_by_role("cell", name="Finishes without errors")).to_have_count(2, timeout=180_000)
+    expect(rehearsed.get_by_role("columnheader", name="Devices only here")).to_be_visible()
+    expect(rehearsed.get_by_role("row", name="New")).to_contain_text("Painting Machine")
+    assert violations(admin) == []
     shoot(admin, "compare-review")
+    admin.set_viewport_size({"width": 820, "height": 1180})
+    shoot(admin, "compare-review-narrow")
     admin.get_by_role("button", name="Ask for changes").press("Enter")
     admin.keyboard.type("Leave the oven out.")
     admin.get_by_role("button", name="Ask for changes").press("Enter")
