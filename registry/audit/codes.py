@@ -15,7 +15,7 @@ _CODES: dict[Kind, str] = {
     "stops": "stop_pressed stop_reset",
     "devices": """device_asked device_approved device_rejected device_retired device_readmitted device_key_given
         device_key_revoked enrolment_key_renewed""",
-    "programs": "program_deleted",
+    "programs": "program_deleted comment_deleted",
     "map": "map_published place_added place_changed place_removed",
     "sign_in": "sign_in_locked",
 }
