@@ -91,6 +91,8 @@ export class SiteFeed {
         return;
       case "programs":
         return this.#caches.refresh(keys.programs(this.slug));
+      case "comments":
+        return this.#caches.refresh(keys.threads(message.program));
       case "role":
         notifications.show({
           message: i18next.t("people.roleNow", { role: i18next.t(`people.role.${message.role}`) }),
@@ -119,9 +121,9 @@ export class SiteFeed {
       keys.armed,
       keys.alerts,
     ].map((key) => key(this.slug) as readonly string[]);
-    const open = ["run", "run-events", "rehearsal", "robot-map", "map-difference", "map-versions"].map((name) => [
-      name,
-    ]);
+    const open = ["threads", "run", "run-events", "rehearsal", "robot-map", "map-difference", "map-versions"].map(
+      (name) => [name],
+    );
     this.#refreshAll([...stale, ...open]);
   }
 

@@ -6,7 +6,13 @@ import { Chip, type Tone } from "@/design/Chip";
 import styles from "./settings.module.css";
 
 export const ROLES: readonly Role[] = ["viewer", "commenter", "operator", "author", "admin"];
-const TONES: Record<Role, Tone> = { viewer: "quiet", commenter: "quiet", operator: "busy", author: "machine", admin: "brand" };
+const TONES: Record<Role, Tone> = {
+  viewer: "quiet",
+  commenter: "quiet",
+  operator: "busy",
+  author: "machine",
+  admin: "brand",
+};
 
 export function RoleChip({ role }: { role: Role }) {
   const { t } = useTranslation();
