@@ -19,7 +19,7 @@ from registry.services import PersonView
 from registry.shapes import refuses, signed_in
 
 router = Router(tags=["editor"])
-_BOUNDED = refuses(429)
+_BOUNDED, _MAY_BE_ANOTHERS = refuses(429), refuses(409)
 
 
 @router.get("/programs/{program}/threads", response=list[ThreadShape])
@@ -68,7 +68,7 @@ def mark_thread_read(request: HttpRequest, program: UUID, thread: UUID) -> Statu
     return Status(204, None)
 
 
-@router.patch("/programs/{program}/comments/{comment}", response=ThreadShape)
+@router.patch("/programs/{program}/comments/{comment}", response=ThreadShape, openapi_extra=_MAY_BE_ANOTHERS)
 def change_comment(request: HttpRequest, program: UUID, comment: UUID, body: WordsToWrite) -> ThreadView:
     """Write one's own comment anew; the answer is its thread."""
     program_for(request.user, program, "commenter")
@@ -76,7 +76,7 @@ def change_comment(request: HttpRequest, program: UUID, comment: UUID, body: Wor
     return threads.change_comment(program=program, comment=comment, user=user, words=body.words(), now=now)
 
 
-@router.delete("/programs/{program}/comments/{comment}", response={204: None})
+@router.delete("/programs/{program}/comments/{comment}", response={204: None}, openapi_extra=_MAY_BE_ANOTHERS)
 def delete_comment(request: HttpRequest, program: UUID, comment: UUID) -> Status[None]:
     """Delete one's own comment; admins delete any. A thread goes with its last comment."""
     found = program_for(request.user, program, "commenter")

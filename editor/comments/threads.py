@@ -36,8 +36,8 @@ class TooManyComments(EditorError):
 class NotTheirs(EditorError):
     """What somebody else has written is theirs to change."""
 
-    code = "not_allowed"
-    status = 403
+    code = "not_theirs"
+    status = 409
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +118,7 @@ def get_thread(*, program: UUID, thread: UUID, user: Any) -> ThreadView:
     """Return a thread. Raises NoSuchProgram."""
     row = _find(program, thread)
     reading = ThreadReading.objects.filter(thread=thread, person=user).first()
-    return _view(row, _read_document(program), user, reading and reading.read_to)
+    return _view(row, _read_document(program), user, reading.read_to if reading else None)
 
 
 def resolve_thread(*, program: UUID, thread: UUID, user: Any, resolved: bool, now: datetime) -> ThreadView:
