@@ -24,6 +24,7 @@ NAMES = (
     "paths",
     "versions",
     "runs",
+    "canvas",
 )
 
 

@@ -62,7 +62,7 @@ def fill_hall(count: int, robots: int = ROBOTS) -> None:
     registry.create_site(name="Hall", slug=SITE)
     registry.save_map(site=SITE, grid=Grid(CELLS, CELLS, CELL_M, 0.0, 0.0, bytes(CELLS * CELLS)))
     site = Site.objects.get(slug=SITE)
-    Device.objects.bulk_create(_row(_describe(number, robots), site) for number in range(count))
+    Device.objects.bulk_create(approved_row(_describe(number, robots), site) for number in range(count))
 
 
 def _describe(number: int, robots: int) -> Description:
@@ -82,7 +82,8 @@ def _describe(number: int, robots: int) -> Description:
     )  # fmt: skip
 
 
-def _row(said: Description, site: Site) -> Device:
+def approved_row(said: Description, site: Site) -> Device:
+    """Return a device that is approved and there, as its description says it."""
     whole = description_to_json(said)
     now = datetime.now(UTC)
     return Device(

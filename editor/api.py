@@ -23,6 +23,7 @@ from editor.comments.routes import router as comments_router
 from editor.documents.knowledge import MOST_BYTES as MOST_SNAPSHOT_BYTES
 from editor.programs.access import program_for, require_here
 from editor.programs.views import LibraryView, ProgramView
+from editor.reviews.routes import router as reviews_router
 from editor.rooms.writing import ensure_stored, read_content, write_document, write_script
 from editor.shapes import (
     Author,
@@ -47,6 +48,7 @@ from vipo_device.protocol.texts import cleaned, cleaned_json
 router = Router(tags=["editor"])
 router.add_router("", versions_router)
 router.add_router("", comments_router)
+router.add_router("", reviews_router)
 
 
 MOST_DOCUMENT = 8 * 1024 * 1024

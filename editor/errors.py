@@ -44,3 +44,24 @@ class UnreadableVersion(EditorError):
 
     code = "unreadable_version"
     status = 409
+
+
+class NotApproved(EditorError):
+    """A site demands approvals of what runs on its devices, and this content does not have them."""
+
+    code = "not_approved"
+    status = 409
+
+
+class NeedsPerson(EditorError):
+    """A token asks for what a person alone decides."""
+
+    code = "not_for_tokens"
+    status = 403
+
+
+class MayNotReview(EditorError):
+    """Somebody may not approve this content: it is their own, or the site wants another role for it."""
+
+    code = "may_not_review"
+    status = 409

@@ -201,3 +201,44 @@ class ThreadReading(models.Model):
         """One for each person and thread."""
 
         constraints = [models.UniqueConstraint(fields=["thread", "person"], name="one_reading_per_person")]
+
+
+class ReviewRule(models.Model):
+    """How many approvals a site demands before a program may run on its devices (0: none), and who may give them.
+
+    Its row is also the lock that who starts a run, who approves and who changes the rule take in turn.
+    """
+
+    site = models.OneToOneField("registry.Site", on_delete=models.CASCADE, related_name="review_rule")
+    approvals = models.PositiveSmallIntegerField(default=0)
+    least_role = models.CharField(max_length=10, default="author")
+
+
+class ReviewEntry(models.Model):
+    """One line of what was asked and said about a program's content; never changed. A person's last word counts.
+
+    `digest` is of the document that was looked at, `number` the version in which it was. `name` stays when the person
+    is gone.
+    """
+
+    class Kind(models.TextChoices):
+        """What was said."""
+
+        ASKED = "asked"
+        APPROVED = "approved"
+        CHANGES = "changes"
+        WITHDRAWN = "withdrawn"
+
+    program = models.ForeignKey(Program, on_delete=models.CASCADE, related_name="review_entries")
+    number = models.PositiveIntegerField()
+    digest = models.CharField(max_length=64)
+    kind = models.CharField(max_length=10, choices=Kind.choices)
+    person = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
+    name = models.CharField(max_length=120)
+    note = models.CharField(max_length=500, blank=True)
+    at = models.DateTimeField(auto_now_add=True)
+
+    class Meta:
+        """Looked up by the content of a program."""
+
+        indexes = [models.Index(fields=["program", "digest"])]

@@ -2,7 +2,7 @@
 
 from editor.documents.mending import Mending, mend_program, restore_rows, show_mending
 from editor.documents.store import Change, get_document
-from editor.errors import BadRequest, EditorError, NoSuchProgram
+from editor.errors import BadRequest, EditorError, NoSuchProgram, NotApproved
 from editor.programs.checking import build_surroundings
 from editor.programs.drawn_script import DrawnScript
 from editor.programs.library import get_function, save_function, search_library
@@ -28,6 +28,7 @@ from editor.programs.versions import (
     pin_version,
 )
 from editor.programs.views import AuthorView, LibraryView, ProgramView, VersionView, WholeVersionView
+from editor.reviews.gate import Permit, admit_start
 
 __all__ = [
     "AuthorView",
@@ -39,9 +40,12 @@ __all__ = [
     "LibraryView",
     "Mending",
     "NoSuchProgram",
+    "NotApproved",
+    "Permit",
     "ProgramView",
     "VersionView",
     "WholeVersionView",
+    "admit_start",
     "build_surroundings",
     "compile_version",
     "compile_version_to_json",

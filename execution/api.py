@@ -130,14 +130,22 @@ def cancel_rehearsal(request: HttpRequest, rehearsal: UUID) -> dict[str, Any]:
 
 @router.post("/programs/{uuid:program}/runs", response={202: RunSummaryShape})
 def start_run(request: HttpRequest, program: UUID, body: StartRun | None = None) -> dict[str, Any]:
-    """Start a run of a program, as it is drawn now or of a version."""
+    """Start a run of a program, as it is drawn now or of a version.
+
+    It is refused (not_approved) where approvals are missing that the site demands; an admin gives a reason then.
+    """
     site = site_of_program(program_id=program)
     _require_here(request, site, "operator", "program")
-    fence = services.get_stop(site=site).fence
     body = body or StartRun()
+    if body.emergency.strip():
+        _require_here(request, site, "admin", "program", scope="admin")
+    fence = services.get_stop(site=site).fence
     prepared = prepare(program_id=program, user=request.user, parameters=body.parameters, version=body.version)
     terms = services.Terms(body.priority, body.not_before, body.deadline)
-    return run_to_json(services.start_run(prepared=prepared, by=_who(request), terms=terms, fence=fence))
+    run = services.start_run(
+        prepared=prepared, by=_who(request), terms=terms, fence=fence, emergency=body.emergency.strip()
+    )
+    return run_to_json(run)
 
 
 @router.get("/sites/{slug:site}/runs", response=list[RunSummaryShape])

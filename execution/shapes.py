@@ -47,6 +47,9 @@ class StartRun(Asked):
     deadline: Annotated[
         AwareDatetime | None, Field(description="It should be over by then; people are told when it is not.")
     ] = None
+    emergency: Annotated[
+        str, Field(max_length=500, description="Why an admin starts it without the approvals that the site demands.")
+    ] = ""
 
 
 End = Annotated[Any, Unchecked(Position | DevicePlace | NamedPlace | PointPlace)]
@@ -106,6 +109,14 @@ class RunStepShape(Schema):
     count: int
 
 
+class PermitShape(Schema):
+    """Which approvals let a run start: how many were demanded and whose were there; or the reason of an emergency."""
+
+    needed: int
+    approved_by: list[str]
+    emergency: str
+
+
 class RunSummaryShape(Schema):
     """A run as lists and live messages have it; times are ISO 8601. Lists have no steps of one that is `archived`."""
 
@@ -127,6 +138,7 @@ class RunSummaryShape(Schema):
     not_before: str | None
     deadline: str | None
     archived: bool
+    permit: PermitShape | None
 
 
 class RunShape(RunSummaryShape):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from typing import Any
 from uuid import UUID
@@ -44,6 +44,7 @@ class RunView:
     not_before: datetime | None = None
     deadline: datetime | None = None
     is_archived: bool = False
+    permit: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def cause(self) -> dict[str, Any] | None:
@@ -167,6 +168,7 @@ def view_run(row: Run) -> RunView:
         not_before=row.not_before,
         deadline=row.deadline,
         is_archived=row.archive_id is not None,
+        permit=row.permit,
     )
 
 
@@ -242,6 +244,7 @@ def run_to_json(run: RunView) -> dict[str, Any]:
         "not_before": iso(run.not_before),
         "deadline": iso(run.deadline),
         "archived": run.is_archived,
+        "permit": run.permit or None,
     }
 
 

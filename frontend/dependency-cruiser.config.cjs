@@ -24,7 +24,7 @@ const EDITOR = [
   ["edits"],
 ];
 const INSPECTOR = [["forms"], ["expression"], ["fields"]];
-const PROGRAM = [["canvas"], ["scene"], ["words"], ["document"]];
+const PROGRAM = [["canvas"], ["painting"], ["scene"], ["words"], ["document"]];
 const MAP = [["robots", "floor", "devices"], ["plane"]];
 
 /** For each room a rule: nothing before it in the row, and nothing beside it. */

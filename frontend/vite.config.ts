@@ -29,6 +29,9 @@ const worker: Parameters<typeof VitePWA>[0] = {
   },
 };
 
+/** Bytes; many scripts are small, and together they are not. */
+const WORTH_COMPRESSING = 200;
+
 /** Beside each text of the build stands what a browser is sent that reads it compressed (servestatic finds it). */
 function compressed(): Plugin {
   let folder = "";
@@ -40,7 +43,7 @@ function compressed(): Plugin {
       for (const name of readdirSync(folder).filter((each) => /\.(js|css|svg)$/.test(each))) {
         const path = join(folder, name);
         const content = readFileSync(path);
-        if (content.length < 1024) continue;
+        if (content.length < WORTH_COMPRESSING) continue;
         writeFileSync(`${path}.gz`, gzipSync(content, { level: 9 }));
         const params = { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: content.length };
         writeFileSync(`${path}.br`, brotliCompressSync(content, { params }));

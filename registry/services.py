@@ -98,7 +98,7 @@ from registry.maps.site_maps import (
     save_map,
     use_robot_map,
 )
-from registry.people.access import Access, NotAMember, find_access, require
+from registry.people.access import Access, NotAMember, find_access, list_with_role, require
 from registry.people.keyed_requests import prune_keyed_requests
 from registry.people.open_sessions import drop_expired
 from registry.people.sessions import Session, Standing, session_of_socket
@@ -279,6 +279,7 @@ __all__ = [
     "list_sites",
     "list_slugs",
     "list_tokens",
+    "list_with_role",
     "listen",
     "mark_alert_seen",
     "mark_all_seen",

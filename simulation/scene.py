@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from random import Random
 
 from registry.floorplan.plan import Grid, wall_boxes
-from simulation.actors import Emit, InitialState, Machine, Motion, Robot, Surroundings
+from simulation.actors import Chance, Emit, InitialState, Machine, Motion, Robot, Surroundings
+from simulation.behaviour import behaviour_of
+from simulation.kind_file import default_kinds
 from simulation.proximity import Body, machine_bodies, wall_bodies
 from simulation.world import Scene
 from vipo_device.protocol.description import Description, Pose
@@ -59,25 +62,32 @@ def make_actors(scene: Scene, emit: Emit) -> Actors:
 
 
 def _machine(scene: Scene, description: Description, emit: Emit) -> Machine:
-    return Machine(description, emit, _initial_state(scene, description.id, scene.stocks))
+    return Machine(description, emit, _initial_state(scene, description, scene.stocks))
 
 
 def _robot(scene: Scene, description: Description, emit: Emit, machines: dict[str, Machine]) -> Robot:
-    initial = _initial_state(scene, description.id, scene.carrying)
+    initial = _initial_state(scene, description, scene.carrying)
     robot = Robot(description, emit, initial, Surroundings(machines, _bounds(scene.grid)))
     pose = scene.poses.get(description.id, description.pose)
     robot.stands_at(Motion(pose.x, pose.y, pose.theta))
     return robot
 
 
-def _initial_state(scene: Scene, device: str, holds: Mapping[str, Mapping[str, int]]) -> InitialState:
+def _initial_state(scene: Scene, description: Description, holds: Mapping[str, Mapping[str, int]]) -> InitialState:
+    device = description.id
     return InitialState(
         readings=scene.readings.get(device, {}),
         holds=holds.get(device),
         faults=tuple(f for f in scene.faults if f.device == device),
         remembered=tuple(AckMessage(a.command, a.status, a.why, a.result) for a in scene.remembered.get(device, ())),
-        seed=scene.seed,
+        behaviour=behaviour_of(description, default_kinds() if scene.kinds is None else scene.kinds),
+        chance=_chance(scene.seed, device),
     )
+
+
+def _chance(seed: int, device: str) -> Chance | None:
+    """Return a device's own chance, so that another device more does not change it; the seed 0 leaves none."""
+    return Random(f"{seed}:{device}").random if seed else None  # noqa: S311 - a play of chance that can be repeated
 
 
 def _bounds(grid: Grid) -> tuple[float, float, float, float]:

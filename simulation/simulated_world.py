@@ -156,3 +156,8 @@ class SimulatedWorld:
             elif t_s >= self._due_s.setdefault(name, t_s + after_s):
                 del self._due_s[name]
                 machine.set_stock(t_s, goods)
+        for name, robot in self._by_kind.robots.items():
+            if not robot.is_flat:
+                self._due_s.pop(name, None)
+            elif t_s >= self._due_s.setdefault(name, t_s + after_s):
+                robot.change_battery(t_s)

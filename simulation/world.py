@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal, Protocol
 
 from registry.floorplan.plan import Grid
+from simulation.behaviour import Kind
 from vipo_device.protocol.description import Description, Pose, Scalar
 from vipo_device.protocol.messages import AckStatus, is_final
 
@@ -43,8 +44,10 @@ class Scene:
 
     `stocks` says what each machine holds, `poses` where a robot stands (its description says where it is at home),
     `carrying` what it carries, `readings` what properties show. After `delivery_s` (none: never) an empty source is
-    filled and a full sink is emptied, as people would do. `bodiless` machines are not in anybody's way. `remembered`
-    are the final answers that devices would give again, oldest first.
+    filled, a full sink is emptied and a robot whose battery is empty gets a full one, as people would do. `bodiless`
+    machines are not in anybody's way. `remembered` are the final answers that devices would give again, oldest first.
+    `kinds` say how devices behave (none: those that VIPO comes with); the seed 0 leaves nothing to chance, each
+    other one is a course of its own.
     """
 
     grid: Grid
@@ -58,6 +61,7 @@ class Scene:
     delivery_s: float | None = None
     bodiless: frozenset[str] = frozenset()
     remembered: Mapping[str, Sequence[Ack]] = field(default_factory=dict)
+    kinds: Sequence[Kind] | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,8 @@ Whoever watches the site is told that a program's comments have changed, and rea
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any
@@ -164,33 +165,18 @@ def delete_comment(*, program: UUID, comment: UUID, user: Any, is_admin: bool) -
         _tell(held)
 
 
-class _writing:
-    """A transaction in which a person may write in a program; one writer at a time, so that no bound is passed."""
-
-    def __init__(self, program: UUID, user: Any, now: datetime) -> None:
-        self._program, self._user, self._now = program, user, now
-        self._atomic = transaction.atomic()
-
-    def __enter__(self) -> str:
-        self._atomic.__enter__()
-        try:
-            return self._enter()
-        except BaseException as error:
-            self._atomic.__exit__(type(error), error, error.__traceback__)
-            raise
-
-    def _enter(self) -> str:
-        held = Program.objects.select_for_update(of=("self",)).select_related("site").filter(pk=self._program).first()
+@contextmanager
+def _writing(program: UUID, user: Any, now: datetime) -> Iterator[str]:
+    """Hold the program for one writer at a time, so that no bound is passed; gives its site, tells who watches."""
+    with transaction.atomic():
+        held = Program.objects.select_for_update(of=("self",)).select_related("site").filter(pk=program).first()
         if held is None:
             raise NoSuchProgram(_GONE)
-        lately = Comment.objects.filter(author=self._user, written_at__gt=self._now - RATE_OVER)
+        lately = Comment.objects.filter(author=user, written_at__gt=now - RATE_OVER)
         if lately.count() >= RATE:
             raise TooManyComments(f"You have written {RATE} comments within a minute. Go on in a minute.")
         _tell(held)
-        return held.site.slug
-
-    def __exit__(self, *how: Any) -> None:
-        self._atomic.__exit__(*how)
+        yield held.site.slug
 
 
 def _write(thread: CommentThread, user: Any, words: Words, now: datetime, site: str) -> None:

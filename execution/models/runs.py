@@ -14,6 +14,7 @@ class Run(Archivable):
 
     `not_before` is when it may begin, `deadline` when it should be over; `late` says that people were told that it is
     not. `fence` is the site's when somebody started it or resumed it last: with one from before a stop it stands still.
+    `permit` says which approvals let it start, or for which emergency; it is empty where none were demanded.
     """
 
     class Status(models.TextChoices):
@@ -62,6 +63,7 @@ class Run(Archivable):
     deadline = models.DateTimeField(null=True)
     late = models.BooleanField(default=False)
     fence = models.BigIntegerField(default=0)
+    permit = models.JSONField(default=dict, db_default={})
     created_at = models.DateTimeField()
     started_at = models.DateTimeField(null=True)
     ended_at = models.DateTimeField(null=True)

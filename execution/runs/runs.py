@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from datetime import datetime
 from typing import Any
 from uuid import UUID, uuid4
@@ -10,6 +10,7 @@ from uuid import UUID, uuid4
 from django.db import IntegrityError, transaction
 from django.db.models import Max
 
+from editor import services as editor
 from execution import database, mailbox
 from execution.archive.rows import read_events, read_run
 from execution.errors import NotFound, NotPossibleNow
@@ -27,21 +28,23 @@ STOPPED = "The site is stopped. Reset the stop, then resume the run."
 
 
 def start_run(
-    *, prepared: Prepared, by: str, entry: int = 0, terms: Terms = USUAL, fence: int | None = None
+    *, prepared: Prepared, by: str, entry: int = 0, terms: Terms = USUAL, fence: int | None = None, emergency: str = ""
 ) -> RunView:
     """Start a run of a program that was checked; a worker takes it from here. `entry` is where it begins.
 
     `fence` is the site's when it was decided that the run shall begin, if that was earlier: a stop that was pressed
-    since then pauses it, also one that was reset again.
+    since then pauses it, also one that was reset again. `emergency` is an admin's reason to start it without the
+    approvals that the site demands.
 
     Raises:
+        editor.NotApproved: approvals that the site demands are missing.
         BadTerms: it may begin or should be over at a time that makes no sense.
         NotPossibleNow: the site is stopped.
     """
     stop = get_stop(site=prepared.site)
     if stop.active:
         raise NotPossibleNow("The site is stopped. Reset the stop before you start a run.", {"why": "stopped"})
-    begin = _Beginning(by, entry, fit_terms(terms, database.now()), stop.fence if fence is None else fence)
+    begin = _Beginning(by, entry, fit_terms(terms, database.now()), stop.fence if fence is None else fence, emergency)
     row = _create_numbered(prepared, begin)
     transaction.on_commit(lambda: hold_if_stopped(row))
     return _announce(prepared, row)
@@ -49,12 +52,13 @@ def start_run(
 
 @dataclass(frozen=True, slots=True)
 class _Beginning:
-    """By whom, where and on which terms a run begins, and the site's fence when it was asked for."""
+    """By whom, where, on which terms, for which emergency a run begins, and the site's fence when it was asked for."""
 
     by: str
     entry: int
     terms: Terms
     fence: int
+    emergency: str
 
 
 def _announce(prepared: Prepared, row: Run) -> RunView:
@@ -77,9 +81,15 @@ def _create_numbered(prepared: Prepared, begin: _Beginning) -> Run:
 
 def _create(prepared: Prepared, begin: _Beginning) -> Run:
     site = registry.get_site_id(site=prepared.site)
+    permit = editor.admit_start(
+        site=prepared.site, program_id=prepared.program, document=prepared.document, emergency=begin.emergency
+    )
     last = Run.objects.filter(site_id=site).aggregate(last=Max("number"))["last"] or 0
     facts = {"number": last + 1, "program": prepared.name, "armed": begin.entry > 0}
     registry.note_act(site_id=site, code="run_started", by=begin.by, facts=facts)
+    if permit.emergency:
+        facts = {"number": last + 1, "program": prepared.name, "reason": permit.emergency}
+        registry.note_act(site_id=site, code="run_started_in_emergency", by=begin.by, facts=facts)
     return Run.objects.create(
         site_id=site,
         number=last + 1,
@@ -96,6 +106,7 @@ def _create(prepared: Prepared, begin: _Beginning) -> Run:
         not_before=begin.terms.not_before,
         deadline=begin.terms.deadline,
         fence=begin.fence,
+        permit=asdict(permit) if permit.needed else {},
         created_at=database.now(),
     )
 

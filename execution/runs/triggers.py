@@ -9,6 +9,7 @@ from uuid import UUID
 
 from django.db import transaction
 
+from editor import services as editor
 from editor.language import plan_from_json
 from editor.language.plan.instructions import EventEntry, Plan
 from execution.errors import NotPossibleNow, NotReady
@@ -39,6 +40,7 @@ def arm_program(*, prepared: Prepared, by: str, fence: int | None = None) -> Arm
 
     Raises:
         NotReady: the program has no step that starts it.
+        editor.NotApproved: approvals that the site demands are missing.
         NotPossibleNow: the site is stopped.
     """
     plan = plan_from_json(prepared.plan)
@@ -61,6 +63,8 @@ def arm_program(*, prepared: Prepared, by: str, fence: int | None = None) -> Arm
     }
     with transaction.atomic():
         row, _ = ArmedProgram.objects.update_or_create(program=prepared.program, defaults=values)
+        # After the row of what is armed, as a firing has it: two that wait for each other would both fail.
+        editor.admit_start(site=prepared.site, program_id=prepared.program, document=prepared.document)
         _announce(prepared.site)
     return view_armed(row)
 
@@ -114,7 +118,18 @@ def _start(row: ArmedProgram, due: EventEntry, now: datetime) -> bool:
         start_run(prepared=prepared, by=row.by, entry=due.entry, fence=row.fence)
     except NotPossibleNow:  # the stop is pressed at this very moment, and disarms it
         return False
+    except editor.NotApproved:
+        _disarm_unapproved(row, prepared.name)
+        return False
     return True
+
+
+def _disarm_unapproved(row: ArmedProgram, program: str) -> None:
+    """Disarm a program whose approvals do not suffice any more, and write that down: it would never start silently."""
+    ArmedProgram.objects.filter(program=row.program, at=row.at).delete()
+    facts = {"program": program, "by": row.by}
+    registry.note_act(site_id=row.site_id, code="armed_run_not_approved", facts=facts)
+    _announce(row.site.slug)
 
 
 def _is_under_way(program: UUID, now: datetime) -> bool:

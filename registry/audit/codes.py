@@ -11,11 +11,12 @@ _CODES: dict[Kind, str] = {
     "roles": "role_changed access_end_set member_added member_removed member_left joined",
     "invitations": "invitation_made invitation_revoked",
     "tokens": "token_made token_revoked",
-    "runs": "run_started run_cancelled",
+    "runs": "run_started run_cancelled run_started_in_emergency armed_run_not_approved",
     "stops": "stop_pressed stop_reset",
     "devices": """device_asked device_approved device_rejected device_retired device_readmitted device_key_given
         device_key_revoked enrolment_key_renewed""",
-    "programs": "program_deleted comment_deleted",
+    "programs": """program_deleted comment_deleted review_rule_set review_asked review_approved review_changes
+        review_withdrawn""",
     "map": "map_published place_added place_changed place_removed",
     "sign_in": "sign_in_locked",
 }

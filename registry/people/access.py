@@ -103,6 +103,12 @@ def find_access(user: AbstractBaseUser | AnonymousUser, site: str | Site) -> Acc
     return access_of(user, member) if member else None
 
 
+def list_with_role(*, site: str, role: str) -> frozenset[int]:
+    """Return the ids of those who have this role at a site now, or one that may do more."""
+    rows = Membership.objects.filter(has_not_ended(), site__slug=site, user__is_active=True)
+    return frozenset(rows.filter(role__in=ROLES[ROLES.index(role) :]).values_list("user_id", flat=True))
+
+
 @dataclass(frozen=True, slots=True)
 class Need:
     """What was required of somebody: a role and a token's scope at a site."""

@@ -56,7 +56,8 @@ DEEDS = (
         "look",
         "viewer",
         "read",
-        """show_function show_function_version show_program show_compiled show_document show_script show_version
+        """show_review show_review_rule show_function
+        show_function_version show_program show_compiled show_document show_script show_version
         list_versions export_version compare_versions wait_until_stored get_rehearsal list_rehearsals get_run
         list_events list_armed get_call list_questions plan_route plan_routes list_runs show_site list_alerts
         look_at_description list_devices export_devices show_device list_device_events show_property_history
@@ -87,6 +88,8 @@ DEEDS = (
         "run",
         """start_rehearsal cancel_rehearsal start_run pause_run resume_run cancel_run answer_question arm_program""",
     ),
+    _deed("ask_review", "operator", "run", "ask_for_review"),
+    _deed("review", "operator", "session", "give_verdict"),
     _deed(
         "draw",
         "author",
@@ -107,7 +110,7 @@ DEEDS = (
         "admin",
         "admin",
         """list_processes list_dead_letters retry_dead_letter drop_dead_letter show_retention set_retention list_audit
-        export_audit""",
+        export_audit set_review_rule""",
     ),
     _deed(
         "people",

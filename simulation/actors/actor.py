@@ -6,13 +6,17 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from simulation.behaviour import Behaviour
 from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
 from vipo_device.kit.answers import REMEMBERED, AnswerLedger
+from vipo_device.kit.arguments import duration_s
 from vipo_device.protocol.arguments import refusal_of_arguments
-from vipo_device.protocol.description import Description, PropertySpec, Scalar
+from vipo_device.protocol.description import Description, MethodSpec, PropertySpec, Scalar
 from vipo_device.protocol.messages import CONTROLS, AckMessage
 
 Emit = Callable[[WorldEvent], None]
+Chance = Callable[[], float]
+"""Gives the next number from 0 up to 1; the same seed gives the same numbers."""
 
 
 def starting_value(spec: PropertySpec) -> Scalar:
@@ -26,13 +30,17 @@ def starting_value(spec: PropertySpec) -> Scalar:
 
 @dataclass(frozen=True, slots=True)
 class InitialState:
-    """How a device is when the world begins; `holds` is a machine's stock or a robot's load, None as usual."""
+    """How a device is when the world begins; `holds` is a machine's stock or a robot's load, None as usual.
+
+    Without `chance` all takes its middle time, and what happens by odds happens evenly.
+    """
 
     readings: Mapping[str, Scalar] = field(default_factory=dict)
     holds: Mapping[str, int] | None = None
     faults: tuple[Fault, ...] = ()
     remembered: tuple[AckMessage, ...] = ()
-    seed: int = 0
+    behaviour: Behaviour = field(default_factory=Behaviour)
+    chance: Chance | None = None
 
 
 class Actor(ABC):
@@ -42,6 +50,8 @@ class Actor(ABC):
         self.description = description
         known = initial.readings
         self.readings = {p.name: known.get(p.name, starting_value(p)) for p in description.properties}
+        self.behaviour = initial.behaviour
+        self._chance = initial.chance
         self.ledger = AnswerLedger(initial.remembered)
         self.held = False
         self._pauses: list[str] = []
@@ -95,6 +105,14 @@ class Actor(ABC):
             self.readings[name] = value
             if "offline" not in self._faults:
                 self._emit(PropertyChanged(t_s, self.description.id, name, value))
+
+    def _lasts_s(self, method: MethodSpec | None, arguments: Mapping[str, object]) -> float:
+        """Return how long a job takes: what its arguments say to the second, all else with the spread of its kind."""
+        said_s = None if method is None else duration_s(method, arguments)
+        if said_s is not None:
+            return said_s
+        usual_s, spread = self.behaviour.job_s, self.behaviour.spread
+        return usual_s if self._chance is None else usual_s * (1 + spread * (2 * self._chance() - 1))
 
     def _refusal(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> str:
         spec = self.description.method(method)

@@ -3,34 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from math import exp
+from dataclasses import dataclass, field
 
 from simulation.actors.actor import Actor, Emit, InitialState
-from vipo_device.kit.arguments import counted_object, duration_s
-from vipo_device.protocol.description import Description, PropertySpec, Scalar
+from simulation.actors.readings import MachineReadings
+from simulation.behaviour import Behaviour
+from vipo_device.kit.arguments import counted_object
+from vipo_device.protocol.description import Description, Scalar
 from vipo_device.protocol.doors import door_methods, said_of_door
 from vipo_device.protocol.messages import AckMessage
-
-AMBIENT_C = 22.0
-SLOTS = 8
-FIRST_STOCK = {"shelf": 24, "cans": 8}
-SLOTS_OF_CLASS = {"rollers": 9}
-SCRATCHED_EVERY = 5
-DEADBAND_C = 0.5
-
-
-@dataclass(frozen=True, slots=True)
-class Warmth:
-    """The temperature that a class of machine works at, and the time constants of warming and cooling."""
-
-    target_c: float
-    warming_s: float
-    cooling_s: float
-
-
-WARMTH = {"oven": Warmth(80.0, 60.0, 120.0)}
-MILD = Warmth(34.0, 120.0, 120.0)
 
 
 @dataclass(slots=True)
@@ -40,6 +21,7 @@ class Job:
     command: str
     method: str
     lasts_s: float
+    arguments: Mapping[str, object] = field(default_factory=dict)
     spent_s: float = 0.0
 
 
@@ -51,10 +33,7 @@ class Machine(Actor):
         self.stock = _stock_at(initial, description, self.slots) if initial.holds is None else dict(initial.holds)
         self._job: Job | None = None
         self._door = door_methods(description)
-        self._pieces = initial.seed
-        self._warmth = WARMTH.get(description.device_class, MILD)
-        known = initial.readings.get("temperature")
-        self._celsius = float(known) if isinstance(known, int | float) else AMBIENT_C
+        self._readings = MachineReadings(description, self.behaviour, initial.readings)
         self._start_readings()
 
     @property
@@ -65,7 +44,7 @@ class Machine(Actor):
     @property
     def resting(self) -> bool:
         """True when time changes nothing."""
-        return self._job is None and abs(self._celsius - AMBIENT_C) < 0.05 and not self._waiting_faults
+        return self._job is None and self._readings.resting and not self._waiting_faults
 
     @property
     def slots(self) -> int:
@@ -73,14 +52,16 @@ class Machine(Actor):
         declared = self.description.property("freeSlots")
         if declared is not None and declared.maximum:
             return int(declared.maximum)
-        return self.description.capacity or SLOTS_OF_CLASS.get(self.description.device_class, SLOTS)
+        return self.description.capacity or self.behaviour.slots
 
     def advance(self, t_s: float, dt_s: float) -> None:
         """Let time pass, up to `t_s`."""
         self.notice_faults(t_s)
         if self._job is not None and not self.frozen:
             self._work(t_s, dt_s, self._job)
-        self._exchange_heat(t_s, dt_s)
+        work = self._work_under_way
+        changed = self._readings.advance(dt_s, self.readings, None if work is None else work.arguments)
+        self._read_all(t_s, changed)
 
     def refusal_to_give(self, name: str, count: int) -> str:
         """Return why a robot cannot fetch objects here now, or an empty text."""
@@ -118,9 +99,15 @@ class Machine(Actor):
         """Return what people would bring about here: a filled source, an emptied sink; None when all is well."""
         gives, takes = self.description.gives, self.description.takes
         if gives and not takes and not any(self.stock.values()):
-            return first_stock(self.description)
+            return first_stock(self.description, self.behaviour)
         is_full = sum(self.stock.values()) >= self.slots
-        return {} if is_full and self.description.device_class in SLOTS_OF_CLASS else None
+        return {} if is_full and takes and not gives else None
+
+    @property
+    def _work_under_way(self) -> Job | None:
+        """The job under way, unless it only hands something over."""
+        job = self._job
+        return None if job is None or job.method in self.behaviour.hands_over else job
 
     @property
     def _is_undeclared(self) -> bool:
@@ -131,14 +118,22 @@ class Machine(Actor):
             return f"{self.description.name} is busy with {self._job.method}."
         if method in {"dispense", "accept"} and (why := self._refusal_of_goods(method, arguments)):
             return why
-        spec = self.description.method(method)
-        assert spec is not None
+        if why := self._lack(method):
+            return why
         self._say(t_s, AckMessage(command, "ACCEPTED"))
         self._say(t_s, AckMessage(command, "RUNNING"))
-        self._job = Job(command, method, duration_s(spec, arguments))
+        self._job = Job(command, method, self._lasts_s(self.description.method(method), arguments), dict(arguments))
         self._read_door(t_s, method, is_done=False)
-        self.read(t_s, "jobStatus", 0)
-        self._read_pressure(t_s)
+        self._read_all(t_s, self._readings.progress(0))
+        self._read_switched(t_s)
+        return ""
+
+    def _lack(self, method: str) -> str:
+        """Return what the method needs and is not here, or an empty text."""
+        for name, count in self.behaviour.needs.get(method, {}).items():
+            held = self.stock.get(name, 0)
+            if held < count:
+                return f"{self.description.name} cannot {method}: it has {held} {name} and needs {count}."
         return ""
 
     def _refusal_of_goods(self, method: str, arguments: Mapping[str, object]) -> str:
@@ -151,53 +146,45 @@ class Machine(Actor):
         job = self._job
         if job is not None and command in {"", job.command}:
             self._job = None
-            self._read_pressure(t_s)
+            self._read_switched(t_s)
             self._say(t_s, AckMessage(job.command, "CANCELED", f"{job.method} was cancelled."))
 
     def _work(self, t_s: float, dt_s: float, job: Job) -> None:
         job.spent_s += dt_s
         if job.spent_s < job.lasts_s - 1e-9:
-            self.read(t_s, "jobStatus", int(100 * job.spent_s / job.lasts_s))
+            self._read_all(t_s, self._readings.progress(int(100 * job.spent_s / job.lasts_s)))
             return
         self._job = None
-        self.read(t_s, "jobStatus", 100)
-        self._read_pressure(t_s)
+        if self._breaks_down(job.method):
+            self._read_switched(t_s)
+            self._say(t_s, AckMessage(job.command, "FAILED", f"{self.description.name} broke down at {job.method}."))
+            return
+        self._read_all(t_s, self._readings.progress(100))
+        self._read_switched(t_s)
         if self._say_done(t_s, job.command, self._finish(t_s, job)):
             self._read_door(t_s, job.method, is_done=True)
 
+    def _breaks_down(self, method: str) -> bool:
+        odds = self.behaviour.fails.get(method, 0.0)
+        return odds > 0 and self._chance is not None and self._chance() < odds
+
     def _finish(self, t_s: float, job: Job) -> dict[str, Scalar]:
         """Do what a job does to objects and readings; return what is worth reporting."""
-        if self.description.device_class == "booth" and job.method == "paint" and self.stock.get("can"):
-            self.change_stock(t_s, "can", -1)
-        if self.description.device_class == "oven" and job.method == "curePaint":
-            self._pieces += 1
-            quality = "scratched" if self._pieces % SCRATCHED_EVERY == 0 else "ok"
-            self.read(t_s, "quality", quality)
-            return {"quality": quality}
-        return {}
+        for name, count in self.behaviour.uses.get(job.method, {}).items():
+            if self.stock.get(name):
+                self.change_stock(t_s, name, -count)
+        if job.method not in self.behaviour.hands_over:
+            self._read_all(t_s, self._readings.after(job.arguments, self.readings))
+        drawn = self._readings.drawn(job.method, self._chance)
+        self._read_all(t_s, drawn)
+        return drawn
 
-    def _exchange_heat(self, t_s: float, dt_s: float) -> None:
-        """First-order warming and cooling: T' = (target - T) / time constant."""
-        works = self._job is not None and self._job.method not in {"dispense", "accept"}
-        if not works and self._celsius == AMBIENT_C:
-            return
-        target = self._warmth.target_c if works else AMBIENT_C
-        constant_s = self._warmth.warming_s if target > self._celsius else self._warmth.cooling_s
-        self._celsius = target + (self._celsius - target) * exp(-dt_s / constant_s)
-        if not works and self._celsius - AMBIENT_C < 0.05:
-            self._celsius = AMBIENT_C
-        shown = self.readings.get("temperature")
-        if isinstance(shown, int | float) and (
-            abs(self._celsius - shown) >= DEADBAND_C or self._celsius in {AMBIENT_C, target}
-        ):
-            self.read(t_s, "temperature", self._celsius_shown())
+    def _read_all(self, t_s: float, changed: Mapping[str, Scalar]) -> None:
+        for name, value in changed.items():
+            self.read(t_s, name, value)
 
-    def _celsius_shown(self) -> float:
-        return round(_within(self.description.property("temperature"), self._celsius), 1)
-
-    def _read_pressure(self, t_s: float) -> None:
-        bar = 2.5 if self._job is not None and self._job.method not in {"dispense", "accept"} else 0.0
-        self.read(t_s, "pressure", _within(self.description.property("pressure"), bar))
+    def _read_switched(self, t_s: float) -> None:
+        self._read_all(t_s, self._readings.switched(works=self._work_under_way is not None))
 
     def _read_door(self, t_s: float, method: str, *, is_done: bool) -> None:
         """A door is open once it has opened, and is not from the moment on in which it begins to close."""
@@ -217,17 +204,17 @@ class Machine(Actor):
     def _start_readings(self) -> None:
         """Set the readings that follow from the machine's state, before anyone listens."""
         total = sum(self.stock.values())
-        values = {"stock": total, "freeSlots": max(0, self.slots - total), "temperature": self._celsius_shown()}
+        values = {"stock": total, "freeSlots": max(0, self.slots - total), **self._readings.at_start()}
         self.readings.update({name: value for name, value in values.items() if name in self.readings})
 
 
-def first_stock(description: Description) -> dict[str, int]:
+def first_stock(description: Description, behaviour: Behaviour) -> dict[str, int]:
     """Return what a machine holds at the start when nobody says: a source is full, all else is empty."""
     if description.takes:
         return {}
     declared = description.property("stock")
-    most = int(declared.maximum) if declared is not None and declared.maximum else 24
-    return dict.fromkeys(description.gives, FIRST_STOCK.get(description.device_class, most))
+    most = int(declared.maximum) if declared is not None and declared.maximum else behaviour.stock
+    return dict.fromkeys(description.gives, most)
 
 
 def _stock_at(initial: InitialState, description: Description, slots: int) -> dict[str, int]:
@@ -237,11 +224,4 @@ def _stock_at(initial: InitialState, description: Description, slots: int) -> di
         return {description.gives[0]: int(stock)}
     if isinstance(free, int | float) and len(description.takes) == 1:
         return {description.takes[0]: max(0, slots - int(free))}
-    return first_stock(description)
-
-
-def _within(spec: PropertySpec | None, value: float) -> float:
-    if spec is None:
-        return value
-    low = value if spec.minimum is None else max(value, spec.minimum)
-    return low if spec.maximum is None else min(low, spec.maximum)
+    return first_stock(description, initial.behaviour)

@@ -11,17 +11,12 @@ from simulation.actors.actor import Actor, Emit, InitialState
 from simulation.actors.follower import Follower, Motion
 from simulation.actors.machine import Machine
 from simulation.proximity import body_of
-from vipo_device.kit.arguments import counted_object, duration_s, read_move, why_astray
+from vipo_device.kit.arguments import counted_object, read_move, why_astray
 from vipo_device.protocol.description import Description, Scalar
 from vipo_device.protocol.messages import AckMessage
 
-DEFAULT_SPEED_M_S = 0.5
 DEFAULT_RADIUS_M = 0.18
 ARM_M = 0.5
-HANDLING_S = 2.0
-DRIVING_PERCENT_S = 100.0 / (4 * 3600)
-STANDING_PERCENT_S = 100.0 / (24 * 3600)
-CHARGING_PERCENT_S = 100.0 / 1800
 DOCKED_M = 0.3
 Bounds = tuple[float, float, float, float]
 
@@ -61,7 +56,7 @@ class Robot(Actor):
         self.battery = float(known) if isinstance(known, int | float) else 100.0
         self._machines, self._bounds = surroundings.machines, surroundings.bounds
         self._tasks: deque[Task] = deque()
-        self._follower = Follower(description.speed_m_s or DEFAULT_SPEED_M_S)
+        self._follower = Follower(description.speed_m_s or self.behaviour.speed_m_s)
         self._at = Motion(description.pose.x, description.pose.y, description.pose.theta)
         self._start_readings()
 
@@ -88,6 +83,8 @@ class Robot(Actor):
         """Decide how fast to drive (m/s) and turn (rad/s) in the next `dt_s`; handle objects when it is time."""
         self._at = motion
         self.notice_faults(t_s)
+        if self.is_flat and self._tasks and not self.frozen:
+            self._stop_flat(t_s)
         if self.frozen or not self._tasks:
             return self._follower.brake(dt_s)
         task = self._tasks[0]
@@ -103,9 +100,20 @@ class Robot(Actor):
         """Drain the battery, or charge it where the robot is at home."""
         home = self.description.pose
         docked = not driving and hypot(self._at.x - home.x, self._at.y - home.y) < DOCKED_M
-        rate = CHARGING_PERCENT_S if docked else -(DRIVING_PERCENT_S if driving else STANDING_PERCENT_S)
-        self.battery = min(100.0, max(0.0, self.battery + rate * dt_s))
+        how = self.behaviour
+        percent_h = 100 / how.charging_h if docked else -100 / (how.driving_h if driving else how.standing_h)
+        self.battery = min(100.0, max(0.0, self.battery + percent_h / 3600 * dt_s))
         self.read(t_s, "battery", round(self.battery))
+
+    def change_battery(self, t_s: float) -> None:
+        """Put a full battery in, as people do with a robot that stands."""
+        self.battery = 100.0
+        self.read(t_s, "battery", 100)
+
+    @property
+    def is_flat(self) -> bool:
+        """True when a robot that says how full its battery is has nothing left."""
+        return self.battery <= 0 and self.description.property("battery") is not None
 
     def _begin(self, t_s: float, task: Task) -> None:
         if not task.begun:
@@ -147,6 +155,16 @@ class Robot(Actor):
             AckMessage(task.command, "FAILED", f"{what}: it touches {self.touches}." if self.touches else f"{what}."),
         )
         self._end_moves(t_s, "The way before it failed.")
+
+    def _stop_flat(self, t_s: float) -> None:
+        """Fail all that is under way: the robot stands where it is until somebody charges it."""
+        self._follower.clear()
+        ended, self._tasks = list(self._tasks), deque()
+        for task in ended:
+            self._say(t_s, AckMessage(task.command, "FAILED", self._why_flat()))
+
+    def _why_flat(self) -> str:
+        return f"The battery of {self.description.name} is empty; charge it."
 
     def _end_moves(self, t_s: float, why: str) -> None:
         """Cancel all queued moves: without the way before them they would lead through walls."""
@@ -221,6 +239,8 @@ class Robot(Actor):
         self.read(t_s, "load", self._load_shown())
 
     def _take_on(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> str:
+        if self.is_flat:
+            return self._why_flat()
         task = self._task(method, arguments, command)
         if isinstance(task, str):
             return task
@@ -235,10 +255,13 @@ class Robot(Actor):
             return self._move(arguments, command)
         if method in {"pick", "drop"}:
             goods = counted_object(arguments)
-            return goods if isinstance(goods, str) else Task(command, method, dict(arguments), left_s=HANDLING_S)
-        spec = self.description.method(method)
-        assert spec is not None
-        return Task(command, method, dict(arguments), left_s=duration_s(spec, arguments))
+            return (
+                goods
+                if isinstance(goods, str)
+                else Task(command, method, dict(arguments), left_s=self._lasts_s(None, arguments))
+            )
+        lasts_s = self._lasts_s(self.description.method(method), arguments)
+        return Task(command, method, dict(arguments), left_s=lasts_s)
 
     def _move(self, arguments: Mapping[str, object], command: str) -> Task | str:
         move = read_move(arguments)

@@ -134,7 +134,7 @@ def test_the_page_passes_axe_and_fits(
     title, members, rights, invitations, record = words
     expect(page.get_by_role("heading", level=1, name=title)).to_be_visible()
     expect(page.get_by_role("region", name=members).get_by_role("row").nth(1)).to_be_visible()
-    expect(page.get_by_role("region", name=rights).get_by_role("row")).to_have_count(10)
+    expect(page.get_by_role("region", name=rights).get_by_role("row")).to_have_count(13)
     count = 1 if role == "admin" else 0
     expect(page.get_by_role("region", name=invitations)).to_have_count(count)
     expect(page.get_by_role("complementary", name=record)).to_have_count(count)

@@ -47,6 +47,8 @@ BODIES: dict[str, dict[str, Any]] = {
     "wait_until_stored": {"seen": ""},
     "save_function": {"program": "{program}", "function": "f", "name": "F"},
     "use_robot_map": {"device": "{device}", "version": 1, "replaces": 1},
+    "set_review_rule": {"approvals": 0, "least_role": "author"},
+    "give_verdict": {"version": 1, "verdict": "approved"},
     "set_retention": {"runs": 30, "rehearsals": None, "calls": 0},
     "restore_map": {"version": 1, "replaces": 1},
     "add_place": {"name": "Other", "kind": "point", "x": 1, "y": 1},

@@ -10,7 +10,6 @@ from vipo_device.protocol.arguments import is_number
 from vipo_device.protocol.description import MethodSpec
 
 SECONDS = {"MIN": 60.0, "SEC": 1.0, "S": 1.0, "HR": 3600.0, "MilliSEC": 0.001, "": 60.0}
-DEFAULT_DURATION_S = 2.0
 ASTRAY_M = 0.6
 """How far from the end of its path a robot's next move may begin."""
 CountedObject = tuple[str, int]
@@ -70,14 +69,14 @@ def why_astray(name: str, begin: Point | None, here: Point | None) -> str:
     return f"The way begins {away_m:.1f} m from where {name} will be." if away_m > ASTRAY_M else ""
 
 
-def duration_s(method: MethodSpec, arguments: Mapping[str, object]) -> float:
-    """Return how long the method takes: its argument `time` (minutes unless it says otherwise), else 2 s."""
+def duration_s(method: MethodSpec, arguments: Mapping[str, object]) -> float | None:
+    """Return how long a call's arguments say that it takes: `time` (minutes unless it says otherwise); None if none."""
     for parameter in method.parameters:
         value = arguments.get(parameter.name)
         lasts = parameter.name == "time" or (bool(parameter.unit) and parameter.unit in SECONDS)
         if lasts and is_number(value):
             return max(0.0, float(value)) * SECONDS.get(parameter.unit, 60.0)
-    return DEFAULT_DURATION_S
+    return None
 
 
 def counted_object(arguments: Mapping[str, object]) -> CountedObject | str:

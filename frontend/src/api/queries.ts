@@ -58,6 +58,8 @@ export const keys = {
   threads: (id: string) => ["threads", id] as const,
   peopleToMention: (id: string) => ["people-to-mention", id] as const,
   comparison: (id: string) => ["comparison", id] as const,
+  reviews: ["review"] as const,
+  reviewRule: (slug: string) => ["review-rule", slug] as const,
   rehearsals: (slug: string) => ["rehearsals", slug] as const,
 };
 

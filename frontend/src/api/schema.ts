@@ -504,6 +504,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/programs/{program}/review": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Review
+         * @description Show how a version stands, or the program as it is drawn now: who approved it, what is missing for a run.
+         */
+        get: operations["show_review"];
+        put?: never;
+        /**
+         * Give Verdict
+         * @description Approve a version's content, ask for changes of it, or withdraw what one has said of it.
+         */
+        post: operations["give_verdict"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/review/ask": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Ask For Review
+         * @description Ask for a review of a version, or of the program as it is drawn now, which becomes a version.
+         */
+        post: operations["ask_for_review"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/programs/{program}/runs": {
         parameters: {
             query?: never;
@@ -516,6 +560,8 @@ export interface paths {
         /**
          * Start Run
          * @description Start a run of a program, as it is drawn now or of a version.
+         *
+         *     It is refused (not_approved) where approvals are missing that the site demands; an admin gives a reason then.
          */
         post: operations["start_run"];
         delete?: never;
@@ -2396,6 +2442,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/review-rule": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Review Rule
+         * @description Show how many approvals the site demands before a program may run on its devices, and of whom.
+         */
+        get: operations["show_review_rule"];
+        /**
+         * Set Review Rule
+         * @description Choose what the site demands from now on; runs that are under way go on.
+         */
+        put: operations["set_review_rule"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/sparql": {
         parameters: {
             query?: never;
@@ -3673,6 +3743,12 @@ export interface components {
             /** @default 200 */
             limit: number;
         };
+        /** @description Which approvals let a run start: how many were demanded and whose were there; or the reason of an emergency. */
+        PermitShape: {
+            approved_by: string[];
+            emergency: string;
+            needed: number;
+        };
         /** @description Somebody who is signed in. */
         Person: {
             email: string;
@@ -4023,6 +4099,37 @@ export interface components {
             trouble: string;
             trouble_at: string | null;
         };
+        /** @description How many approvals a site demands before a run on its devices (0: none), and the least role that may approve. */
+        ReviewRuleShape: {
+            approvals: number;
+            /** @enum {string} */
+            least_role: "operator" | "author" | "admin";
+        };
+        /**
+         * @description How a program's content stands; `may_run` is what the gate would say now.
+         *
+         *     `number` is the version that holds it, `compare_with` the one that was approved last before it. `why_not` says why
+         *     the asker cannot approve it. `errors` and `warnings` are what the checker finds.
+         */
+        ReviewShape: {
+            compare_with: number | null;
+            errors: number;
+            history: components["schemas"]["WordShape"][];
+            /** @enum {string} */
+            least_role: "operator" | "author" | "admin";
+            may_run: boolean;
+            needed: number;
+            number: number | null;
+            warnings: number;
+            /** @enum {string} */
+            why_not: "" | "role" | "own";
+        };
+        /** @description Which version is to be reviewed (as it is drawn now if none), and what the reviewer should know. */
+        ReviewToAsk: {
+            /** @default  */
+            note: string;
+            version?: number | null;
+        };
         /** @description What a robot did, and its charge at the end (%). */
         RobotFigures: {
             battery: number;
@@ -4095,6 +4202,7 @@ export interface components {
             id: string;
             not_before: string | null;
             number: number;
+            permit: components["schemas"]["PermitShape"] | null;
             /** @enum {string} */
             priority: "low" | "normal" | "high";
             program: components["schemas"]["RunProgram"];
@@ -4133,6 +4241,7 @@ export interface components {
             id: string;
             not_before: string | null;
             number: number;
+            permit: components["schemas"]["PermitShape"] | null;
             /** @enum {string} */
             priority: "low" | "normal" | "high";
             program: components["schemas"]["RunProgram"];
@@ -4217,6 +4326,12 @@ export interface components {
             rehearsals: number | null;
             runs: number | null;
         };
+        /** @description What a site shall demand from now on. */
+        SetReviewRule: {
+            approvals: number;
+            /** @enum {string} */
+            least_role: "operator" | "author" | "admin";
+        };
         /**
          * @description A side: a version, or what is drawn now. With a problem it has neither a document nor its compiled form.
          *
@@ -4284,6 +4399,11 @@ export interface components {
         StartRun: {
             /** @description It should be over by then; people are told when it is not. */
             deadline?: string | null;
+            /**
+             * @description Why an admin starts it without the approvals that the site demands.
+             * @default
+             */
+            emergency: string;
             /** @description It waits until then and begins by itself; at most a year ahead. */
             not_before?: string | null;
             /** @default {} */
@@ -4381,6 +4501,18 @@ export interface components {
             old?: unknown;
             path: string[];
         };
+        /** @description What a reviewer says about a version; changes are asked for with a sentence. */
+        VerdictToGive: {
+            /** @default  */
+            note: string;
+            /** @enum {string} */
+            verdict: "approved" | "changes" | "withdrawn";
+            version: number;
+        };
+        /** @description Which version is asked about; without one, the program as it is drawn now. */
+        VersionAsked: {
+            version?: number | null;
+        };
         /** @description A version without what is in it; `cause` says before what it was made by itself. */
         VersionShape: {
             author: components["schemas"]["Author"] | null;
@@ -4450,6 +4582,18 @@ export interface components {
             name: string;
             number: number;
             script: string;
+        };
+        /** @description What somebody said about this content; `counts` says whether it still does. */
+        WordShape: {
+            /** Format: date-time */
+            at: string;
+            counts: boolean;
+            /** @enum {string} */
+            kind: "asked" | "approved" | "changes" | "withdrawn";
+            mine: boolean;
+            name: string;
+            note: string;
+            number: number;
         };
         /** @description A sentence in each language of the screens. */
         Words: {
@@ -5801,6 +5945,142 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RehearsalShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_review: {
+        parameters: {
+            query?: {
+                version?: number | null;
+            };
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReviewShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    give_verdict: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VerdictToGive"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReviewShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    ask_for_review: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ReviewToAsk"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReviewShape"];
                 };
             };
             400: components["responses"]["Refused400"];
@@ -10645,6 +10925,92 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ProgramShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_review_rule: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReviewRuleShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    set_review_rule: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SetReviewRule"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReviewRuleShape"];
                 };
             };
             400: components["responses"]["Refused400"];

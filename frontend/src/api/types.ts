@@ -106,6 +106,9 @@ export type RehearsalError = Schemas["RehearsalError"];
 export type NearMiss = Schemas["Encounter"];
 export type LogLine = Schemas["LogLine"];
 
+export type Review = Schemas["ReviewShape"];
+export type ReviewRule = Schemas["ReviewRuleShape"];
+
 export type Version = Schemas["VersionShape"];
 export type WholeVersion = Omit<Schemas["WholeVersionShape"], "document"> & { document: ProgramDocument };
 /** At the path stands `new` instead of `old`; what is left out is absent there. */

@@ -28,6 +28,7 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/tokens", "pages/tokens/TokensPage"],
   ["/sites/:slug/operations", "pages/operations/OperationsPage"],
   ["/sites/:slug/retention", "pages/retention/RetentionPage"],
+  ["/sites/:slug/review", "pages/review/ReviewRulePage"],
   ["/programs/:id", "editor/EditorScreen"],
   ["/programs/:id/compare", "compare/CompareScreen"],
   ["/sites/:slug/history/:id", "pages/history/HistoryPage"],

@@ -1,6 +1,7 @@
 /** Over the map: both sides with name, author and time, which of them is shown, and all of the old one back. */
 import { Button, Menu, SegmentedControl } from "@mantine/core";
 import { ArrowDownUp, ArrowRight, ChevronDown, RotateCcw } from "lucide-react";
+import type { ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import type { Comparison, RunSummary, Version } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
@@ -20,6 +21,8 @@ interface HeadProps {
   setShown: (shown: Shown) => void;
   comparison: Comparison | undefined;
   restore: Restore | null;
+  /** What stands below both sides. */
+  children?: ReactNode;
 }
 
 export function CompareHead(props: HeadProps) {
@@ -65,6 +68,7 @@ export function CompareHead(props: HeadProps) {
           {t("compare.restore_all", { number })}
         </Button>
       ) : null}
+      {props.children}
     </section>
   );
 }

@@ -1,5 +1,6 @@
 /** Both sides on one map: changes with their tiles, ghosts where something was, all that is the same dimmed. */
 import { Equal, EqualNot, Minus, MoveHorizontal, Plus } from "lucide-react";
+import { useStore } from "@xyflow/react";
 import { useEffect, useMemo, useRef } from "react";
 import type { ChangeKind, Difference } from "@/api/types";
 import type { FloorPlan } from "@/map/floor/floor";
@@ -12,6 +13,7 @@ import { useStage } from "@/program/canvas/stageContext";
 import { Zones } from "@/program/canvas/Zones";
 import type { PixelPoint } from "@/map/plane/paths";
 import { chipLabel } from "@/program/scene/announcements";
+import { detailAt } from "@/program/scene/detail";
 import type { SiteDevice } from "@/program/surroundings";
 import classes from "./map.module.css";
 import type { Ghost, Tile } from "./marks";
@@ -112,6 +114,7 @@ interface MarksProps {
 }
 
 function Marks({ ghosts, tiles, chosen, onChoose }: MarksProps) {
+  const detail = useStore(({ transform }) => detailAt(transform[2]));
   return (
     <>
       <svg className={classes.ways} width={1} height={1} aria-hidden="true">
@@ -135,6 +138,7 @@ function Marks({ ghosts, tiles, chosen, onChoose }: MarksProps) {
             state={kind}
             other={null}
             note={null}
+            detail={detail}
           />
         </div>
       ))}

@@ -18,6 +18,7 @@ import { CompareHead } from "./CompareHead";
 import { CompareMap } from "./CompareMap";
 import styles from "./compare.module.css";
 import { keyOf, neighbour, type Shown, spotOf } from "./marks";
+import { ReviewBar } from "./ReviewBar";
 import { RestoreDialog } from "./RestoreDialog";
 import { ScriptDifference } from "./ScriptDifference";
 import { DRAFT, sidesOf, versionOfSide } from "./sides";
@@ -199,7 +200,14 @@ function Compared(props: ComparedProps) {
   const rest = order.length > 0 ? offered : null;
   return (
     <>
-      <CompareHead {...{ versions, runs, sides, choose, shown, setShown, comparison }} restore={rest} />
+      <CompareHead {...{ versions, runs, sides, choose, shown, setShown, comparison }} restore={rest}>
+        <ReviewBar
+          program={props.program.id}
+          role={site.role}
+          asked={props.asked}
+          onSince={(old) => choose({ ...sides, old })}
+        />
+      </CompareHead>
       <MapOf {...{ plan, devices, comparison, pictures, choice }} />
       <ChangeList
         {...{ comparison, pictures, chosen, canEdit }}

@@ -13,6 +13,11 @@ export function hasVipoIcon(name: string): boolean {
   return name in bodies;
 }
 
+/** What stands inside an icon's svg element, for canvases; empty where there is no such icon. */
+export function iconBody(name: string): string {
+  return bodies[name] ?? "";
+}
+
 /** Decoration only: whoever uses it gives the name in words beside it or in a label. */
 export function VipoIcon({ name, size = 18, x, y }: { name: string; size?: number; x?: number; y?: number }) {
   return (

@@ -93,6 +93,9 @@ export class SiteFeed {
         return this.#caches.refresh(keys.programs(this.slug));
       case "comments":
         return this.#caches.refresh(keys.threads(message.program));
+      case "review":
+        this.#caches.refresh(keys.reviewRule(this.slug));
+        return this.#caches.refresh(keys.reviews);
       case "role":
         notifications.show({
           message: i18next.t("people.roleNow", { role: i18next.t(`people.role.${message.role}`) }),
@@ -100,6 +103,7 @@ export class SiteFeed {
         return this.#siteChanged();
       case "checked":
         this.#caches.refresh(keys.comparison(message.program));
+        this.#caches.refresh(keys.reviews);
         return this.#caches.write<Program[]>(keys.programs(this.slug), (programs) => applyChecked(programs, message));
     }
   }

@@ -77,6 +77,11 @@ function Notes({ run, now, problem }: { run: Run; now: number; problem: string |
           {t("run.terms.waits", { at: formatMoment(run.not_before) })}
         </p>
       ) : null}
+      {run.permit?.emergency ? (
+        <p className={styles.note} data-tone="warn">
+          {t("review.run.emergency", { why: run.permit.emergency })}
+        </p>
+      ) : null}
       {OVER.includes(run.status) ? null : <RunAlerts run={run} />}
     </div>
   );

@@ -4,7 +4,7 @@ import { Chip } from "@/design/Chip";
 import { formatMoment } from "@/i18n/format";
 import { isLate, isPlanned } from "./terms";
 
-/** What is not usual about a run: its priority, the time it waits for, its deadline. */
+/** What is not usual about a run: its priority, the time it waits for, its deadline, what let it start. */
 export function RunTerms({ run, now }: { run: RunSummary; now: number }) {
   const { t } = useTranslation();
   const late = isLate(run, now);
@@ -20,6 +20,9 @@ export function RunTerms({ run, now }: { run: RunSummary; now: number }) {
         <Chip tone={late ? "warn" : "quiet"}>
           {t(late ? "run.terms.late" : "run.terms.due", { at: formatMoment(run.deadline) })}
         </Chip>
+      ) : null}
+      {run.permit && !run.permit.emergency ? (
+        <Chip tone="done">{t("review.run.approved", { people: run.permit.approved_by.join(", ") })}</Chip>
       ) : null}
     </>
   );

@@ -10,6 +10,8 @@ import pytest
 
 from simulation.actors import InitialState, Machine
 from simulation.actors.machine import first_stock
+from simulation.behaviour import behaviour_of
+from simulation.kind_file import default_kinds
 from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
 from tests.unit.simulation.stage_set import BENCH, OVEN, ROLLERS, SHELF
 from vipo_device.protocol.description import Description
@@ -20,6 +22,7 @@ class Watched:
 
     def __init__(self, description: Description, **beginning: Any) -> None:
         self.events: list[WorldEvent] = []
+        beginning.setdefault("behaviour", behaviour_of(description, default_kinds()))
         self.machine = Machine(description, self.events.append, InitialState(**beginning))
         self.t_s = 0.0
 
@@ -270,7 +273,7 @@ def test_a_source_is_full_at_the_start_and_wants_to_be_filled_when_empty() -> No
     assert shelf.machine.wanted_stock() is None
     shelf.machine.set_stock(1.0, {"box": 0})
     assert shelf.machine.wanted_stock() == {"box": 24}
-    assert first_stock(OVEN) == {}
+    assert first_stock(OVEN, shelf.machine.behaviour) == {}
 
 
 def test_what_a_machine_shows_says_what_it_holds() -> None:
@@ -279,7 +282,7 @@ def test_what_a_machine_shows_says_what_it_holds() -> None:
 
 
 def test_painting_uses_up_a_can() -> None:
-    booth = replace(BENCH, device_class="booth", methods=(replace(OVEN.methods[0], name="paint"),))
+    booth = replace(BENCH, methods=(replace(OVEN.methods[0], name="paint"),))
     machine = Watched(booth, holds={"can": 1, "box": 1})
     machine.tell("paint", time=1)
     machine.wait(60)

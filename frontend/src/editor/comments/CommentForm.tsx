@@ -15,11 +15,13 @@ interface CommentFormProps {
   label: string;
   send: string;
   first?: WordsToWrite;
+  /** Takes the keyboard when it opens: for forms that somebody asked for. */
+  focused?: boolean;
   onSend: (words: WordsToWrite) => Promise<unknown>;
   onDone?: () => void;
 }
 
-export function CommentForm({ label, send, first, onSend, onDone }: CommentFormProps) {
+export function CommentForm({ label, send, first, focused, onSend, onDone }: CommentFormProps) {
   const { t } = useTranslation();
   const { program } = useOpenProgram();
   const people = usePeopleToMention(program.id);
@@ -51,6 +53,7 @@ export function CommentForm({ label, send, first, onSend, onDone }: CommentFormP
       <Textarea
         label={label}
         value={text}
+        autoFocus={focused}
         maxLength={MOST_TEXT}
         autosize
         minRows={1}

@@ -2,7 +2,7 @@
 import { Button } from "@mantine/core";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import type { Thread } from "@/api/types";
+import type { Thread, WordsToWrite } from "@/api/types";
 import { mayComment } from "@/api/roles";
 import { formatMoment } from "@/i18n/format";
 import { useOpenProgram } from "../state/context";
@@ -47,14 +47,30 @@ export function ThreadCard({ thread, me }: { thread: Thread; me: number | undefi
           <Written key={each.id} comment={each} isMine={me !== undefined && each.author?.id === me} />
         ))}
       </ol>
-      {writes ? (
+      {writes ? <Answer onSend={(words) => act.answer(thread.id, words)} /> : null}
+    </li>
+  );
+}
+
+/** A button that opens the form; it closes once the answer is sent, or when it is not wanted. */
+function Answer({ onSend }: { onSend: (words: WordsToWrite) => Promise<unknown> }) {
+  const { t } = useTranslation();
+  const [opened, setOpened] = useState(false);
+  return (
+    <div className={classes.answer}>
+      {opened ? (
         <CommentForm
           label={t("comments.answer")}
           send={t("comments.send")}
-          onSend={(words) => act.answer(thread.id, words)}
+          focused
+          onSend={onSend}
+          onDone={() => setOpened(false)}
         />
       ) : null}
-    </li>
+      <Button size="compact-xs" variant="subtle" aria-expanded={opened} onClick={() => setOpened(!opened)}>
+        {t(opened ? "comments.cancel" : "comments.answer")}
+      </Button>
+    </div>
   );
 }
 
@@ -93,6 +109,7 @@ function Written({ comment, isMine }: { comment: Comment; isMine: boolean }) {
           label={t("comments.edit")}
           send={t("comments.save")}
           first={comment}
+          focused
           onSend={(words) => act.edit(comment.id, words)}
           onDone={() => setEdits(false)}
         />

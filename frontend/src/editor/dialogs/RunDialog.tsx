@@ -5,6 +5,7 @@ import { Bot, CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
 import { type ReactNode, useState } from "react";
 import { useNavigate } from "react-router-dom";
 import { useOnce } from "@/api/once";
+import { ReviewBeforeRun, useRunReview } from "@/shell/review/ReviewBeforeRun";
 import type { Run } from "@/api/types";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
@@ -27,12 +28,13 @@ export function RunDialog() {
 }
 
 function Content({ onClose }: { onClose: () => void }) {
-  const { t, program, site, document } = useOpenProgram();
+  const { t, program, site, document, shared } = useOpenProgram();
   const [given, setGiven] = useState<Given>({});
   const parameters = completed(Object.values(document.parameters), given);
   const [form, setForm] = useState(USUAL);
   const terms = termsToSend(form);
-  const run = useStartRun(parameters, terms, onClose);
+  const review = useRunReview(program.id, null);
+  const run = useStartRun(parameters, terms, review.emergency, onClose);
   const { errors } = useProblemCounts();
   return (
     <div className={classes.content}>
@@ -41,6 +43,13 @@ function Content({ onClose }: { onClose: () => void }) {
       <RunParameters given={given} onGive={setGiven} />
       <RunTermsForm terms={form} onChange={setForm} />
       <Arm />
+      <ReviewBeforeRun
+        program={program.id}
+        version={null}
+        role={site.role}
+        state={review}
+        before={() => shared.stored()}
+      />
       {run.error ? (
         <p className={classes.problem} role="alert">
           {run.error.message}
@@ -53,7 +62,7 @@ function Content({ onClose }: { onClose: () => void }) {
         <Button
           data-autofocus
           loading={run.isPending}
-          disabled={errors > 0 || parameters === null || terms === null}
+          disabled={errors > 0 || parameters === null || terms === null || !review.open}
           onClick={() => run.mutate()}
         >
           {t(form.notBefore ? "run_dialog.plan" : "run")}
@@ -63,14 +72,23 @@ function Content({ onClose }: { onClose: () => void }) {
   );
 }
 
-function useStartRun(parameters: Given | null, terms: Record<string, string> | null, onStarted: () => void) {
+function useStartRun(
+  parameters: Given | null,
+  terms: Record<string, string> | null,
+  emergency: string,
+  onStarted: () => void,
+) {
   const { program, shared } = useOpenProgram();
   const navigate = useNavigate();
   const begin = useOnce();
   return useMutation({
     mutationFn: async () => {
       await shared.stored();
-      return begin<Run>(`/programs/${program.id}/runs`, { parameters: parameters ?? {}, ...terms });
+      return begin<Run>(`/programs/${program.id}/runs`, {
+        parameters: parameters ?? {},
+        ...terms,
+        ...(emergency ? { emergency } : {}),
+      });
     },
     onSuccess: (started) => {
       onStarted();

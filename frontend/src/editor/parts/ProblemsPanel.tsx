@@ -1,6 +1,7 @@
 /** What is wrong, with the place, the line and, where one click helps, the remedy. */
 import { Button } from "@mantine/core";
 import { CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
 import type { LibraryFunction } from "@/api/types";
@@ -32,16 +33,27 @@ export function ProblemsPanel({ titled = false }: { titled?: boolean }) {
   );
 }
 
+/** So many are listed before somebody asks for more. */
+const LISTED = 50;
+
 function Group({ title, problems }: { title: string; problems: readonly Diagnostic[] }) {
+  const { t } = useTranslation();
+  const [most, setMost] = useState(LISTED);
   if (problems.length === 0) return null;
+  const rest = problems.length - most;
   return (
     <section className={classes.group} aria-label={title}>
       <h2 className={classes.heading}>{title}</h2>
       <ul className={classes.list}>
-        {problems.map((each, index) => (
+        {problems.slice(0, most).map((each, index) => (
           <Problem key={`${each.code} ${each.step} ${each.field} ${index}`} problem={each} />
         ))}
       </ul>
+      {rest > 0 ? (
+        <Button className={classes.rest} size="xs" variant="default" onClick={() => setMost(most + 4 * LISTED)}>
+          {t("problems.rest", { count: rest })}
+        </Button>
+      ) : null}
     </section>
   );
 }

@@ -1,9 +1,12 @@
 /** The whole floor in small, with the part that the big map shows; a press or drag goes there. */
-import { useEffect, useMemo, useState, type PointerEvent, type ReactNode } from "react";
+import { useCallback, useEffect, useMemo, useState, type PointerEvent } from "react";
 import { knownBox, type FloorPlan } from "./floor";
 import { FloorCanvas } from "./FloorCanvas";
 import classes from "../map.module.css";
+import type { Palette } from "../plane/palette";
+import { type PixelPoint, roundedPath } from "../plane/paths";
 import { fitViewport, type Viewport } from "../plane/projection";
+import { useCanvas } from "../plane/useCanvas";
 import { useSize } from "../plane/useSize";
 import { ViewportCell, type ViewportSource } from "../plane/viewport";
 
@@ -17,10 +20,11 @@ export interface MiniMapProps {
   /** The point of the drawing plane to bring to the middle. */
   onGo: (point: { x: number; y: number }) => void;
   label: string;
-  children?: ReactNode;
+  /** Lines over the floor, drawing pixels. */
+  lines: readonly (readonly PixelPoint[])[];
 }
 
-export function MiniMap({ plan, viewport, pane, onGo, label, children }: MiniMapProps) {
+export function MiniMap({ plan, viewport, pane, onGo, label, lines }: MiniMapProps) {
   const [element, { width, height }] = useSize<HTMLDivElement>();
   const [cell] = useState(() => new ViewportCell());
   const view = useMemo<Viewport>(() => {
@@ -39,15 +43,36 @@ export function MiniMap({ plan, viewport, pane, onGo, label, children }: MiniMap
   return (
     <div ref={element} className={classes.miniMap} role="img" aria-label={label} onPointerDown={go} onPointerMove={go}>
       <FloorCanvas plan={plan} viewport={cell} detail={BARE} />
+      <Lines lines={lines} viewport={cell} />
       <svg className={classes.still} aria-hidden="true">
         <g transform={`translate(${view.x} ${view.y}) scale(${view.zoom})`}>
-          {children}
           <Frame viewport={viewport} pane={pane} scale={view.zoom} />
         </g>
       </svg>
     </div>
   );
 }
+
+/** A canvas of its own, so that it rests while the frame of the big map's view moves over it. */
+function Lines({ lines, viewport }: { lines: MiniMapProps["lines"]; viewport: ViewportSource }) {
+  const paint = useCallback(
+    (context: CanvasRenderingContext2D, _size: unknown, palette: Palette) => {
+      const { x, y, zoom } = viewport.get();
+      context.translate(x, y);
+      context.scale(zoom, zoom);
+      context.strokeStyle = palette.motion;
+      context.globalAlpha = 0.6;
+      context.lineWidth = LINE;
+      for (const line of lines) context.stroke(new Path2D(roundedPath(line)));
+      context.globalAlpha = 1;
+    },
+    [lines, viewport],
+  );
+  return <canvas ref={useCanvas(paint, viewport)} className={classes.layer} aria-hidden="true" />;
+}
+
+/** Drawing pixels. */
+const LINE = 8;
 
 function Frame({
   viewport,

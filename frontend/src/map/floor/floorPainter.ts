@@ -66,18 +66,40 @@ export function paintFloor(
   if (detail.rulers) paintRulers(canvas, palette, shapes.box, viewport);
 }
 
-/** Hatching: what is not known is drawn as such. */
+/** Pixels of the screen from one line of the hatching to the next. */
+const HATCH = 9;
+let hatching: { readonly of: string; readonly pattern: CanvasPattern | null } | null = null;
+
+/** Hatching: what is not known is drawn as such. One piece of it, repeated: lines over the whole pane are slow. */
 function paintOutside(canvas: Canvas, size: { width: number; height: number }, palette: Palette): void {
   canvas.fillStyle = palette.void;
   canvas.fillRect(0, 0, size.width, size.height);
+  const density = window.devicePixelRatio || 1;
+  const wanted = `${palette.grid} ${density}`;
+  if (hatching?.of !== wanted) hatching = { of: wanted, pattern: hatchPattern(palette, density) };
+  if (!hatching.pattern) return;
+  canvas.fillStyle = hatching.pattern;
+  canvas.fillRect(0, 0, size.width, size.height);
+}
+
+function hatchPattern(palette: Palette, density: number): CanvasPattern | null {
+  const piece = document.createElement("canvas");
+  piece.width = piece.height = Math.round(HATCH * density);
+  const canvas = piece.getContext("2d");
+  if (!canvas) return null;
+  const scale = piece.width / HATCH;
+  canvas.scale(scale, scale);
   canvas.beginPath();
-  for (let x = -size.height; x < size.width; x += 9) {
-    canvas.moveTo(x, size.height);
-    canvas.lineTo(x + size.height, 0);
+  for (const from of [-HATCH, 0, HATCH]) {
+    canvas.moveTo(from - 1, HATCH + 1);
+    canvas.lineTo(from + HATCH + 1, -1);
   }
   canvas.strokeStyle = palette.grid;
   canvas.lineWidth = 1;
   canvas.stroke();
+  const pattern = canvas.createPattern(piece, "repeat");
+  pattern?.setTransform(new DOMMatrix().scale(1 / scale));
+  return pattern;
 }
 
 function paintGround(canvas: Canvas, palette: Palette, shapes: FloorShapes, zoom: number, detail: FloorDetail): void {

@@ -26,6 +26,19 @@ const NAMES = [
   "offline",
   "pend",
   "casing",
+  "motion",
+  "motion-soft",
+  "machine",
+  "machine-soft",
+  "logic",
+  "logic-soft",
+  "func",
+  "func-soft",
+  "note",
+  "note-soft",
+  "note-line",
+  "done-soft",
+  "error-soft",
 ] as const;
 
 export type PaletteName = (typeof NAMES)[number];

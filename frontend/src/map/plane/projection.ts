@@ -67,3 +67,13 @@ export function fitViewport(box: Box, width: number, height: number, insets: Ins
     y: insets.top + (freeHeight - boxHeight * zoom) / 2 - box.top * zoom,
   };
 }
+
+/** The part of the drawing plane that a pane shows, with so many pixels of the screen around it. */
+export function seenBox(view: Viewport, size: { width: number; height: number }, margin = 0): Box {
+  return {
+    left: (-margin - view.x) / view.zoom,
+    top: (-margin - view.y) / view.zoom,
+    right: (size.width + margin - view.x) / view.zoom,
+    bottom: (size.height + margin - view.y) / view.zoom,
+  };
+}

@@ -2,8 +2,7 @@
 import { useEffect, useRef } from "react";
 import classes from "../map.module.css";
 import { watchPalette, type Palette } from "../plane/palette";
-import type { Box } from "../plane/projection";
-import { paintRobots, paintWays, type Moment } from "./robotPainter";
+import { paintRobots, paintWays, type IsTaken, type Moment } from "./robotPainter";
 import { Trails, type RobotSource, type RobotView } from "./robots";
 import { paintOnce } from "../plane/useCanvas";
 import type { ViewportSource } from "../plane/viewport";
@@ -27,16 +26,16 @@ export function RobotPaths({ source, viewport, trails = false }: LayerProps & { 
   return <canvas ref={canvas} className={classes.layer} aria-hidden="true" />;
 }
 
-/** The robots with their names, which keep off what is taken (drawing pixels). */
-export function RobotLayer({ source, viewport, taken }: LayerProps & { taken: readonly Box[] }) {
+/** The robots with their names, which keep off what is taken. */
+export function RobotLayer({ source, viewport, isTaken }: LayerProps & { isTaken: IsTaken }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(
     () =>
       animate(canvas.current, source, viewport, {
         fading: false,
-        paint: (each, colours, moment) => paintRobots(each, colours, moment, taken),
+        paint: (each, colours, moment) => paintRobots(each, colours, moment, isTaken),
       }),
-    [source, viewport, taken],
+    [source, viewport, isTaken],
   );
   return <canvas ref={canvas} className={classes.layer} aria-hidden="true" />;
 }

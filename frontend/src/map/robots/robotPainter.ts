@@ -26,13 +26,16 @@ export function paintWays(canvas: Canvas, palette: Palette, moment: Moment, trai
   canvas.restore();
 }
 
-/** The robots themselves; their names keep off what the boxes (drawing pixels) stand for. */
-export function paintRobots(canvas: Canvas, palette: Palette, moment: Moment, taken: readonly Box[]): void {
+/** Tells whether something stands in a box of the drawing plane. */
+export type IsTaken = (box: Box) => boolean;
+
+/** The robots themselves; their names keep off what is taken. */
+export function paintRobots(canvas: Canvas, palette: Palette, moment: Moment, isTaken: IsTaken): void {
   const { robots, viewport, now } = moment;
   canvas.save();
   canvas.translate(viewport.x, viewport.y);
   canvas.scale(viewport.zoom, viewport.zoom);
-  for (const robot of robots) paintRobot(canvas, palette, robot, now, viewport.zoom > 0.45 ? taken : null);
+  for (const robot of robots) paintRobot(canvas, palette, robot, now, viewport.zoom > 0.45 ? isTaken : null);
   canvas.restore();
 }
 
@@ -84,13 +87,7 @@ function paintTrail(canvas: Canvas, palette: Palette, trail: readonly TrailPoint
   canvas.globalAlpha = 1;
 }
 
-function paintRobot(
-  canvas: Canvas,
-  palette: Palette,
-  robot: RobotView,
-  now: number,
-  taken: readonly Box[] | null,
-): void {
+function paintRobot(canvas: Canvas, palette: Palette, robot: RobotView, now: number, isTaken: IsTaken | null): void {
   const at = toPixels([robot.x, robot.y]);
   canvas.save();
   canvas.translate(at.x, at.y);
@@ -99,7 +96,7 @@ function paintRobot(
   paintBody(canvas, palette, robot.theta);
   if (robot.carrying) paintLoad(canvas, palette);
   paintBadge(canvas, palette, robot.status);
-  if (taken) paintName(canvas, palette, robot, nameHeight(robot, taken));
+  if (isTaken) paintName(canvas, palette, robot, nameHeight(robot, isTaken));
   canvas.restore();
 }
 
@@ -207,17 +204,11 @@ const NAME_BELOW = 38;
 const NAME_ABOVE = -42;
 
 /** Below the robot, or above it where something is in the way below and nothing above. */
-export function nameHeight(robot: RobotView, taken: readonly Box[]): number {
+export function nameHeight(robot: RobotView, isTaken: IsTaken): number {
   const at = toPixels([robot.x, robot.y]);
   const half = (Math.max(robot.name.length, (robot.wait ?? robot.note ?? "").length) * 6.4) / 2;
   const covers = (height: number) =>
-    taken.some(
-      (box) =>
-        box.left < at.x + half &&
-        box.right > at.x - half &&
-        box.top < at.y + height + 18 &&
-        box.bottom > at.y + height - 11,
-    );
+    isTaken({ left: at.x - half, right: at.x + half, top: at.y + height - 11, bottom: at.y + height + 18 });
   return covers(NAME_BELOW) && !covers(NAME_ABOVE) ? NAME_ABOVE : NAME_BELOW;
 }
 

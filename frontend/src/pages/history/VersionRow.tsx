@@ -161,7 +161,7 @@ function More({ version, program, site }: RowProps) {
       </Menu>
       {asks === "name" ? <NameVersion {...{ version, program }} onClose={close} /> : null}
       {asks === "copy" ? <CopyVersion {...{ version, program }} onClose={close} /> : null}
-      {asks === "run" ? <RunVersion {...{ version, program }} onClose={close} /> : null}
+      {asks === "run" ? <RunVersion {...{ version, program, site }} onClose={close} /> : null}
     </>
   );
 }

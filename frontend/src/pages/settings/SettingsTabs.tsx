@@ -9,7 +9,12 @@ export function SettingsTabs({ slug, role }: { slug: string; role: Role | undefi
   const tabs = [
     ["people", "people"],
     ["tokens", "tokens"],
-    ...(role === "admin" ? ([["storage", "retention"]] as const) : []),
+    ...(role === "admin"
+      ? ([
+          ["storage", "retention"],
+          ["review", "review"],
+        ] as const)
+      : []),
   ] as const;
   return (
     <nav aria-label={t("people.settings")}>

@@ -1,21 +1,17 @@
-/** Everything of the drawing that is a line: hulls, routes, dotted links, frames. One SVG in the map's plane. */
+/** The lines that can be pressed now: those at what is selected or pointed at. One SVG in the map's plane. */
 import { memo } from "react";
 import { PathLine } from "@/map/PathLine";
-import { angleOf, roundedOutline, roundedPath, towards, type PixelPoint } from "@/map/plane/paths";
+import { angleOf, roundedPath, towards, type PixelPoint } from "@/map/plane/paths";
 import type { BranchRef } from "../document/tree";
-import type { Hull } from "../scene/hulls";
+import { furthest, type StepState } from "../painting/looks";
 import { type Link, wordPlace } from "../scene/links";
-import type { RouteShape } from "../scene/stepPaths";
-import type { Scene } from "../scene/scene";
-import { FrameShape } from "./FrameShape";
+import type { LinePiece, SharedRoute } from "../scene/pieces";
 import classes from "./stage.module.css";
-import type { OtherPerson, StepState } from "./StepChip";
 
 export interface DrawingProps {
-  scene: Scene;
+  lines: readonly LinePiece[];
   selected: ReadonlySet<string>;
   stateOf: (step: string) => StepState;
-  othersOn: ReadonlyMap<string, OtherPerson>;
   onSelectStep?: (step: string, add: boolean) => void;
   /** A press on a link or stub: the next step goes there. */
   onSelectLink?: (link: Link) => void;
@@ -28,74 +24,39 @@ export interface DrawingProps {
 }
 
 export const Drawing = memo(function Drawing(props: DrawingProps) {
-  const { scene, selected, stateOf, onSelectStep } = props;
   return (
     <svg className={classes.drawing} width={1} height={1} aria-hidden="true">
-      {scene.hulls.map((hull) => (
-        <HullShape key={hull.functionId} hull={hull} />
-      ))}
-      {drawnRoutes(scene.routes, stateOf).map(({ step, points, guessed, sharers }) => (
-        <g key={step}>
-          <PathLine
-            points={points}
-            colour={routeColour(stateOf(step))}
-            opacity={routeOpacity(stateOf(step), guessed)}
-            dashed={stateOf(step) === "planned" || stateOf(step) === "running"}
-            wide={sharers.some((each) => selected.has(each)) || stateOf(step) === "running"}
-          />
-          {onSelectStep ? (
-            <path
-              className={classes.hit}
-              d={roundedPath(points)}
-              onClick={(event) => onSelectStep(step, event.shiftKey)}
-            />
-          ) : null}
-        </g>
-      ))}
-      {outerFirst(scene.frames).map((frame) => (
-        <FrameShape
-          key={frame.id}
-          frame={frame}
-          state={stateOf(frame.id)}
-          selected={selected.has(frame.id)}
-          problem={scene.chips.get(frame.id)?.problem ?? null}
-          other={props.othersOn.get(frame.id) ?? null}
-        />
-      ))}
-      {scene.frames.map((frame) =>
-        props.targetWords && frame.empty && selected.has(frame.id) ? (
-          <g key={frame.id} className={classes.link}>
-            <TargetWords
-              words={props.targetWords({ parent: frame.id, branch: "body" })}
-              x={(frame.box.left + frame.box.right) / 2}
-              y={frame.box.bottom + 20}
-              textAnchor="middle"
-            />
-          </g>
-        ) : null,
-      )}
-      {scene.links.map((link) => (
-        <LinkShape key={link.id} link={link} {...props} />
-      ))}
+      {props.lines.map((line) => {
+        if ("route" in line) return <RouteShape key={line.id} route={line.route} {...props} />;
+        return "link" in line ? <LinkShape key={line.id} link={line.link} {...props} /> : null;
+      })}
     </svg>
   );
 });
 
-/** Inner frames lie on the frames around them. */
-function outerFirst(frames: Scene["frames"]): Scene["frames"] {
-  return [...frames].reverse();
-}
-
 /** Steps that drive the same way share one line, in the state of the one that has come furthest. */
-function drawnRoutes(routes: readonly RouteShape[], stateOf: DrawingProps["stateOf"]) {
-  const rank = (step: string) => ["running", "failed", "done"].indexOf(stateOf(step) ?? "");
-  const byLine = new Map<RouteShape["points"], RouteShape[]>();
-  for (const route of routes) byLine.set(route.points, [...(byLine.get(route.points) ?? []), route]);
-  return [...byLine.values()].flatMap((sharing) => {
-    const ranked = sharing.filter((route) => rank(route.step) >= 0).sort((a, b) => rank(a.step) - rank(b.step));
-    const shown = ranked[0] ?? sharing[0];
-    return shown ? [{ ...shown, sharers: sharing.map((route) => route.step) }] : [];
-  });
+function RouteShape({ route, selected, stateOf, onSelectStep }: { route: SharedRoute } & DrawingProps) {
+  const shown = furthest(route, stateOf);
+  if (!shown) return null;
+  const state = stateOf(shown.step);
+  return (
+    <g>
+      <PathLine
+        points={route.points}
+        colour={routeColour(state)}
+        opacity={routeOpacity(state, shown.guessed)}
+        dashed={state === "planned" || state === "running"}
+        wide={route.steps.some(({ step }) => selected.has(step)) || state === "running"}
+      />
+      {onSelectStep ? (
+        <path
+          className={classes.hit}
+          d={roundedPath(route.points)}
+          onClick={(event) => onSelectStep(shown.step, event.shiftKey)}
+        />
+      ) : null}
+    </g>
+  );
 }
 
 function routeColour(state: StepState): string {
@@ -111,16 +72,6 @@ function routeOpacity(state: StepState, guessed: boolean): number {
   if (state === "done") return 0.65;
   if (state === "same") return 0.3;
   return 1;
-}
-
-function HullShape({ hull }: { hull: Hull }) {
-  return (
-    <g className={classes.hull}>
-      {hull.outlines.map((outline, index) => (
-        <path key={index} d={roundedOutline(outline)} />
-      ))}
-    </g>
-  );
 }
 
 function LinkShape(props: { link: Link } & DrawingProps) {

@@ -3,6 +3,7 @@ import { memo, type CSSProperties } from "react";
 import { activityWords } from "@/i18n/activity";
 import { statusOf } from "@/map/devices/device";
 import { DeviceToken } from "@/map/devices/DeviceToken";
+import type { LevelOfDetail } from "../scene/detail";
 import type { SiteDevice } from "../surroundings";
 import classes from "./stage.module.css";
 
@@ -18,14 +19,17 @@ export interface MachineNodeProps {
   side: "above" | "below" | "right" | "left";
   /** Further away than usual, drawing pixels. */
   gap: number;
+  detail: LevelOfDetail;
 }
 
-export const MachineNode = memo(function MachineNode({ device, light, caption, side, gap }: MachineNodeProps) {
+export const MachineNode = memo(function MachineNode(props: MachineNodeProps) {
+  const { device, light, caption, side, gap, detail } = props;
   return (
     <div
       className={classes.machine}
       data-light={light ?? undefined}
       data-side={side}
+      data-lod={detail}
       style={{ "--label-gap": `${gap}px` } as CSSProperties}
     >
       <DeviceToken device={device} />

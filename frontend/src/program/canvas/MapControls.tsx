@@ -1,10 +1,9 @@
 /** Bottom right of the map: the floor in small, zoom, fit, a scale. */
 import { Maximize, Minus, Plus } from "lucide-react";
-import { useEffect, useState } from "react";
+import { useEffect, useMemo, useState } from "react";
 import type { FloorPlan } from "@/map/floor/floor";
 import { MiniMap } from "@/map/floor/MiniMap";
 import { PIXELS_PER_METRE, type Insets } from "@/map/plane/projection";
-import { roundedPath } from "@/map/plane/paths";
 import type { Scene } from "../scene/scene";
 import classes from "./controls.module.css";
 import { useStage } from "./stageContext";
@@ -23,6 +22,8 @@ export function MapControls({
 }) {
   const t = useEditorText();
   const { viewport, pane, fit, flow } = useStage();
+  // Steps that drive the same way share one line.
+  const lines = useMemo(() => [...new Set(scene.routes.map((route) => route.points))], [scene]);
   return (
     <div className={classes.controls} style={{ right: insets.right, bottom: insets.bottom }}>
       {mini ? (
@@ -33,11 +34,8 @@ export function MapControls({
             pane={pane}
             label={t("controls.minimap")}
             onGo={(point) => void flow.setCenter(point.x, point.y, { zoom: viewport.get().zoom })}
-          >
-            {scene.routes.map((route) => (
-              <path key={route.step} d={roundedPath(route.points)} className={classes.path} />
-            ))}
-          </MiniMap>
+            lines={lines}
+          />
         </div>
       ) : null}
       <div className={classes.row}>

@@ -1,22 +1,32 @@
 /** The map with a program on it: floor, lines, machines, chips, robots. What a press means is the caller's. */
 import { ReactFlowProvider, useReactFlow } from "@xyflow/react";
 import "@xyflow/react/dist/style.css";
-import { type PointerEvent, useCallback, useEffect, useMemo, useRef, useState } from "react";
+import { type PointerEvent, useCallback, useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
 import { type FloorPlan, knownBox } from "@/map/floor/floor";
+import { isRobot } from "@/map/devices/device";
 import { FloorCanvas } from "@/map/floor/FloorCanvas";
-import { fitViewport, PIXELS_PER_METRE, type Viewport } from "@/map/plane/projection";
+import { type Box, fitViewport, PIXELS_PER_METRE, type Viewport } from "@/map/plane/projection";
 import { useSize } from "@/map/plane/useSize";
 import { ViewportCell } from "@/map/plane/viewport";
 import { RobotLayer, RobotPaths } from "@/map/robots/RobotLayer";
-import { buildNodes } from "./buildNodes";
+import type { PaintedLooks } from "../painting/looks";
+import { detailAt } from "../scene/detail";
+import { overlaps } from "../scene/geometry";
+import { type Pieces, piecesOf, splitOver } from "../scene/pieces";
+import { deviceBox } from "../surroundings";
+import { buildNodes, keepUnchanged, placeLabels } from "./buildNodes";
+import { ConstructCanvas } from "./ConstructCanvas";
 import { Drawing } from "./Drawing";
-import { deviceUnder, type LevelOfDetail, StageFlow, usePress, useBoxDirection } from "./StageFlow";
 import { useFingerCount } from "../touch/fingers";
+import type { StageNode } from "./nodes";
+import { deviceUnder, StageFlow, usePress, useBoxDirection } from "./StageFlow";
 import { type Guide, useSnapping } from "./snapping";
 import classes from "./stage.module.css";
 import { StageContext, type StageHandle } from "./stageContext";
 import type { MapStageProps } from "./stageProps";
 import { useMovingNodes, withCarried } from "./useMovingNodes";
+import { useNear } from "./useNear";
+import { usePointed } from "./usePointed";
 
 export type { MapStageProps, StagePress } from "./stageProps";
 
@@ -29,26 +39,36 @@ export function MapStage(props: MapStageProps) {
 }
 
 function Stage(props: MapStageProps) {
-  const { plan, devices, scene, looks, robots } = props;
+  const { plan, devices, scene, looks, robots, lines } = props;
   const [element, size] = useSize<HTMLDivElement>();
   const [viewport] = useState(() => new ViewportCell());
-  const [level, setLevel] = useState<LevelOfDetail>("full");
-  const built = useMemo(() => buildNodes(scene, devices, looks, plan), [scene, devices, looks, plan]);
+  const pieces = useMemo(() => piecesOf(scene), [scene]);
+  const pointing = usePointed(pieces, !props.onlyFloor);
+  const { pointed } = pointing;
+  const chosenLink = lines?.chosenLink;
+  const { selected } = looks;
+  const near = useNear({ pieces, viewport, size, pointed, selected, carried: props.carried, chosenLink });
+  const painted = usePaintedLooks(props);
+  const isTaken = useTaken(pieces);
+  const { below, over } = useMemo(() => splitOver(pieces, machineBoxes(devices)), [pieces, devices]);
+  const count = useMemo(
+    () => pieces.chips.items.filter(({ id }) => !near.without.has(id)).length,
+    [pieces, near.without],
+  );
   const snapping = useSnapping(scene, devices, viewport);
-  const shown = useMemo(() => withCarried(built, props.carried), [built, props.carried]);
-  const moving = useMovingNodes(shown, props, snapping.snapTo);
+  const shown = useStageNodes(props, viewport, near.mounted);
   const box = useBoxDirection();
+  const moving = useMovingNodes(shown, props, snapping.snapTo);
   const handle = useHandle(props, size, viewport);
-  const taken = useMemo(() => [...scene.chips.values()].map((chip) => chip.box), [scene]);
   const watch = (event: PointerEvent) => {
     snapping.watch(event);
     box.watch(event);
+    pointing.onMove(event);
   };
   return (
     <div
       ref={element}
       className={classes.stage}
-      data-lod={level}
       data-tool={props.mode}
       data-only-floor={props.onlyFloor || undefined}
       data-map
@@ -56,33 +76,70 @@ function Stage(props: MapStageProps) {
       role="application"
       aria-label={props.label}
       onPointerMoveCapture={watch}
+      onPointerLeave={pointing.onLeave}
+      onFocus={pointing.onFocus}
+      onBlur={pointing.onBlur}
       {...usePointing(props)}
     >
       <FloorCanvas plan={plan} viewport={viewport} />
       {robots ? <RobotPaths source={robots} viewport={viewport} trails={props.trails} /> : null}
-      <StageFlow {...props} moving={moving} box={box} viewport={viewport} onLevel={setLevel}>
+      <ConstructCanvas viewport={viewport} pieces={below} looks={painted} count={count} {...near} />
+      <StageFlow {...props} moving={moving} box={box} viewport={viewport} pieces={pieces}>
         {props.under}
-        <Lines {...props} />
+        <Lines {...props} pieces={pieces} mounted={near.mounted} />
         {props.plane}
         <Guides guides={moving.guides} />
       </StageFlow>
-      {robots ? <RobotLayer source={robots} viewport={viewport} taken={taken} /> : null}
+      <ConstructCanvas viewport={viewport} pieces={over} looks={painted} without={near.without} />
+      {robots ? <RobotLayer source={robots} viewport={viewport} isTaken={isTaken} /> : null}
       <StageContext value={handle}>{props.children}</StageContext>
     </div>
   );
 }
 
-function Lines({ scene, looks, onStep, lines }: MapStageProps) {
-  return (
-    <Drawing
-      scene={scene}
-      selected={looks.selected}
-      stateOf={looks.stateOf}
-      othersOn={looks.othersOn}
-      onSelectStep={onStep}
-      {...lines}
-    />
+function machineBoxes(devices: MapStageProps["devices"]): Box[] {
+  return devices.filter((device) => !isRobot(device)).map(deviceBox);
+}
+
+/** The nodes of machines, the start and those constructs that are elements, as others hold them. */
+function useStageNodes(props: MapStageProps, viewport: ViewportCell, mounted: ReadonlySet<string>): StageNode[] {
+  const { plan, devices, scene, looks, carried } = props;
+  const detail = useSyncExternalStore(
+    useCallback((listener) => viewport.subscribe(listener), [viewport]),
+    () => detailAt(viewport.get().zoom),
   );
+  const labels = useMemo(() => placeLabels(scene, devices, plan), [scene, devices, plan]);
+  const last = useRef<StageNode[]>([]);
+  return useMemo(() => {
+    const built = buildNodes(scene, devices, labels, looks, { mounted, detail });
+    last.current = keepUnchanged(last.current, withCarried(built, carried));
+    return last.current;
+  }, [scene, devices, labels, looks, mounted, detail, carried]);
+}
+
+function usePaintedLooks({ looks, lines }: MapStageProps): PaintedLooks {
+  const { selected, stateOf, othersOn } = looks;
+  const { chosenLink, targetWords } = lines ?? {};
+  return useMemo(
+    () => ({ selected, stateOf, othersOn, chosenLink, targetWords }),
+    [selected, stateOf, othersOn, chosenLink, targetWords],
+  );
+}
+
+/** Tells where a robot's name would stand on a construct. */
+function useTaken({ chips }: Pieces): (box: Box) => boolean {
+  return useCallback((box) => chips.within(box).some(({ chip }) => overlaps(chip.box, box)), [chips]);
+}
+
+function Lines({
+  pieces,
+  mounted,
+  looks,
+  onStep,
+  lines,
+}: MapStageProps & { pieces: Pieces; mounted: ReadonlySet<string> }) {
+  const shown = useMemo(() => pieces.lines.items.filter(({ id }) => mounted.has(id)), [pieces, mounted]);
+  return <Drawing lines={shown} selected={looks.selected} stateOf={looks.stateOf} onSelectStep={onStep} {...lines} />;
 }
 
 /** The pointer over the floor and on machines, from the way down to the way up. */

@@ -11,21 +11,21 @@ import {
 import { type MouseEvent, type PointerEvent, type ReactNode, useCallback, useRef, useState } from "react";
 import { joinTarget, pointOf } from "./snapping";
 import { type FloorPlan, planBox } from "@/map/floor/floor";
-import { toMetres } from "@/map/plane/projection";
+import { boxAround, toMetres, toPixels } from "@/map/plane/projection";
 import type { ViewportCell } from "@/map/plane/viewport";
+import { chipAt, chipsIn, lineAt, type Pieces } from "../scene/pieces";
 import { DEVICE_PREFIX, START_ID } from "./buildNodes";
 import { nodeTypes, type StageNode } from "./nodes";
 import { useFingers } from "../touch/fingers";
 import type { MapStageProps, StagePress } from "./stageProps";
 import type { MovingNodes } from "./useMovingNodes";
-
-export type LevelOfDetail = "full" | "icon" | "dot";
+import { LINE_REACH } from "./usePointed";
 
 interface StageFlowProps extends MapStageProps {
   moving: MovingNodes;
   box: ReturnType<typeof useBoxDirection>;
   viewport: ViewportCell;
-  onLevel: (level: LevelOfDetail) => void;
+  pieces: Pieces;
   children: ReactNode;
 }
 
@@ -62,7 +62,6 @@ export function StageFlow(props: StageFlowProps) {
       onMove={(event, view) => {
         if (event) props.onOwnPan?.();
         viewport.set(view);
-        props.onLevel(view.zoom < 0.35 ? "dot" : view.zoom < 0.6 ? "icon" : "full");
       }}
       selectionMode={box.mode}
       panOnDrag={mode === "pan" || !looks.editable || touching ? true : [1]}
@@ -91,7 +90,7 @@ function usePresses(props: StageFlowProps) {
     onNodeDoubleClick: (_event: MouseEvent, node: StageNode) => {
       if (node.type === "step") props.onEditStep?.(node.id);
     },
-    onPaneClick: (event: MouseEvent) => props.onFloor?.(press(event)),
+    onPaneClick: (event: MouseEvent) => clickPainted(props, press(event)),
     onPaneContextMenu: (event: MouseEvent | globalThis.MouseEvent) => {
       event.preventDefault();
       props.onBack?.();
@@ -99,14 +98,20 @@ function usePresses(props: StageFlowProps) {
   };
 }
 
-function useSelecting({ moving, box, mode, looks }: StageFlowProps) {
+/** What is drawn round is found among all constructs, whether they have nodes or not. */
+function useSelecting({ moving, box, mode, looks, pieces, onSelectMany }: StageFlowProps) {
   const touching = useFingers((fingers) => fingers.touching);
+  const flow = useReactFlow();
   return {
     onSelectionDragStop: moving.onSelectionDragStop,
     onSelectionStart: box.begin,
     onSelectionEnd: () => {
-      box.end();
-      moving.onSelectionEnd();
+      const drawn = box.end();
+      if (!drawn) return;
+      const [from, to] = [drawn.from, drawn.to].map((at) => flow.screenToFlowPosition(at, { snapToGrid: false }));
+      const around = from && to && boxAround([from, to]);
+      const chosen = around ? chipsIn(pieces, around, drawn.touching) : [];
+      if (chosen.length > 0) onSelectMany?.(chosen);
     },
     selectionOnDrag: mode === "select" && looks.editable && !touching,
     selectionKeyCode: null,
@@ -124,6 +129,17 @@ function useJoining({ scene, viewport, onJoin }: StageFlowProps): OnConnectEnd {
     const to = joinTarget(scene.chips, from, flow.screenToFlowPosition(at), viewport.get().zoom);
     if (to !== null) onJoin?.(from, to, at);
   };
+}
+
+/** A finger has pressed what is only painted: it is pressed as its element would be. */
+function clickPainted(props: StageFlowProps, { at, add }: StagePress): void {
+  const point = toPixels(at);
+  const chip = props.onlyFloor ? null : chipAt(props.pieces, point);
+  const line = props.onlyFloor || chip ? null : lineAt(props.pieces, point, LINE_REACH / props.viewport.get().zoom);
+  const step = chip?.id ?? (line && "route" in line ? line.route.steps[0]?.step : undefined);
+  if (step !== undefined) props.onStep?.(step, add);
+  else if (line && "link" in line && props.lines?.onSelectLink) props.lines.onSelectLink(line.link);
+  else props.onFloor?.({ at, add });
 }
 
 function extentOf(plan: FloorPlan): [[number, number], [number, number]] {
@@ -147,18 +163,31 @@ export function deviceUnder(event: PointerEvent): string | null {
   return id?.startsWith(DEVICE_PREFIX) ? id.slice(DEVICE_PREFIX.length) : null;
 }
 
+interface DrawnBox {
+  /** Pixels of the window. */
+  readonly from: { readonly x: number; readonly y: number };
+  readonly to: { readonly x: number; readonly y: number };
+  /** Drawn to the left: what it touches, not only what lies in it. */
+  readonly touching: boolean;
+}
+
 export function useBoxDirection() {
   const [touching, setTouching] = useState(false);
-  const start = useRef<number | null>(null);
-  const begin = useCallback((event: { clientX: number }) => {
-    start.current = event.clientX;
+  const drawn = useRef<DrawnBox | null>(null);
+  const begin = useCallback(({ clientX: x, clientY: y }: { clientX: number; clientY: number }) => {
+    drawn.current = { from: { x, y }, to: { x, y }, touching: false };
   }, []);
-  const watch = useCallback((event: { clientX: number; buttons: number }) => {
-    if (start.current !== null && event.buttons > 0) setTouching(event.clientX < start.current);
+  const watch = useCallback(({ clientX: x, clientY: y, buttons }: PointerEvent) => {
+    const before = drawn.current;
+    if (!before || buttons === 0) return;
+    drawn.current = { ...before, to: { x, y }, touching: x < before.from.x };
+    setTouching(x < before.from.x);
   }, []);
   const end = useCallback(() => {
-    start.current = null;
+    const box = drawn.current;
+    drawn.current = null;
     setTouching(false);
+    return box;
   }, []);
   return { mode: touching ? SelectionMode.Partial : SelectionMode.Full, begin, watch, end };
 }

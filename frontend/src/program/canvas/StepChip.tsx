@@ -3,6 +3,7 @@ import { Box } from "lucide-react";
 import { memo, type CSSProperties } from "react";
 import { VipoIcon } from "@/design/VipoIcon";
 import type { Chip } from "../scene/chips";
+import type { LevelOfDetail } from "../scene/detail";
 import type { TextPart } from "../words/stepWords";
 import { cornerMark, type OtherPerson, type StepState } from "./stepState";
 import classes from "./stage.module.css";
@@ -16,15 +17,18 @@ export interface StepChipProps {
   other: OtherPerson | null;
   /** "Move added for you", where it is to be said. */
   note: string | null;
+  detail: LevelOfDetail;
 }
 
-export const StepChip = memo(function StepChip({ chip, selected, state, other, note }: StepChipProps) {
+export const StepChip = memo(function StepChip(props: StepChipProps) {
+  const { chip, selected, state, other, note, detail } = props;
   const style = { "--own": `var(--${chip.family})`, "--own-soft": `var(--${chip.family}-soft)` } as CSSProperties;
   return (
     <div
       className={classes.chip}
       style={{ ...style, width: chip.width, height: chip.height, ...otherStyle(other) }}
       data-shape={chip.shape}
+      data-lod={detail}
       data-tag={chip.shape === "diamond" ? chip.tagSide : undefined}
       data-selected={selected || undefined}
       data-problem={chip.problem ?? undefined}

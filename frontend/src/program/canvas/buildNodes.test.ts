@@ -3,7 +3,7 @@ import type { FloorPlan } from "@/map/floor/floor";
 import { EMPTY_DOCUMENT } from "../document/document";
 import { buildScene } from "../scene/scene";
 import { surroundingsOf, type SiteDevice } from "../surroundings";
-import { buildNodes, type NodeLooks } from "./buildNodes";
+import { placeLabels } from "./buildNodes";
 
 const oven = {
   id: "oven",
@@ -19,8 +19,6 @@ const oven = {
   gives: [],
   takes: [],
 } as unknown as SiteDevice;
-
-const looks = { selected: new Set(), lightOf: () => null, captionOf: () => null } as unknown as NodeLooks;
 
 /** Ten metres by ten, with a wall along one row; rows count from the bottom. */
 function hall(wall: number | null): FloorPlan {
@@ -38,8 +36,7 @@ function sideOfName(plan: FloorPlan): unknown {
     t: (key) => key,
     measure: (text) => text.length * 7,
   });
-  const machine = buildNodes(scene, [oven], looks, plan).find((node) => node.type === "machine");
-  return machine?.data.side;
+  return placeLabels(scene, [oven], plan).get("oven")?.side;
 }
 
 test("a machine's name does not stand on the wall below it", () => {

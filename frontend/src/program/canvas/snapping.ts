@@ -73,13 +73,14 @@ export function useSnapping(scene: Scene, devices: readonly SiteDevice[], viewpo
     () => devices.filter((device) => !isRobot(device)).flatMap((each) => portsOf(deviceBox(each))),
     [devices],
   );
+  const centres = useMemo(() => [...scene.chips.values()].map((chip) => chip.at), [scene]);
   const snapTo = useCallback(
     (id: string, at: PixelPoint) => {
       if (free.current) return { at, guides: [] };
-      const centres = [...scene.chips.values()].filter((chip) => chip.id !== id).map((chip) => chip.at);
-      return snap(at, { ports, centres }, viewport.get().zoom);
+      const own = scene.chips.get(id)?.at;
+      return snap(at, { ports, centres: centres.filter((each) => each !== own) }, viewport.get().zoom);
     },
-    [scene, ports, viewport],
+    [scene, centres, ports, viewport],
   );
   const watch = useCallback((event: { readonly altKey: boolean }) => {
     free.current = event.altKey;

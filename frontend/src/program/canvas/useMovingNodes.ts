@@ -1,8 +1,10 @@
 /** Chips under the pointer move at once; the document hears of it when they are let go. */
 import { applyNodeChanges, type Node, type NodeChange, type NodePositionChange } from "@xyflow/react";
-import { useCallback, useEffect, useRef, useState, type RefObject } from "react";
+import { useCallback, useEffect, useLayoutEffect, useRef, useState } from "react";
 import { toMetres, toPixels, type Point } from "@/map/plane/projection";
 import { useFingers } from "../touch/fingers";
+import type { Chip } from "../scene/chips";
+import type { Scene } from "../scene/scene";
 import type { Guide, Snapped } from "./snapping";
 import type { StageNode } from "./nodes";
 
@@ -17,7 +19,8 @@ export interface MovedNode {
 /** Who hears of it. */
 interface Moving {
   readonly onMove?: (moved: readonly MovedNode[]) => void;
-  readonly onSelectMany?: (steps: readonly string[]) => void;
+  readonly scene: Pick<Scene, "chips">;
+  readonly looks: { readonly selected: ReadonlySet<string> };
   readonly onDragging?: (held: Readonly<Record<string, Point>> | null) => void;
 }
 
@@ -27,22 +30,21 @@ export interface MovingNodes {
   readonly onNodesChange: (changes: NodeChange<StageNode>[]) => void;
   readonly onDragStop: (event: unknown, node: Node, nodes: Node[]) => void;
   readonly onSelectionDragStop: (event: unknown, nodes: Node[]) => void;
-  readonly onSelectionEnd: () => void;
 }
 
 const NO_GUIDES: readonly Guide[] = [];
 
 export function useMovingNodes(
   built: StageNode[],
-  { onMove, onSelectMany, onDragging }: Moving,
+  { onMove, onDragging, scene, looks }: Moving,
   snapTo: (id: string, at: { x: number; y: number }) => Snapped,
 ): MovingNodes {
   const [nodes, setNodes] = useState(built);
   const [guides, setGuides] = useState(NO_GUIDES);
   const dragging = useRef(new Set<string>());
-  const boxed = useRef(new Set<string>());
   const snapped = useRef(new Map<string, { x: number; y: number }>());
-  useEffect(() => {
+  // Before the frame is painted: a press may follow at once upon what has just become a node.
+  useLayoutEffect(() => {
     setNodes((now) => (dragging.current.size === 0 ? built : keepDragged(built, now, dragging.current)));
   }, [built]);
   useGivenUp(
@@ -57,7 +59,6 @@ export function useMovingNodes(
   );
   const onNodesChange = useCallback(
     (changes: NodeChange<StageNode>[]) => {
-      noteSelection(changes, boxed.current);
       const moves = changes.filter((change) => change.type === "position");
       if (moves.length === 0 || useFingers.getState().several) return;
       for (const move of moves) if (move.dragging) dragging.current.add(move.id);
@@ -83,9 +84,9 @@ export function useMovingNodes(
       snapped.current.clear();
       setGuides(NO_GUIDES);
       onDragging?.(null);
-      if (moved.length > 0) onMove?.(moved);
+      if (moved.length > 0) onMove?.(withTheRest(moved, scene.chips, looks.selected));
     },
-    [onMove, onDragging],
+    [onMove, onDragging, scene, looks.selected],
   );
   return {
     nodes,
@@ -93,7 +94,6 @@ export function useMovingNodes(
     onNodesChange,
     onDragStop: useCallback((_event, node, all) => drop(all.length > 0 ? all : [node]), [drop]),
     onSelectionDragStop: useCallback((_event, all) => drop(all), [drop]),
-    onSelectionEnd: useBoxEnd(boxed, onSelectMany),
   };
 }
 
@@ -108,22 +108,25 @@ function useGivenUp(giveUp: () => void): void {
   );
 }
 
-function useBoxEnd(
-  boxed: RefObject<Set<string>>,
-  onSelectMany: ((steps: readonly string[]) => void) | undefined,
-): () => void {
-  return useCallback(() => {
-    if (boxed.current.size > 0) onSelectMany?.([...boxed.current]);
-    boxed.current.clear();
-  }, [boxed, onSelectMany]);
-}
-
-function noteSelection(changes: readonly NodeChange<StageNode>[], boxed: Set<string>): void {
-  for (const change of changes) {
-    if (change.type !== "select") continue;
-    if (change.selected) boxed.add(change.id);
-    else boxed.delete(change.id);
-  }
+/** Of very many that are selected not all have nodes: those without go as far as the one that was dragged. */
+export function withTheRest(
+  moved: readonly MovedNode[],
+  chips: ReadonlyMap<string, Pick<Chip, "at">>,
+  selected: ReadonlySet<string>,
+): readonly MovedNode[] {
+  const lead = moved.find(({ id }) => selected.has(id));
+  const before = lead && chips.get(lead.id);
+  if (!lead || !before) return moved;
+  const to = toPixels(lead.at);
+  const [dx, dy] = [to.x - before.at.x, to.y - before.at.y];
+  const own = new Set(moved.map(({ id }) => id));
+  const rest = [...selected].flatMap((id) => {
+    const chip = own.has(id) ? undefined : chips.get(id);
+    if (!chip) return [];
+    const at = toMetres({ x: chip.at.x + dx, y: chip.at.y + dy });
+    return [{ id, at, pointed: at }];
+  });
+  return [...moved, ...rest];
 }
 
 /** The one node that is held goes where it snaps to; the last of these places is remembered. */

@@ -5,7 +5,8 @@ import type { Compiled, Diagnostic, Step } from "../document/document";
 import { boxAt } from "./geometry";
 import { kindOf, type Family, type Shape } from "../kinds";
 import { functionOf } from "./stepPaths";
-import { chipText, conditionText, plainText, type Speaker, type TextPart } from "../words/stepWords";
+import { wordsOf } from "../words/knownWords";
+import { plainText, type Speaker, type TextPart } from "../words/stepWords";
 
 export type Measure = (text: string, font: "chip" | "badge" | "mono") => number;
 
@@ -42,15 +43,26 @@ interface ChipInput {
   readonly measure: Measure;
   /** Steps that are joined to nothing. */
   readonly drafts: ReadonlySet<string>;
+  readonly findings: ReadonlyMap<string, readonly Diagnostic[]>;
+}
+
+/** What was found of each step. */
+export function findingsByStep(compiled: Pick<Compiled, "diagnostics"> | null): Map<string, Diagnostic[]> {
+  const byStep = new Map<string, Diagnostic[]>();
+  for (const each of compiled?.diagnostics ?? []) {
+    const found = byStep.get(each.step) ?? [];
+    found.push(each);
+    byStep.set(each.step, found);
+  }
+  return byStep;
 }
 
 export function buildChip(id: string, step: Step, at: PixelPoint, input: ChipInput, speaker: Speaker): Chip {
   const { icon, family, shape } = kindOf(step.kind);
   const { compiled } = input;
   const number = compiled?.numbers[id] ?? "";
-  const found = compiled?.diagnostics.filter((each) => each.step === id) ?? [];
-  const parts = chipText(step, speaker);
-  const condition = step.kind === "if" || step.kind === "while" ? conditionText(step, speaker) : null;
+  const found = input.findings.get(id) ?? [];
+  const { parts, condition } = wordsOf(step, speaker);
   const inner = functionOf(speaker.document, id) !== null;
   const size = chipSize({ shape, number, parts, condition, inner }, input.measure);
   return {

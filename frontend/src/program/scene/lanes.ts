@@ -20,12 +20,32 @@ export interface FreeEnds {
 
 const FIXED: FreeEnds = { start: false, end: false };
 
+/** Legs that lie already, found by the line that they lie on. */
+class TakenLegs {
+  readonly #byLine = new Map<string, Leg[]>();
+
+  add(leg: Leg): void {
+    const key = TakenLegs.#key(leg, 0);
+    const same = this.#byLine.get(key) ?? [];
+    same.push(leg);
+    this.#byLine.set(key, same);
+  }
+
+  isOn(leg: Leg): boolean {
+    return [-1, 0, 1].some((by) => this.#byLine.get(TakenLegs.#key(leg, by))?.some((other) => collide(leg, other)));
+  }
+
+  static #key({ flat, line }: Leg, by: number): string {
+    return `${flat ? "flat" : "steep"}${Math.floor(line / NEAR) + by}`;
+  }
+}
+
 /** The same routes, in the same order, with their legs moved aside where another lies already. */
 export function separateLanes(
   routes: readonly (readonly PixelPoint[])[],
   free: readonly FreeEnds[] = [],
 ): PixelPoint[][] {
-  const taken: Leg[] = [];
+  const taken = new TakenLegs();
   return routes.map((route, at) => {
     const points = route.map((point) => ({ ...point }));
     const ends = free[at] ?? FIXED;
@@ -36,18 +56,18 @@ export function separateLanes(
     }
     for (let index = 1; index < points.length; index += 1) {
       const leg = legOf(points[index - 1], points[index]);
-      if (leg) taken.push(leg);
+      if (leg) taken.add(leg);
     }
     return points;
   });
 }
 
 /** Moves the leg before `index` aside; the legs on both sides grow or shrink with it. */
-function moveLeg(points: { x: number; y: number }[], index: number, taken: readonly Leg[]): void {
+function moveLeg(points: { x: number; y: number }[], index: number, taken: TakenLegs): void {
   const [a, b] = [points[index - 1], points[index]];
   const leg = legOf(a, b);
   if (!a || !b || !leg) return;
-  const shift = TRIES.find((lane) => !taken.some((other) => collide({ ...leg, line: leg.line + lane * LANE }, other)));
+  const shift = TRIES.find((lane) => !taken.isOn({ ...leg, line: leg.line + lane * LANE }));
   if (!shift) return;
   if (leg.flat) [a.y, b.y] = [a.y + shift * LANE, b.y + shift * LANE];
   else [a.x, b.x] = [a.x + shift * LANE, b.x + shift * LANE];

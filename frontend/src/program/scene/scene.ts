@@ -4,13 +4,14 @@ import { toPixels, type Box } from "@/map/plane/projection";
 import { pointAlong, pathLength, simplified, type PixelPoint } from "@/map/plane/paths";
 import type { Compiled, ProgramDocument, Step } from "../document/document";
 import { readTree, type ProgramTree } from "../document/tree";
-import { buildChip, type Chip, type Measure, type TagSide } from "./chips";
+import { buildChip, type Chip, findingsByStep, type Measure, type TagSide } from "./chips";
 import { framesOf, type Frame } from "./frames";
-import { boxAt, edgeTowards, elbow, grown, leastCovering, legBoxes, nearestOn, overlaps } from "./geometry";
+import { boxAt, edgeTowards, elbow, grown, leastCovering, legBoxes, nearestOn, overlaps, union } from "./geometry";
 import { hullsOf, type Hull } from "./hulls";
 import { isFramed } from "../kinds";
 import { separateLanes } from "./lanes";
 import { linksOf, type Link, wordBox } from "./links";
+import { SpatialIndex } from "./spatialIndex";
 import { functionOf, pathsOf, type RouteLookup, type RouteShape, type StepPath } from "./stepPaths";
 import { deviceBox, type Surroundings } from "../surroundings";
 import type { Speaker, Translate } from "../words/stepWords";
@@ -46,10 +47,11 @@ export function buildScene(input: SceneInput): Scene {
   const tree = readTree(document);
   const speaker: Speaker = { document, surroundings, t };
   const shown = [...tree.reading, ...tree.loose, ...commentsOf(document)].filter((id) => isShown(input, id));
-  const stepPaths = pathsOf(document, tree, surroundings).filter((stepPath) => shown.includes(stepPath.step));
+  const isDrawn = new Set(shown);
+  const stepPaths = pathsOf(document, tree, surroundings).filter((stepPath) => isDrawn.has(stepPath.step));
   const routes = shapeRoutes(stepPaths, input.routes);
   const chips = new Map<string, Chip>();
-  const chipInput = { ...input, drafts: new Set(tree.drafts) };
+  const chipInput = { ...input, drafts: new Set(tree.drafts), findings: findingsByStep(input.compiled) };
   for (const id of shown) {
     const step = document.steps[id];
     if (step)
@@ -80,19 +82,22 @@ export function buildScene(input: SceneInput): Scene {
 }
 
 function placeTags(chips: Map<string, Chip>, routes: ReadonlyMap<string, RouteShape>, links: readonly Link[]): void {
+  const asked = [...chips.values()].filter((chip) => chip.shape === "diamond" && chip.condition);
+  if (asked.length === 0) return;
   const lines = [
     ...[...routes.values()].flatMap((route) => legBoxes(route.points, 5)),
     ...links.flatMap((link) => (link.tone === "then" ? [] : legBoxes(link.points, 3))),
     ...links.flatMap((link) => wordBox(link) ?? []),
   ];
-  for (const chip of chips.values())
-    if (chip.shape === "diamond" && chip.condition)
-      chips.set(chip.id, { ...chip, tagSide: tagSide(chip, chips, lines) });
+  const covers = new SpatialIndex<{ id?: string; box: Box }>([
+    ...[...chips.values()].map(({ id, box }) => ({ id, box: grown(box, 3) })),
+    ...lines.map((box) => ({ box })),
+  ]);
+  for (const chip of asked) chips.set(chip.id, { ...chip, tagSide: tagSide(chip, covers) });
 }
 
 /** Beside the diamond where the condition covers no chip, no line and no word. */
-function tagSide(chip: Chip, chips: ReadonlyMap<string, Chip>, lines: readonly Box[]): TagSide {
-  const others = [...chips.values()].filter((each) => each.id !== chip.id).map((each) => grown(each.box, 3));
+function tagSide(chip: Chip, covers: SpatialIndex<{ id?: string; box: Box }>): TagSide {
   const { x, y } = chip.at;
   const [beside, height] = [chip.width / 2 + 8 + chip.tagWidth / 2, 20];
   const at = (side: TagSide, dx: number, dy: number) => ({
@@ -106,7 +111,12 @@ function tagSide(chip: Chip, chips: ReadonlyMap<string, Chip>, lines: readonly B
     at("below", 0, 38),
     at("left", -beside - 6, 0),
   ] as const;
-  return leastCovering([...sides], [...others, ...lines]).side;
+  const around = sides.map(({ box }) => box).reduce(union);
+  const near = covers.within(around).filter(({ id }) => id !== chip.id);
+  return leastCovering(
+    [...sides],
+    near.map(({ box }) => box),
+  ).side;
 }
 
 /** Along the top of the floor, where neither a machine nor a chip stands. */

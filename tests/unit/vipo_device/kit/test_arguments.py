@@ -53,8 +53,10 @@ def test_objects_are_counted(arguments: dict[str, Any], expected: tuple[str, int
 
 @pytest.mark.parametrize(
     ("name", "unit", "value", "expected"),
-    [("time", "MIN", 2, 120.0), ("time", "", 2, 120.0), ("cure", "SEC", 7, 7.0), ("cure", "DEG_C", 7, 2.0)],
+    [("time", "MIN", 2, 120.0), ("time", "", 2, 120.0), ("cure", "SEC", 7, 7.0), ("cure", "DEG_C", 7, None)],
 )
-def test_a_duration_is_the_time_that_a_method_is_given(name: str, unit: str, value: float, expected: float) -> None:
+def test_a_duration_is_the_time_that_a_method_is_given(
+    name: str, unit: str, value: float, expected: float | None
+) -> None:
     method = MethodSpec("m", "topic", "", "", (ParameterSpec(name, "number", unit),))
     assert duration_s(method, {name: value}) == expected

@@ -13,7 +13,7 @@ class Migration(migrations.Migration):
     """Makes three new tables; nothing that there is changes."""
 
     dependencies = [
-        ("editor", "0006_only_packed_versions"),
+        ("editor", "0007_reviews"),
         migrations.swappable_dependency(settings.AUTH_USER_MODEL),
     ]
 

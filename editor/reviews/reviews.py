@@ -1,0 +1,191 @@
+"""Reviews as people see them: asked for, given and withdrawn, with what was approved last to compare with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+from uuid import UUID
+
+from django.db import transaction
+
+from editor.documents.store import get_document
+from editor.errors import BadRequest, MayNotReview
+from editor.models import ReviewEntry, Version
+from editor.programs.checking import build_surroundings
+from editor.programs.compilations import compile_program
+from editor.programs.programs import get_program
+from editor.programs.versions import find_version, pin_version
+from editor.reviews.gate import content_digest
+from editor.reviews.rules import Rule, get_rule, hold_rule
+from editor.reviews.standing import Standing, list_approved_digests, read_standing, reviewers_of
+from registry import services as registry
+from vipo_device.protocol.texts import find_unfit, normal
+
+Verdict = Literal["approved", "changes", "withdrawn"]
+WhyNot = Literal["", "role", "own"]
+MOST_NOTE = 500
+
+
+@dataclass(frozen=True, slots=True)
+class Review:
+    """How a program's content stands, and what who asks may do about it.
+
+    `number` is its newest version with this content, None where it is drawn and not pinned. `compare_with` is the
+    version before it that was approved last. `why_not` says why the asker cannot approve it; `errors` and `warnings`
+    are the findings of the checker at this content, at the site as it is now.
+    """
+
+    rule: Rule
+    standing: Standing
+    number: int | None
+    compare_with: int | None
+    why_not: WhyNot
+    errors: int
+    warnings: int
+
+
+def show_review(*, program_id: UUID, user: Any, number: int | None = None) -> Review:
+    """Return how a version stands, or the program as it is drawn now. Raises NoSuchProgram, UnreadableVersion."""
+    site, rule = get_program(program_id=program_id).site, get_rule(site=_site(program_id))
+    document = _document(program_id, number)
+    digest = content_digest(document)
+    if number is None:
+        same = Version.objects.filter(program_id=program_id, digest=digest).order_by("-number").first()
+        number = same.number if same else None
+    line = _Line(program_id, site, rule, number)
+    summary = compile_program(document, build_surroundings(site=site)).summary
+    return Review(
+        rule=rule,
+        standing=read_standing(site=site, program_id=program_id, digest=digest, rule=rule),
+        number=number,
+        compare_with=line.approved_before(),
+        why_not=line.why_not(user),
+        errors=summary.errors,
+        warnings=summary.warnings,
+    )
+
+
+def ask_for_review(*, program_id: UUID, user: Any, number: int | None = None, note: str = "") -> int:
+    """Ask others to review a version, or the program as it is drawn now, which becomes a version; returns its number.
+
+    Raises NoSuchProgram, BadRequest, DocumentHole.
+    """
+    note = _checked(note)
+    if number is None:
+        number = pin_version(program_id=program_id, user=user).number
+    with transaction.atomic():
+        hold_rule(_site(program_id))
+        _write(program_id, number, ReviewEntry.Kind.ASKED, user, note)
+    return number
+
+
+def give_verdict(*, program_id: UUID, user: Any, number: int, verdict: Verdict, note: str = "") -> None:
+    """Approve a version's content, ask for changes of it, or withdraw what one has said.
+
+    Raises:
+        MayNotReview: it is the person's own, or their role is not enough here.
+        BadRequest: changes are asked for without a sentence that says which, or there is nothing to withdraw.
+    """
+    note = _checked(note)
+    if verdict == "changes" and not note:
+        raise BadRequest("Say in a sentence what is to be changed.")
+    with transaction.atomic():
+        site = _site(program_id)
+        line = _Line(program_id, site, hold_rule(site), number)
+        if verdict == "withdrawn":
+            _require_own_word(program_id, number, user)
+        else:
+            _require_reviewer(line, user)
+        _write(program_id, number, verdict, user, note)
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """The versions of a program up to one of them, or to what is drawn now."""
+
+    program: UUID
+    site: str
+    rule: Rule
+    number: int | None
+
+    def approved_before(self) -> int | None:
+        """Return the last version before it whose content is approved."""
+        approved = list_approved_digests(site=self.site, program_id=self.program, rule=self.rule)
+        rows = Version.objects.filter(program_id=self.program, digest__in=approved)
+        if self.number is not None:
+            rows = rows.filter(number__lt=self.number)
+        last = rows.order_by("-number").only("number").first()
+        return last.number if last else None
+
+    def makers(self) -> frozenset[int]:
+        """Return the ids of those who have drawn since the last approved content, or pinned this version."""
+        if self.number is None:
+            return frozenset()
+        rows = Version.objects.filter(
+            program_id=self.program, number__gt=self.approved_before() or 0, number__lte=self.number
+        ).only("number", "authors", "author_id")
+        drawn = {author for row in rows for author in row.authors}
+        pinned = {row.author_id for row in rows if row.number == self.number and row.author_id is not None}
+        return frozenset(drawn | pinned)
+
+    def why_not(self, user: Any) -> WhyNot:
+        """Say why somebody cannot approve it; empty if they can."""
+        if user.pk not in reviewers_of(self.site, self.rule):
+            return "role"
+        return "own" if user.pk in self.makers() else ""
+
+
+def _require_reviewer(line: _Line, user: Any) -> None:
+    match line.why_not(user):
+        case "role":
+            least = line.rule.least_role
+            raise MayNotReview(
+                f"At this site a reviewer has the role {least} or more. Ask one of them.", {"why": "role"}
+            )
+        case "own":
+            raise MayNotReview(
+                "You have drawn or pinned this since it was approved last, so somebody else reviews it. Ask them.",
+                {"why": "own"},
+            )
+
+
+def _require_own_word(program_id: UUID, number: int, user: Any) -> None:
+    digest = content_digest(find_version(program_id=program_id, number=number).document)
+    said = ReviewEntry.objects.filter(program_id=program_id, digest=digest, person_id=user.pk)
+    last = said.exclude(kind=ReviewEntry.Kind.ASKED).order_by("-pk").first()
+    if last is None or last.kind == ReviewEntry.Kind.WITHDRAWN:
+        raise BadRequest("You have said nothing about this content that you could withdraw.")
+
+
+def _write(program_id: UUID, number: int, kind: str, user: Any, note: str) -> None:
+    version = find_version(program_id=program_id, number=number)
+    ReviewEntry.objects.create(
+        program_id=program_id,
+        number=number,
+        digest=content_digest(version.document),
+        kind=kind,
+        person=user,
+        name=user.display_name,
+        note=note,
+    )
+    facts = {"program": get_program(program_id=program_id).name, "number": number}
+    site = version.site
+    registry.note_act(site_id=registry.get_site_id(site=site), code=f"review_{kind}", facts=facts)
+    transaction.on_commit(lambda: registry.publish(site, {"type": "review"}))
+
+
+def _checked(note: str) -> str:
+    note = normal(note.strip())
+    if len(note) > MOST_NOTE or find_unfit(note):
+        raise BadRequest(f"A note of a review has at most {MOST_NOTE} characters. Shorten it.")
+    return note
+
+
+def _site(program_id: UUID) -> str:
+    return get_program(program_id=program_id).site
+
+
+def _document(program_id: UUID, number: int | None) -> Any:
+    if number is None:
+        return get_document(program_id=program_id)
+    return find_version(program_id=program_id, number=number).document

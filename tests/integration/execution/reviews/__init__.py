@@ -1,0 +1,1 @@
+"""The gate before real devices, at every way to a start."""

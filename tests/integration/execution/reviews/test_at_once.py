@@ -1,0 +1,128 @@
+"""What happens while a run is being started, in two sessions of one PostgreSQL: no gap between look and start."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any
+
+import pytest
+from django.db import connection, connections, transaction
+from pytest_django import DjangoDbBlocker
+
+from editor import services as editor
+from editor.errors import NotApproved
+from editor.reviews.rules import Rule, set_rule
+from execution import services
+from execution.models import Run
+from execution.runs.programs import prepare
+from registry import services as registry
+from tests.integration.execution.reviews.conftest import PEOPLE, Team
+from tests.kit.databases import on_database
+from tests.kit.programs import SITE, document, step
+from tests.kit.sign_in import add_person, find_person
+from tests.kit.waiting import wait_for
+from vipo_site.settings import postgres
+
+pytestmark = pytest.mark.servers
+WAITS = document({"w": step("wait", duration=5)})
+
+
+@pytest.fixture
+def team(database_url: str, django_db_blocker: DjangoDbBlocker) -> Iterator[Team]:
+    """The people of the gate's tests and their approved program, on a PostgreSQL."""
+    with django_db_blocker.unblock(), on_database(**postgres(database_url)):
+        registry.create_site(name="Painting Factory", slug=SITE)
+        for name, role in PEOPLE.items():
+            registry.set_member(site=SITE, email=add_person(name).email, role=role)
+        made = editor.create_program(site=SITE, name="Wait", document=WAITS, user=find_person("ann"))
+        team = Team(made.id)
+        team.demand(1)
+        assert team.say("bob", "approved").status_code == 200
+        yield team
+
+
+@pytest.fixture
+def aside() -> Iterator[Callable[[Callable[[], Any]], Future[Any]]]:
+    """Do something in a session of its own."""
+    with ThreadPoolExecutor(2) as pool:
+
+        def do(work: Callable[[], Any]) -> Future[Any]:
+            def work_and_close() -> Any:
+                try:
+                    return work()
+                finally:
+                    connections.close_all()
+
+            return pool.submit(work_and_close)
+
+        yield do
+
+
+def one_waits() -> bool:
+    """Tell whether a session waits for what this one holds."""
+    with connection.cursor() as cursor:
+        # Not pg_stat_activity, which a transaction reads once.
+        cursor.execute("SELECT count(*) FROM pg_locks WHERE NOT granted")
+        return bool(cursor.fetchone()[0])
+
+
+def start(team: Team) -> str:
+    """Start a run as the API does; return how that ended."""
+    prepared = prepare(program_id=team.program, user=find_person("olga"), parameters={})
+    try:
+        services.start_run(prepared=prepared, by="Olga Person")
+    except NotApproved:
+        return "refused"
+    return "started"
+
+
+def withdraw(team: Team) -> None:
+    assert team.say("bob", "withdrawn", 1).status_code == 200
+
+
+def demand_more(team: Team) -> None:
+    set_rule(site=SITE, rule=Rule(2))
+
+
+@pytest.mark.parametrize("change", [withdraw, demand_more], ids=lambda change: change.__name__)
+def test_a_start_waits_for_a_change_that_is_being_made_and_heeds_it(
+    team: Team, aside: Callable[[Callable[[], Any]], Future[Any]], change: Callable[[Team], None]
+) -> None:
+    with transaction.atomic():
+        change(team)
+        starting = aside(lambda: start(team))
+        wait_for("the start waits", one_waits)
+        assert not starting.done()
+    assert starting.result(60) == "refused"
+    assert Run.objects.count() == 0
+
+
+@pytest.mark.parametrize("change", [withdraw, demand_more], ids=lambda change: change.__name__)
+def test_a_change_waits_for_a_start_that_was_let_through(
+    team: Team, aside: Callable[[Callable[[], Any]], Future[Any]], change: Callable[[Team], None]
+) -> None:
+    with transaction.atomic():
+        assert start(team) == "started"
+        changing = aside(lambda: change(team))
+        wait_for("the change waits", one_waits)
+        assert not changing.done()
+    changing.result(60)
+    assert (Run.objects.count(), start(team)) == (1, "refused")
+
+
+def test_a_run_carries_out_what_the_gate_looked_at_though_it_is_drawn_on_between(team: Team) -> None:
+    prepared = prepare(program_id=team.program, user=find_person("olga"), parameters={})
+    team.draw("ann", 99)
+    services.start_run(prepared=prepared, by="Olga Person")
+    assert Run.objects.get().document["steps"]["w"]["params"] == {"duration": 5}
+    assert start(team) == "refused"
+
+
+def test_what_was_made_ready_unapproved_is_refused_though_the_program_is_approved_again(team: Team) -> None:
+    team.draw("ann", 99)
+    prepared = prepare(program_id=team.program, user=find_person("olga"), parameters={})
+    team.draw("ann", 5)
+    with pytest.raises(NotApproved):
+        services.start_run(prepared=prepared, by="Olga Person")
+    assert start(team) == "started"

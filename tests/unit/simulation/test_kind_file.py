@@ -1,0 +1,60 @@
+"""The file of kinds is read with suspicion: each refusal names the kind and the word."""
+
+from __future__ import annotations
+
+import pytest
+
+from simulation.kind_file import BadKinds, default_kinds, read_kinds
+
+HEAD = 'version = 1\n[[kinds]]\nname = "saw"\n'
+
+
+def test_the_kinds_that_vipo_comes_with_are_told_by_what_devices_can_do() -> None:
+    kinds = default_kinds()
+    assert [kind.name for kind in kinds] == ["any machine", "curing", "drying", "painting", "any robot"]
+    assert [kind.when.classes for kind in kinds] == [()] * 5
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("", "The kinds have the version None; write version = 1 in the first line."),
+        ("version = 2", "The kinds have the version 2; write version = 1 in the first line."),
+        ("version = true", "The kinds have the version True; write version = 1 in the first line."),
+        ("version = 1\nkinds = 3", "Write at most 500 kinds, each under [[kinds]]."),
+        ("version = 1\nkinds = [3]", "Kind 1 is no table: write [[kinds]] above it."),
+        ("version = 1\n[[kinds]]\njob_s = 1.0", "Kind 1 has no name: write name = followed by a text."),
+        (HEAD + "job_s = -1.0", "saw: job_s must be at least 0.001, not -1.0."),
+        (HEAD + "job_s = nan", "saw: job_s must be a number of at most 1e+06, not nan."),
+        (HEAD + "charging_h = 0.0", "saw: charging_h must be at least 0.001, not 0.0."),
+        (HEAD + "spread = 1.5", "saw: spread must be from 0 to 1, not 1.5."),
+        (HEAD + "slots = 1.5", "saw: a count must be a whole number of at least 0, not 1.5."),
+        (HEAD + "fails = { cut = 2 }", "saw: odds must be from 0 to 1, not 2."),
+        (HEAD + "uses = { cut = 2 }", "saw: uses.cut must be a table."),
+        (HEAD + 'hands_over = "cut"', 'saw: hands_over must be a list of texts, such as ["heat"].'),
+        (HEAD + 'when = { kind = "saw" }', 'saw: kind is "machine" or "robot", not \'saw\'.'),
+        (HEAD + "when = 3", "saw: when must be a table."),
+        (
+            HEAD + 'when = { colour = ["red"] }',
+            "saw: colour in when is not known. Known are: classes, gives, ids, kind, methods, properties, takes.",
+        ),
+        (
+            HEAD + 'readings = { heat = { law = "jump" } }',
+            "saw: the law of heat is one of progress, approach, while_working, counts, drawn, not 'jump'.",
+        ),
+        (
+            HEAD + 'readings = { heat = { law = "approach", rising_s = 0 } }',
+            "saw: rising_s must be at least 0.001, not 0.",
+        ),
+        (HEAD + 'readings = { heat = { law = "drawn", usual = 3 } }', "saw: usual must be a text, not 3."),
+    ],
+)
+def test_what_cannot_be_understood_is_refused_with_a_sentence(text: str, why: str) -> None:
+    with pytest.raises(BadKinds) as refused:
+        read_kinds(text)
+    assert refused.value.detail == why
+
+
+def test_what_is_no_toml_is_refused_with_the_line() -> None:
+    with pytest.raises(BadKinds, match=r"^The kinds are no TOML: .*line 3"):
+        read_kinds("version = 1\n[[kinds]]\nname = saw\n")
