@@ -1,6 +1,6 @@
 /** A comment to write, with the members whom it mentions. */
 import { Button, MultiSelect, Textarea } from "@mantine/core";
-import { useState } from "react";
+import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { WordsToWrite } from "@/api/types";
 import { say } from "../state/ui";
@@ -27,6 +27,10 @@ export function CommentForm({ label, send, first, focused, onSend, onDone }: Com
   const people = usePeopleToMention(program.id);
   const [text, setText] = useState(first?.text ?? "");
   const [mentions, setMentions] = useState((first?.mentions ?? []).map(String));
+  const field = useRef<HTMLTextAreaElement>(null);
+  useEffect(() => {
+    if (focused) field.current?.focus();
+  }, [focused]);
   const [busy, setBusy] = useState(false);
   const submit = async () => {
     setBusy(true);
@@ -53,7 +57,7 @@ export function CommentForm({ label, send, first, focused, onSend, onDone }: Com
       <Textarea
         label={label}
         value={text}
-        autoFocus={focused}
+        ref={field}
         maxLength={MOST_TEXT}
         autosize
         minRows={1}

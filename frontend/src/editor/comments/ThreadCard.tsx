@@ -68,7 +68,7 @@ function Answer({ onSend }: { onSend: (words: WordsToWrite) => Promise<unknown> 
         />
       ) : null}
       <Button size="compact-xs" variant="subtle" aria-expanded={opened} onClick={() => setOpened(!opened)}>
-        {t(opened ? "comments.cancel" : "comments.answer")}
+        {t(opened ? "comments.cancel" : "comments.send")}
       </Button>
     </div>
   );
