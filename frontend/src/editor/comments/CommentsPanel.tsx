@@ -1,5 +1,5 @@
 /** The comments of a program: those that are open, mention me, or are resolved, and a new one. */
-import { SegmentedControl } from "@mantine/core";
+import { Button, SegmentedControl } from "@mantine/core";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { LoadProblem } from "@/shell/LoadProblem";
@@ -48,13 +48,24 @@ function NewThread() {
   const { program } = useOpenProgram();
   const act = useCommenting(program.id);
   const about = useAbout();
+  const [opened, setOpened] = useState(false);
+  const label = about.label ? t("comments.on", { what: about.label }) : t("comments.onProgram");
   return (
-    <CommentForm
-      key={about.anchor.id ?? ""}
-      label={about.label ? t("comments.on", { what: about.label }) : t("comments.onProgram")}
-      send={t("comments.begin")}
-      onSend={(words) => act.start({ ...words, ...about })}
-    />
+    <div className={classes.answer}>
+      {opened ? (
+        <CommentForm
+          key={about.anchor.id ?? ""}
+          label={label}
+          send={t("comments.begin")}
+          focused
+          onSend={(words) => act.start({ ...words, ...about })}
+          onDone={() => setOpened(false)}
+        />
+      ) : null}
+      <Button size="compact-sm" variant="default" aria-expanded={opened} onClick={() => setOpened(!opened)}>
+        {opened ? t("comments.cancel") : label}
+      </Button>
+    </div>
   );
 }
 
