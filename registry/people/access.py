@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     from django.db.models import QuerySet
 
 SCOPES = ("read", "operate", "run", "admin")
-"""What a token may be for. Each stretches to the role at the same place of ROLES; `read` is part of all others, and
-`admin` has all others in it, but `operate` (devices, stop, alerts) and `run` (programs and runs) stand side by side."""
+"""What a token may be for. `read` is part of all others, and `admin` has all others in it, but `operate` (devices,
+stop, alerts) and `run` (programs and runs) stand side by side."""
+_SCOPE_OF = {"viewer": "read", "commenter": "run", "operator": "operate", "author": "run", "admin": "admin"}
 
 
 class NotAMember(RegistryError):
@@ -66,7 +67,7 @@ class Access:
 
 def scope_of(role: str) -> str:
     """Return the scope that what a role may do needs, where nothing else is said."""
-    return SCOPES[ROLES.index(role)]
+    return _SCOPE_OF[role]
 
 
 def has_not_ended(prefix: str = "") -> Q:
