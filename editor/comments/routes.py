@@ -23,10 +23,10 @@ _BOUNDED, _MAY_BE_ANOTHERS = refuses(429), refuses(409)
 
 
 @router.get("/programs/{program}/threads", response=list[ThreadShape])
-def list_threads(request: HttpRequest, program: UUID) -> tuple[ThreadView, ...]:
+def list_threads(request: HttpRequest, program: UUID) -> list[ThreadView]:
     """List a program's threads of comments, the last written in first."""
     program_for(request.user, program, "viewer")
-    return threads.list_threads(program=program, user=signed_in(request))
+    return list(threads.list_threads(program=program, user=signed_in(request)))
 
 
 @router.post("/programs/{program}/threads", response={201: ThreadShape}, openapi_extra=_BOUNDED)
@@ -87,7 +87,7 @@ def delete_comment(request: HttpRequest, program: UUID, comment: UUID) -> Status
 
 
 @router.get("/programs/{program}/people", response=list[Author])
-def list_people_to_mention(request: HttpRequest, program: UUID) -> tuple[PersonView, ...]:
+def list_people_to_mention(request: HttpRequest, program: UUID) -> list[PersonView]:
     """List whom a comment may mention: the members of the site by name, without their addresses."""
     found = program_for(request.user, program, "commenter")
-    return registry.list_people(site=found.site)
+    return list(registry.list_people(site=found.site))

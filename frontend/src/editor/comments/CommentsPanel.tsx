@@ -8,6 +8,7 @@ import { mayComment } from "@/api/roles";
 import type { ThreadToStart } from "@/api/types";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
+import { stepLabel } from "./about";
 import { CommentForm } from "./CommentForm";
 import classes from "./comments.module.css";
 import { ThreadCard } from "./ThreadCard";
@@ -70,11 +71,10 @@ function NewThread() {
 }
 
 function useAbout(): Pick<ThreadToStart, "anchor" | "label"> & { label: string } {
-  const { document, compiled, t } = useOpenProgram();
+  const open = useOpenProgram();
   const selected = useUi((ui) => ui.selected);
   const [id] = selected;
-  const step = selected.length === 1 && id !== undefined ? document.steps[id] : undefined;
-  if (!step || id === undefined) return { anchor: { kind: "program" }, label: "" };
-  const label = [compiled?.numbers[id], t(`kind.${step.kind}`)].filter(Boolean).join(" ");
+  const label = selected.length === 1 && id !== undefined ? stepLabel(open, id) : null;
+  if (label === null) return { anchor: { kind: "program" }, label: "" };
   return { anchor: { kind: "construct", root: "steps", id }, label };
 }

@@ -7,9 +7,10 @@ import { mayComment } from "@/api/roles";
 import { formatMoment } from "@/i18n/format";
 import { useOpenProgram } from "../state/context";
 import { say, select } from "../state/ui";
+import { aboutOf } from "./about";
 import { CommentForm } from "./CommentForm";
 import classes from "./comments.module.css";
-import { useCommenting } from "./threads";
+import { useCommenting, usePeopleToMention } from "./threads";
 
 type Comment = Thread["comments"][number];
 
@@ -19,10 +20,11 @@ function tell(problem: unknown): void {
 
 export function ThreadCard({ thread, me }: { thread: Thread; me: number | undefined }) {
   const { t } = useTranslation();
-  const { program, site } = useOpenProgram();
+  const open = useOpenProgram();
+  const { program, site } = open;
   const act = useCommenting(program.id);
   const writes = mayComment(site.role);
-  const about = thread.label || t("comments.program");
+  const about = aboutOf(open, thread);
   return (
     <li className={classes.thread} aria-label={about}>
       <div className={classes.head}>
@@ -114,7 +116,10 @@ function Written({ comment, isMine }: { comment: Comment; isMine: boolean }) {
           onDone={() => setEdits(false)}
         />
       ) : (
-        <p className={classes.text}>{comment.text}</p>
+        <>
+          <p className={classes.text}>{comment.text}</p>
+          <Mentioned ids={comment.mentions} />
+        </>
       )}
       <div className={classes.acts}>
         {isMine && writes ? (
@@ -130,4 +135,13 @@ function Written({ comment, isMine }: { comment: Comment; isMine: boolean }) {
       </div>
     </li>
   );
+}
+
+function Mentioned({ ids }: { ids: readonly number[] }) {
+  const { t, i18n } = useTranslation();
+  const people = usePeopleToMention(useOpenProgram().program.id).data ?? [];
+  const names = people.flatMap((each) => (each && ids.includes(each.id) ? [each.name] : []));
+  if (names.length === 0) return null;
+  const list = new Intl.ListFormat(i18n.language, { type: "conjunction" }).format(names);
+  return <p className={classes.who}>{t("comments.mentioned", { names: list })}</p>;
 }

@@ -145,3 +145,12 @@ def test_who_watches_the_site_is_told(program: str, django_capture_on_commit_cal
     finally:
         end()
     assert heard == [("hall", {"type": "comments", "program": program})]
+
+
+def test_two_threads_and_two_members_are_lists_as_any_others(program: str) -> None:
+    for person in ("viewer", "admin"):
+        registry.remove_member(site="hall", email=find_person(person).email)
+    start(program), start(program)
+    assert len(threads(program, "author")) == 2
+    people = signed_in("author").get(f"/api/programs/{program}/people").json()
+    assert [each["name"] for each in people] == ["Author Person", "Commenter Person"]
