@@ -11,7 +11,7 @@ from registry import services
 from registry.models import User
 
 PASSWORD = "correct-horse-9"
-ROLES = ("viewer", "operator", "author", "admin")
+ROLES = ("viewer", "commenter", "operator", "author", "admin")
 EVERYBODY = (*ROLES, "stranger", "nobody")
 
 

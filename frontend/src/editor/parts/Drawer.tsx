@@ -1,7 +1,18 @@
-/** The drawer at the bottom: script, problems, steps. */
-import { Copy, FileCode2, ListTree, OctagonAlert, PanelBottomClose, PanelBottomOpen } from "lucide-react";
+/** The drawer at the bottom: script, problems, steps, comments. */
+import {
+  Copy,
+  FileCode2,
+  ListTree,
+  MessageSquare,
+  OctagonAlert,
+  PanelBottomClose,
+  PanelBottomOpen,
+} from "lucide-react";
 import type { ReactNode } from "react";
 import { IconButton } from "@/design/IconButton";
+import { useTranslation } from "react-i18next";
+import { CommentsPanel } from "../comments/CommentsPanel";
+import { countUnread, useThreads } from "../comments/threads";
 import { useOpenProgram } from "../state/context";
 import { say, showTab, useUi, type DrawerTab } from "../state/ui";
 import classes from "./drawer.module.css";
@@ -29,6 +40,7 @@ export function Drawer({ small }: { small: boolean }) {
             count={diagnostics.length}
           />
           <Tab tab="steps" icon={<ListTree size={15} aria-hidden="true" />} label={t("drawer.steps")} />
+          <CommentsTab />
         </div>
         <Actions />
       </div>
@@ -63,6 +75,7 @@ function Body({ tab, beside }: { tab: DrawerTab; beside: boolean }) {
       {tab === "script" ? <ScriptPanel /> : null}
       {tab === "problems" ? <ProblemsPanel /> : null}
       {tab === "steps" ? <StepTree /> : null}
+      {tab === "comments" ? <CommentsPanel /> : null}
       {beside ? (
         <div className={classes.beside}>
           <ProblemsPanel titled />
@@ -70,6 +83,14 @@ function Body({ tab, beside }: { tab: DrawerTab; beside: boolean }) {
       ) : null}
     </div>
   );
+}
+
+function CommentsTab() {
+  const { program } = useOpenProgram();
+  const { t } = useTranslation();
+  const unread = countUnread(useThreads(program.id).data ?? []);
+  const icon = <MessageSquare size={15} aria-hidden="true" />;
+  return <Tab tab="comments" icon={icon} label={t("comments.title")} count={unread} />;
 }
 
 function Tab({ tab, icon, label, count = 0 }: { tab: DrawerTab; icon: ReactNode; label: string; count?: number }) {
