@@ -29,6 +29,13 @@ def list_threads(request: HttpRequest, program: UUID) -> list[ThreadView]:
     return list(threads.list_threads(program=program, user=signed_in(request)))
 
 
+@router.get("/programs/{program}/threads/{thread}", response=ThreadShape)
+def show_thread(request: HttpRequest, program: UUID, thread: UUID) -> ThreadView:
+    """Return a thread with its comments."""
+    program_for(request.user, program, "viewer")
+    return threads.get_thread(program=program, thread=thread, user=signed_in(request))
+
+
 @router.post("/programs/{program}/threads", response={201: ThreadShape}, openapi_extra=_BOUNDED)
 def start_thread(request: HttpRequest, program: UUID, body: ThreadToStart) -> Status[ThreadView]:
     """Begin a thread with its first comment; at most 20 comments of a person within a minute."""

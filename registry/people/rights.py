@@ -65,7 +65,7 @@ DEEDS = (
         download_pgm download_yaml show_cells list_map_versions show_place current probe sample current_of_device
         probe_device sample_of_device list_programs ask post_query list_things watch_things show_thing
         read_expression show_values show_value watch_value await_next_value query_action list_threads
-        mark_thread_read""",
+        show_thread mark_thread_read""",
     ),
     _deed("stop", "viewer", "operate", "press_stop"),
     _deed("own", "viewer", "session", "list_tokens show_token create_token revoke_token list_members leave_site"),

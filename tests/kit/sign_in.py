@@ -15,6 +15,16 @@ ROLES = ("viewer", "commenter", "operator", "author", "admin")
 EVERYBODY = (*ROLES, "stranger", "nobody")
 
 
+def from_role(least: str) -> tuple[str, ...]:
+    """Return the roles that may do all that this one may."""
+    return ROLES[ROLES.index(least) :]
+
+
+def below_role(least: str) -> tuple[str, ...]:
+    """Return the roles that may not all that this one may."""
+    return ROLES[: ROLES.index(least)]
+
+
 def find_person(name: str) -> User:
     """Return the person of this name."""
     return User.objects.get(email=f"{name}@vipo.example")
