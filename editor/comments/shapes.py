@@ -13,7 +13,7 @@ from editor.comments.threads import MOST_MENTIONS, Words
 from editor.shapes import Author
 from registry.shapes import Asked, Flag, Line, Number
 
-MOST_TEXT = 4000
+MOST_TEXT = 2000
 Id = Annotated[Line, Field(min_length=1, max_length=120)]
 Metres = Annotated[Number, Field(ge=-100_000, le=100_000)]
 
@@ -33,12 +33,12 @@ class AnchorShape(Schema):
 
 
 class CommentShape(Schema):
-    """A comment; `mentions` are the ids of the members whom it calls."""
+    """A comment; `mentions` are those whom it calls by `@` and their names."""
 
     id: UUID
     author: Author | None
     text: str
-    mentions: list[int]
+    mentions: list[Author]
     written_at: datetime
     edited_at: datetime | None
 

@@ -12,6 +12,7 @@ from datetime import datetime, timedelta
 from typing import Any
 from uuid import UUID
 
+from django.contrib.auth import get_user_model
 from django.db import transaction
 from django.db.models import Prefetch
 
@@ -22,7 +23,8 @@ from editor.models import Comment, CommentThread, Program, ThreadReading
 from editor.programs.views import AuthorView, view_author
 from registry import services as registry
 
-MOST_THREADS, MOST_IN_THREAD, MOST_MENTIONS = 1000, 200, 20
+MOST_THREADS, MOST_IN_THREAD, MOST_COMMENTS, MOST_MENTIONS = 300, 100, 2000, 20
+"""Of a program, of a thread, of a program in all its threads, of a comment: who looks is sent them all."""
 RATE, RATE_OVER = 20, timedelta(minutes=1)
 _GONE = "There is no such comment here. It may have been deleted."
 
@@ -43,12 +45,12 @@ class NotTheirs(EditorError):
 
 @dataclass(frozen=True, slots=True)
 class CommentView:
-    """A comment; who wrote it may have left the site since."""
+    """A comment; who wrote it or is mentioned may have left the site since."""
 
     id: UUID
     author: AuthorView | None
     text: str
-    mentions: tuple[int, ...]
+    mentions: tuple[AuthorView, ...]
     written_at: datetime
     edited_at: datetime | None
 
@@ -85,7 +87,8 @@ def list_threads(*, program: UUID, user: Any) -> tuple[ThreadView, ...]:
     readings = ThreadReading.objects.filter(thread__program=program, person=user)
     read_to = dict(readings.values_list("thread_id", "read_to"))
     document = _read_document(program) if rows else {}
-    return tuple(_view(row, document, user, read_to.get(row.pk)) for row in rows)
+    people = _people_in(rows)
+    return tuple(_view(row, document, people, user, read_to.get(row.pk)) for row in rows)
 
 
 def start_thread(*, program: UUID, user: Any, anchor: Anchor, label: str, words: Words, now: datetime) -> ThreadView:
@@ -119,7 +122,7 @@ def get_thread(*, program: UUID, thread: UUID, user: Any) -> ThreadView:
     """Return a thread. Raises NoSuchProgram."""
     row = _find(program, thread)
     reading = ThreadReading.objects.filter(thread=thread, person=user).first()
-    return _view(row, _read_document(program), user, reading.read_to if reading else None)
+    return _view(row, _read_document(program), _people_in([row]), user, reading.read_to if reading else None)
 
 
 def resolve_thread(*, program: UUID, thread: UUID, user: Any, resolved: bool, now: datetime) -> ThreadView:
@@ -175,6 +178,8 @@ def _writing(program: UUID, user: Any, now: datetime) -> Iterator[str]:
         lately = Comment.objects.filter(author=user, written_at__gt=now - RATE_OVER)
         if lately.count() >= RATE:
             raise TooManyComments(f"You have written {RATE} comments within a minute. Go on in a minute.")
+        if Comment.objects.filter(thread__program=program).count() >= MOST_COMMENTS:
+            raise TooManyComments(f"A program has at most {MOST_COMMENTS} comments. Delete some that are resolved.")
         _tell(held)
         yield held.site.slug
 
@@ -227,8 +232,17 @@ def _read_document(program: UUID) -> dict[str, Any]:
         return {}
 
 
-def _view(row: CommentThread, document: dict[str, Any], user: Any, read_to: datetime | None) -> ThreadView:
-    comments = tuple(_view_comment(each) for each in row.comments.all())
+def _people_in(rows: Iterable[CommentThread]) -> dict[int, AuthorView]:
+    """Return those whom threads mention, also who is no member any more."""
+    named = {person for row in rows for comment in row.comments.all() for person in comment.mentions}
+    found = get_user_model().objects.filter(pk__in=named) if named else ()
+    return {user.pk: view for user in found if (view := view_author(user))}
+
+
+def _view(
+    row: CommentThread, document: dict[str, Any], people: dict[int, AuthorView], user: Any, read_to: datetime | None
+) -> ThreadView:
+    comments = tuple(_view_comment(each, people) for each in row.comments.all())
     news = [each for each in comments if each.author is None or each.author.id != user.pk]
     anchor = Anchor(**row.anchor)
     return ThreadView(
@@ -244,5 +258,6 @@ def _view(row: CommentThread, document: dict[str, Any], user: Any, read_to: date
     )
 
 
-def _view_comment(row: Comment) -> CommentView:
-    return CommentView(row.pk, view_author(row.author), row.text, tuple(row.mentions), row.written_at, row.edited_at)
+def _view_comment(row: Comment, people: dict[int, AuthorView]) -> CommentView:
+    mentioned = tuple(people[person] for person in row.mentions if person in people)
+    return CommentView(row.pk, view_author(row.author), row.text, mentioned, row.written_at, row.edited_at)

@@ -161,7 +161,7 @@ CODES = {401: 4401, 404: 4404, 0: 0}
 
 
 @pytest.mark.parametrize("person", ASKERS)
-async def test_each_of_seven_people_opens_the_sockets_of_their_site_and_no_other(plant: Plant, person: str) -> None:
+async def test_each_person_opens_the_sockets_of_their_site_and_no_other(plant: Plant, person: str) -> None:
     odd = {}
     nowhere = {"slug": "nowhere", "program": str(uuid4())}
     for route, right in SOCKETS.items():
@@ -220,7 +220,7 @@ def opened(client: httpx.Client, path: str) -> int:
 
 
 @pytest.mark.parametrize("person", ASKERS)
-def test_each_of_seven_people_opens_the_streams_of_their_site_and_no_other(plant: Plant, person: str) -> None:
+def test_each_person_opens_the_streams_of_their_site_and_no_other(plant: Plant, person: str) -> None:
     odd = {}
     paths = {call["operationId"]: path for path, calls in OPERATIONS.items() for call in calls.values()}
     root = f"http://127.0.0.1:{plant.web.port}"
@@ -238,7 +238,7 @@ def test_each_of_seven_people_opens_the_streams_of_their_site_and_no_other(plant
 
 
 @pytest.mark.parametrize("person", ASKERS)
-def test_each_of_seven_people_asks_the_directory_as_the_table_says(plant: Plant, person: str) -> None:
+def test_each_person_asks_the_directory_as_the_table_says(plant: Plant, person: str) -> None:
     odd = {}
     root = f"http://127.0.0.1:{plant.web.port}"
     session = {} if person == "nobody" else {"sessionid": plant.web.sessions[person]}

@@ -1,51 +1,46 @@
-/** A comment to write, with the members whom it mentions. */
-import { Button, MultiSelect, Textarea } from "@mantine/core";
+/** A comment to write. */
+import { Button } from "@mantine/core";
 import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { WordsToWrite } from "@/api/types";
-import { say } from "../state/ui";
+import { problemText } from "@/shell/LoadProblem";
 import { useOpenProgram } from "../state/context";
 import classes from "./comments.module.css";
+import { MentionField } from "./MentionField";
+import { mentionedIn } from "./mentions";
 import { usePeopleToMention } from "./threads";
-
-const MOST_TEXT = 4000;
-const MOST_MENTIONS = 20;
 
 interface CommentFormProps {
   label: string;
   send: string;
-  first?: WordsToWrite;
-  /** Takes the keyboard when it opens: for forms that somebody asked for. */
-  focused?: boolean;
+  first?: string;
   onSend: (words: WordsToWrite) => Promise<unknown>;
-  onDone?: () => void;
+  /** It was sent, or is not wanted. */
+  onDone: () => void;
 }
 
-export function CommentForm({ label, send, first, focused, onSend, onDone }: CommentFormProps) {
+/** It has the keyboard when it opens; what was refused stays in it, with the reason. */
+export function CommentForm({ label, send, first = "", onSend, onDone }: CommentFormProps) {
   const { t } = useTranslation();
   const { program } = useOpenProgram();
-  const people = usePeopleToMention(program.id);
-  const [text, setText] = useState(first?.text ?? "");
-  const [mentions, setMentions] = useState((first?.mentions ?? []).map(String));
-  const field = useRef<HTMLTextAreaElement>(null);
-  useEffect(() => {
-    if (focused) field.current?.focus();
-  }, [focused]);
+  const people = usePeopleToMention(program.id).data ?? [];
+  const [text, setText] = useState(first);
   const [busy, setBusy] = useState(false);
+  const [refused, setRefused] = useState<string | null>(null);
+  const field = useRef<HTMLTextAreaElement>(null);
+  useEffect(() => field.current?.focus(), []);
+  const empty = text.trim() === "";
   const submit = async () => {
+    if (empty || busy) return;
     setBusy(true);
     try {
-      await onSend({ text: text.trim(), mentions: mentions.map(Number) });
-      setText("");
-      setMentions([]);
-      onDone?.();
+      await onSend({ text: text.trim(), mentions: mentionedIn(text, people) });
+      onDone();
     } catch (problem) {
-      say(problem instanceof Error ? problem.message : String(problem));
-    } finally {
+      setRefused(problemText(problem, t("shell.problem.screen")));
       setBusy(false);
     }
   };
-  const data = (people.data ?? []).flatMap((each) => (each ? [{ value: String(each.id), label: each.name }] : []));
   return (
     <form
       className={classes.form}
@@ -54,28 +49,24 @@ export function CommentForm({ label, send, first, focused, onSend, onDone }: Com
         void submit();
       }}
     >
-      <Textarea
+      <MentionField
         label={label}
         value={text}
-        ref={field}
-        maxLength={MOST_TEXT}
-        autosize
-        minRows={1}
-        maxRows={6}
-        onChange={(event) => setText(event.currentTarget.value)}
+        people={people}
+        field={field}
+        onChange={setText}
+        onSubmit={() => void submit()}
+        onLeave={onDone}
       />
-      <MultiSelect
-        label={t("comments.mention")}
-        data={data}
-        value={mentions}
-        maxValues={MOST_MENTIONS}
-        searchable
-        size="xs"
-        onChange={setMentions}
-      />
-      <Button type="submit" size="xs" disabled={text.trim() === "" || busy}>
-        {send}
-      </Button>
+      {refused === null ? null : <p role="alert">{refused}</p>}
+      <div className={classes.acts}>
+        <Button type="submit" size="xs" disabled={empty || busy}>
+          {send}
+        </Button>
+        <Button size="xs" variant="default" onClick={onDone}>
+          {t("comments.cancel")}
+        </Button>
+      </div>
     </form>
   );
 }

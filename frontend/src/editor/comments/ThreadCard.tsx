@@ -1,36 +1,53 @@
 /** A thread: what it is about, what was written, and what one may do with it. */
 import { Button } from "@mantine/core";
-import { useState } from "react";
+import { Check, RotateCcw } from "lucide-react";
+import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
-import type { Thread, WordsToWrite } from "@/api/types";
+import type { Thread } from "@/api/types";
 import { mayComment } from "@/api/roles";
 import { formatMoment } from "@/i18n/format";
+import { problemText } from "@/shell/LoadProblem";
+import { showSteps } from "../commands/view";
 import { useOpenProgram } from "../state/context";
 import { say, select } from "../state/ui";
-import { aboutOf } from "./about";
+import { aboutOf, standsNow, stepOf } from "./about";
 import { CommentForm } from "./CommentForm";
 import classes from "./comments.module.css";
-import { useCommenting, usePeopleToMention } from "./threads";
+import { piecesOf } from "./mentions";
+import { useCommenting } from "./threads";
 
 type Comment = Thread["comments"][number];
 
-function tell(problem: unknown): void {
-  say(problem instanceof Error ? problem.message : String(problem));
+interface ThreadCardProps {
+  thread: Thread;
+  me: number | undefined;
+  /** It was opened by its pin. */
+  opened: boolean;
+  /** The keyboard goes to it. */
+  isFirst: boolean;
 }
 
-export function ThreadCard({ thread, me }: { thread: Thread; me: number | undefined }) {
+/** What is done in a thread; a refusal is shown for a moment. */
+function useActs() {
   const { t } = useTranslation();
+  const act = useCommenting(useOpenProgram().program.id);
+  const tell = (problem: unknown) => say(problemText(problem, t("shell.problem.screen")));
+  return { act, now: (done: Promise<unknown>) => void done.catch(tell) };
+}
+
+export function ThreadCard({ thread, me, opened, isFirst }: ThreadCardProps) {
   const open = useOpenProgram();
-  const { program, site } = open;
-  const act = useCommenting(program.id);
-  const writes = mayComment(site.role);
+  const { act, now } = useActs();
+  const { t } = useTranslation();
   const about = aboutOf(open, thread);
+  const card = useInSight(isFirst);
+  const writes = mayComment(open.site.role);
   return (
-    <li className={classes.thread} aria-label={about}>
+    <li ref={card} className={classes.thread} aria-label={about} tabIndex={-1} data-opened={opened || undefined}>
       <div className={classes.head}>
-        <About thread={thread} about={about} />
+        <AboutLine thread={thread} about={about} />
         {thread.unread > 0 ? (
-          <Button size="compact-xs" variant="light" onClick={() => void act.markRead(thread.id).catch(tell)}>
+          <Button size="compact-xs" variant="light" onClick={() => now(act.markRead(thread.id))}>
             {t("comments.markRead", { count: thread.unread })}
           </Button>
         ) : null}
@@ -38,7 +55,10 @@ export function ThreadCard({ thread, me }: { thread: Thread; me: number | undefi
           <Button
             size="compact-xs"
             variant="default"
-            onClick={() => void act.resolve(thread.id, !thread.resolved_at).catch(tell)}
+            leftSection={
+              thread.resolved_at ? <RotateCcw size={12} aria-hidden="true" /> : <Check size={12} aria-hidden="true" />
+            }
+            onClick={() => now(act.resolve(thread.id, !thread.resolved_at))}
           >
             {t(thread.resolved_at ? "comments.reopen" : "comments.resolve")}
           </Button>
@@ -49,99 +69,115 @@ export function ThreadCard({ thread, me }: { thread: Thread; me: number | undefi
           <Written key={each.id} comment={each} isMine={me !== undefined && each.author?.id === me} />
         ))}
       </ol>
-      {writes ? <Answer onSend={(words) => act.answer(thread.id, words)} /> : null}
+      {writes ? <Answer thread={thread.id} /> : null}
     </li>
   );
 }
 
+/** A thread that was opened by its pin is brought into sight, with the keyboard. */
+function useInSight(isFirst: boolean) {
+  const card = useRef<HTMLLIElement>(null);
+  useEffect(() => {
+    if (!isFirst) return;
+    card.current?.scrollIntoView({ block: "nearest" });
+    card.current?.focus({ preventScroll: true });
+  }, [isFirst]);
+  return card;
+}
+
 /** A button that opens the form; it closes once the answer is sent, or when it is not wanted. */
-function Answer({ onSend }: { onSend: (words: WordsToWrite) => Promise<unknown> }) {
+function Answer({ thread }: { thread: string }) {
   const { t } = useTranslation();
+  const { act } = useActs();
   const [opened, setOpened] = useState(false);
+  if (opened)
+    return (
+      <CommentForm
+        label={t("comments.answer")}
+        send={t("comments.send")}
+        onSend={(words) => act.answer(thread, words)}
+        onDone={() => setOpened(false)}
+      />
+    );
   return (
-    <div className={classes.answer}>
-      {opened ? (
-        <CommentForm
-          label={t("comments.answer")}
-          send={t("comments.send")}
-          focused
-          onSend={onSend}
-          onDone={() => setOpened(false)}
-        />
-      ) : null}
-      <Button size="compact-xs" variant="subtle" aria-expanded={opened} onClick={() => setOpened(!opened)}>
-        {t(opened ? "comments.cancel" : "comments.send")}
+    <div className={classes.acts}>
+      <Button size="compact-xs" variant="subtle" onClick={() => setOpened(true)}>
+        {t("comments.send")}
       </Button>
     </div>
   );
 }
 
-function About({ thread, about }: { thread: Thread; about: string }) {
+function AboutLine({ thread, about }: { thread: Thread; about: string }) {
   const { t } = useTranslation();
-  const { anchor, stands } = thread;
-  const step = anchor.kind === "construct" && anchor.root === "steps" && stands ? anchor.id : null;
-  if (step)
+  const open = useOpenProgram();
+  const step = stepOf(open, thread);
+  if (step !== null)
     return (
-      <button type="button" className={classes.about} onClick={() => select([step])}>
+      <button
+        type="button"
+        className={classes.about}
+        onClick={() => {
+          select([step]);
+          showSteps(open, [step]);
+        }}
+      >
         {about}
       </button>
     );
   return (
     <span className={classes.about}>
       {about}
-      {stands ? null : <em> {t("comments.deleted")}</em>}
+      {standsNow(open, thread) ? null : <em> {t("comments.deleted")}</em>}
     </span>
   );
 }
 
 function Written({ comment, isMine }: { comment: Comment; isMine: boolean }) {
   const { t } = useTranslation();
-  const { program, site } = useOpenProgram();
-  const act = useCommenting(program.id);
+  const { site } = useOpenProgram();
+  const { act, now } = useActs();
   const [edits, setEdits] = useState(false);
-  const writes = mayComment(site.role);
-  return (
-    <li className={classes.comment}>
-      <p className={classes.who}>
-        <b>{comment.author?.name ?? t("comments.nobody")}</b> {formatMoment(comment.written_at)}
-        {comment.edited_at ? ` · ${t("comments.edited")}` : null}
-      </p>
-      {edits ? (
+  const edit = isMine && mayComment(site.role);
+  if (edits)
+    return (
+      <li>
         <CommentForm
           label={t("comments.edit")}
           send={t("comments.save")}
-          first={comment}
-          focused
+          first={comment.text}
           onSend={(words) => act.edit(comment.id, words)}
           onDone={() => setEdits(false)}
         />
-      ) : (
-        <>
-          <p className={classes.text}>{comment.text}</p>
-          <Mentioned ids={comment.mentions} />
-        </>
-      )}
-      <div className={classes.acts}>
-        {isMine && writes ? (
-          <Button size="compact-xs" variant="subtle" onClick={() => setEdits(!edits)}>
-            {t(edits ? "comments.cancel" : "comments.edit")}
+      </li>
+    );
+  return (
+    <li>
+      <div className={classes.who}>
+        <b>{comment.author?.name ?? t("comments.nobody")}</b> {formatMoment(comment.written_at)}
+        {comment.edited_at ? ` · ${t("comments.edited")}` : null}
+        {edit ? (
+          <Button size="compact-xs" variant="subtle" onClick={() => setEdits(true)}>
+            {t("comments.edit")}
           </Button>
         ) : null}
-        {(isMine && writes) || site.role === "admin" ? (
-          <Button size="compact-xs" variant="subtle" onClick={() => void act.remove(comment.id).catch(tell)}>
+        {edit || site.role === "admin" ? (
+          <Button size="compact-xs" variant="subtle" onClick={() => now(act.remove(comment.id))}>
             {t("comments.delete")}
           </Button>
         ) : null}
       </div>
+      <p className={classes.text}>
+        {piecesOf(comment.text, comment.mentions).map(({ text, person }, at) =>
+          person ? (
+            <b key={at} className={classes.named}>
+              {text}
+            </b>
+          ) : (
+            text
+          ),
+        )}
+      </p>
     </li>
   );
-}
-
-function Mentioned({ ids }: { ids: readonly number[] }) {
-  const { t, i18n } = useTranslation();
-  const people = usePeopleToMention(useOpenProgram().program.id).data ?? [];
-  const names = people.flatMap((each) => (each && ids.includes(each.id) ? [each.name] : []));
-  if (names.length === 0) return null;
-  const list = new Intl.ListFormat(i18n.language, { type: "conjunction" }).format(names);
-  return <p className={classes.who}>{t("comments.mentioned", { names: list })}</p>;
 }

@@ -2,10 +2,19 @@ import { expect, test } from "vitest";
 import type { Thread } from "@/api/types";
 import { countUnread, filterThreads } from "./threads";
 
+const named = (id: number) => ({ id, name: "Ann", initials: "A" });
+
 function thread(id: string, changes: Partial<Thread> = {}, mentions: number[] = []): Thread {
   const anchor = { kind: "program" as const, root: null, id: null, to: null, x: null, y: null };
   const at = "2026-01-02T03:04:00Z";
-  const comment = { id: `${id}-1`, author: null, text: "Why?", mentions, written_at: at, edited_at: null };
+  const comment = {
+    id: `${id}-1`,
+    author: null,
+    text: "Why?",
+    mentions: mentions.map(named),
+    written_at: at,
+    edited_at: null,
+  };
   return {
     id,
     anchor,

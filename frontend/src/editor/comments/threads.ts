@@ -3,6 +3,7 @@ import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { Thread, ThreadToStart, WordsToWrite } from "@/api/types";
+import type { Named } from "./mentions";
 
 export const FILTERS = ["open", "mine", "resolved"] as const;
 export type Filter = (typeof FILTERS)[number];
@@ -12,10 +13,11 @@ const pathOf = (program: string) => `/programs/${program}`;
 export const useThreads = (program: string) =>
   useQuery({ queryKey: keys.threads(program), queryFn: () => api.get<Thread[]>(`${pathOf(program)}/threads`) });
 
+/** Whom one may mention; asked for by whoever writes alone. */
 export const usePeopleToMention = (program: string) =>
   useQuery({
     queryKey: keys.peopleToMention(program),
-    queryFn: () => api.get<Thread["comments"][number]["author"][]>(`${pathOf(program)}/people`),
+    queryFn: () => api.get<Named[]>(`${pathOf(program)}/people`),
   });
 
 /** What one does in a program's threads; all is read anew after each. */
@@ -48,6 +50,6 @@ export function filterThreads(threads: readonly Thread[], filter: Filter, me: nu
   return threads.filter((thread) => {
     if (filter === "resolved") return thread.resolved_at !== null;
     if (filter === "open") return thread.resolved_at === null;
-    return thread.comments.some((each) => me !== undefined && each.mentions.includes(me));
+    return thread.comments.some((each) => me !== undefined && each.mentions.some(({ id }) => id === me));
   });
 }

@@ -10,7 +10,7 @@ import pytest
 from django.test import Client
 
 from editor import services
-from editor.comments.threads import RATE
+from editor.comments.threads import MOST_COMMENTS, MOST_IN_THREAD, MOST_THREADS, RATE
 from editor.models import Comment, CommentThread
 from registry import services as registry
 from registry.models import AuditLine
@@ -108,9 +108,12 @@ def test_a_thread_on_a_deleted_step_says_so_and_stays(program: str) -> None:
 def test_members_alone_are_mentioned(program: str) -> None:
     stranger, author = add_person("stranger"), find_person("author")
     assert start(program, mentions=[stranger.pk]).json()["code"] == "bad_request"
-    assert start(program, mentions=[author.pk]).json()["comments"][0]["mentions"] == [author.pk]
+    mentioned = {"id": author.pk, "name": "Author Person", "initials": "AP"}
+    assert start(program, mentions=[author.pk]).json()["comments"][0]["mentions"] == [mentioned]
+    registry.remove_member(site="hall", email=author.email)
+    assert threads(program, "viewer")[0]["comments"][0]["mentions"] == [mentioned]
     people = signed_in("commenter").get(f"/api/programs/{program}/people").json()
-    assert [each["name"] for each in people] == ["Admin Person", "Author Person", "Commenter Person", "Viewer Person"]
+    assert [each["name"] for each in people] == ["Admin Person", "Commenter Person", "Viewer Person"]
 
 
 def test_who_writes_too_fast_is_told_to_wait(program: str) -> None:
@@ -124,8 +127,29 @@ def test_who_writes_too_fast_is_told_to_wait(program: str) -> None:
     assert start(program, "author").status_code == 201
 
 
+def test_a_program_and_a_thread_hold_so_many_and_the_refusal_says_how_many(program: str) -> None:
+    begun = start(program).json()
+    thread = CommentThread.objects.get(pk=begun["id"])
+    answers = f"{program}/threads/{thread.pk}/comments"
+    then = datetime(2026, 1, 2, tzinfo=UTC)
+
+    def fill(of: CommentThread, count: int) -> None:
+        Comment.objects.bulk_create(Comment(thread=of, text="!", written_at=then) for _ in range(count))
+
+    fill(thread, MOST_IN_THREAD - 1)
+    refused = send("post", signed_in("author"), answers, {"text": "One more"})
+    assert (refused.status_code, str(MOST_IN_THREAD) in refused.json()["detail"]) == (429, True)
+    another = {"program": thread.program, "anchor": {"kind": "program"}, "started_at": then, "last_at": then}
+    CommentThread.objects.bulk_create(CommentThread(**another) for _ in range(MOST_THREADS - 1))
+    refused = start(program)
+    assert (refused.status_code, str(MOST_THREADS) in refused.json()["detail"]) == (429, True)
+    fill(CommentThread.objects.exclude(pk=thread.pk)[0], MOST_COMMENTS - MOST_IN_THREAD)
+    refused = send("post", signed_in("author"), answers, {"text": "One more"})
+    assert (refused.status_code, str(MOST_COMMENTS) in refused.json()["detail"]) == (429, True)
+
+
 def test_an_empty_or_endless_comment_is_refused(program: str) -> None:
-    assert [start(program, text=text).status_code for text in ("", "  \n", "a" * 4001)] == [422, 422, 422]
+    assert [start(program, text=text).status_code for text in ("", "  \n", "a" * 2001)] == [422, 422, 422]
 
 
 def test_comments_go_with_their_program_and_stay_when_their_writer_leaves(program: str) -> None:
