@@ -1,7 +1,7 @@
 /** Pins on the map at what has open comments; a press opens the threads, as read, or comes nearer to what lies close. */
-import { useEffect, useMemo, useRef, useState } from "react";
+import { useReactFlow, useStore, useStoreApi } from "@xyflow/react";
+import { useEffect, useMemo, useRef } from "react";
 import { useTranslation } from "react-i18next";
-import { useStage } from "@/program/canvas/stageContext";
 import { showSteps } from "../commands/view";
 import { useOpenProgram, type OpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";
@@ -25,12 +25,12 @@ function Pins() {
   const open = useOpenProgram();
   const { program, document, scene } = open;
   const threads = useThreads(program.id).data;
-  const level = useLevel();
+  const level = useStore((flow) => levelOf(flow.transform[2]));
+  const flow = useReactFlow();
   const resting = useUi((ui) => ui.gesture.tool === "select");
   const pins = useMemo(() => pinsOf(threads ?? [], { document, scene }), [threads, document, scene]);
   const gathered = useMemo(() => gatherPins(pins, level), [pins, level]);
   const plane = useOwnSize();
-  const { viewport } = useStage();
   const { t } = useTranslation();
   const act = useCommenting(program.id);
   const byId = new Map((threads ?? []).map((thread) => [thread.id, thread]));
@@ -52,7 +52,7 @@ function Pins() {
           aria-label={nameOf(pin)}
           title={nameOf(pin)}
           onClick={() => {
-            if (press(open, pin, viewport.get().zoom)) void Promise.allSettled(unreadOf(pin).map(act.markRead));
+            if (press(open, pin, flow.getZoom())) void Promise.allSettled(unreadOf(pin).map(act.markRead));
           }}
         >
           {pin.threads.length}
@@ -72,31 +72,19 @@ function press(open: OpenProgram, pin: Pin, zoom: number): boolean {
   return true;
 }
 
-/** The zoom, in few steps. */
-function useLevel(): number {
-  const { viewport } = useStage();
-  const [level, setLevel] = useState(() => levelOf(viewport.get().zoom));
-  useEffect(() => {
-    const look = () => setLevel(levelOf(viewport.get().zoom));
-    look();
-    return viewport.subscribe(look);
-  }, [viewport]);
-  return level;
-}
-
 /** Pins lie in the map's plane and are moved by it; that they keep their own size is told to them all at once. */
 function useOwnSize() {
-  const { viewport } = useStage();
+  const store = useStoreApi();
   const element = useRef<HTMLDivElement>(null);
   useEffect(() => {
     let told = 0;
     const tell = () => {
-      const { zoom } = viewport.get();
+      const [, , zoom] = store.getState().transform;
       if (zoom !== told) element.current?.style.setProperty("--out", String(1 / zoom));
       told = zoom;
     };
     tell();
-    return viewport.subscribe(tell);
-  }, [viewport]);
+    return store.subscribe(tell);
+  }, [store]);
   return element;
 }
