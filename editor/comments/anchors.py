@@ -37,6 +37,11 @@ def find_missing(anchor: Anchor) -> str:
     return ""
 
 
+def is_drawn(kind: str) -> bool:
+    """Tell whether things of this kind are in the document, and so may be deleted from it."""
+    return kind in ("construct", "arrow")
+
+
 def stands_in(anchor: Anchor, document: Mapping[str, Any]) -> bool:
     """Tell whether what a thread is about is in this document; places and the program itself always are."""
     if anchor.kind == "construct":

@@ -19,7 +19,7 @@ from registry.services import PersonView
 from registry.shapes import refuses, signed_in
 
 router = Router(tags=["editor"])
-_BOUNDED, _MAY_BE_ANOTHERS = refuses(429), refuses(409)
+_BOUNDED, _MAY_BE_ANOTHERS = refuses(409, 429), refuses(409)
 
 
 @router.get("/programs/{program}/threads", response=list[ThreadShape])

@@ -16,7 +16,7 @@ from django.contrib.auth import get_user_model
 from django.db import transaction
 from django.db.models import Prefetch
 
-from editor.comments.anchors import Anchor, anchor_to_json, find_missing, stands_in
+from editor.comments.anchors import Anchor, anchor_to_json, find_missing, is_drawn, stands_in
 from editor.documents.store import get_document
 from editor.errors import BadRequest, DocumentHole, EditorError, NoSuchProgram
 from editor.models import Comment, CommentThread, Program, ThreadReading
@@ -30,10 +30,18 @@ _GONE = "There is no such comment here. It may have been deleted."
 
 
 class TooManyComments(EditorError):
-    """Somebody writes faster than people do, or there is no room for more."""
+    """Somebody writes faster than people do."""
 
     code = "too_many_comments"
     status = 429
+    retry_after_s = 60
+
+
+class CommentsFull(EditorError):
+    """There is no room for more: `why` is `threads`, `thread` or `program`, with `most`."""
+
+    code = "comments_full"
+    status = 409
 
 
 class NotTheirs(EditorError):
@@ -86,20 +94,21 @@ def list_threads(*, program: UUID, user: Any) -> tuple[ThreadView, ...]:
     rows = list(_threads_of(program).order_by("-last_at", "pk"))
     readings = ThreadReading.objects.filter(thread__program=program, person=user)
     read_to = dict(readings.values_list("thread_id", "read_to"))
-    document = _read_document(program) if rows else {}
+    document = _read_document(program) if any(is_drawn(row.anchor["kind"]) for row in rows) else {}
     people = _people_in(rows)
     return tuple(_view(row, document, people, user, read_to.get(row.pk)) for row in rows)
 
 
 def start_thread(*, program: UUID, user: Any, anchor: Anchor, label: str, words: Words, now: datetime) -> ThreadView:
-    """Begin a thread. Raises BadRequest, TooManyComments."""
+    """Begin a thread. Raises BadRequest, TooManyComments, CommentsFull."""
     if missing := find_missing(anchor):
         raise BadRequest(missing)
     if not stands_in(anchor, _read_document(program)):
-        raise BadRequest("What this comment is about is not in the program. It may have been deleted: choose again.")
+        gone = "What this comment is about is not in the program. It may have been deleted: choose again."
+        raise BadRequest(gone, {"why": "not_drawn"})
     with _writing(program, user, now) as site:
         if CommentThread.objects.filter(program=program).count() >= MOST_THREADS:
-            raise TooManyComments(f"A program has at most {MOST_THREADS} threads. Delete some that are resolved.")
+            raise _full("threads", MOST_THREADS, "A program has at most {} threads. Delete some that are resolved.")
         thread = CommentThread.objects.create(
             program_id=program, anchor=anchor_to_json(anchor), label=label, started_at=now, last_at=now
         )
@@ -108,11 +117,11 @@ def start_thread(*, program: UUID, user: Any, anchor: Anchor, label: str, words:
 
 
 def answer_thread(*, program: UUID, thread: UUID, user: Any, words: Words, now: datetime) -> ThreadView:
-    """Write an answer into a thread. Raises NoSuchProgram, BadRequest, TooManyComments."""
+    """Write an answer into a thread. Raises NoSuchProgram, BadRequest, TooManyComments, CommentsFull."""
     row = _find(program, thread)
     with _writing(program, user, now) as site:
         if row.comments.count() >= MOST_IN_THREAD:
-            raise TooManyComments(f"A thread has at most {MOST_IN_THREAD} comments. Begin another one.")
+            raise _full("thread", MOST_IN_THREAD, "A thread has at most {} comments. Begin another one.")
         _write(row, user, words, now, site)
         CommentThread.objects.filter(pk=row.pk).update(last_at=now)
     return get_thread(program=program, thread=thread, user=user)
@@ -177,9 +186,10 @@ def _writing(program: UUID, user: Any, now: datetime) -> Iterator[str]:
             raise NoSuchProgram(_GONE)
         lately = Comment.objects.filter(author=user, written_at__gt=now - RATE_OVER)
         if lately.count() >= RATE:
-            raise TooManyComments(f"You have written {RATE} comments within a minute. Go on in a minute.")
+            detail = f"You have written {RATE} comments within a minute. Go on in a minute."
+            raise TooManyComments(detail, {"why": "rate", "most": RATE})
         if Comment.objects.filter(thread__program=program).count() >= MOST_COMMENTS:
-            raise TooManyComments(f"A program has at most {MOST_COMMENTS} comments. Delete some that are resolved.")
+            raise _full("program", MOST_COMMENTS, "A program has at most {} comments. Delete some that are resolved.")
         _tell(held)
         yield held.site.slug
 
@@ -190,11 +200,16 @@ def _write(thread: CommentThread, user: Any, words: Words, now: datetime, site: 
     ThreadReading.objects.update_or_create(thread=thread, person=user, defaults={"read_to": now})
 
 
+def _full(why: str, most: int, detail: str) -> CommentsFull:
+    return CommentsFull(detail.format(most), {"why": why, "most": most})
+
+
 def _checked(mentions: Iterable[int], site: str) -> list[int]:
     wanted = sorted(set(mentions))
     known = {person.id for person in registry.list_people(site=site)}
     if not known.issuperset(wanted):
-        raise BadRequest("Somebody whom this comment mentions is no member of the site. Leave them out.")
+        detail = "Somebody whom this comment mentions is no member of the site. Leave them out."
+        raise BadRequest(detail, {"why": "no_member"})
     return wanted
 
 

@@ -40,7 +40,10 @@ def pins(page: Page, word: str = "open thread") -> Locator:
 def shoot(page: Page, name: str) -> None:
     """Keep a picture where somebody wants to look at one."""
     if folder := os.environ.get("VIPO_PICTURES"):
-        page.screenshot(path=f"{folder}/{name}.png")
+        for width, height in ((820, 1180), (1600, 1000)):
+            page.set_viewport_size({"width": width, "height": height})
+            page.wait_for_timeout(400)
+            page.screenshot(path=f"{folder}/{name}-{width}.png")
 
 
 def test_a_comment_on_a_step_has_a_pin_and_is_answered_and_resolved_while_both_look(

@@ -28,7 +28,11 @@ export function CommentForm({ label, send, first = "", onSend, onDone }: Comment
   const [busy, setBusy] = useState(false);
   const [refused, setRefused] = useState<string | null>(null);
   const field = useRef<HTMLTextAreaElement>(null);
-  useEffect(() => field.current?.focus(), []);
+  const form = useRef<HTMLFormElement>(null);
+  useEffect(() => {
+    field.current?.focus();
+    form.current?.scrollIntoView({ block: "nearest" });
+  }, []);
   const empty = text.trim() === "";
   const submit = async () => {
     if (empty || busy) return;
@@ -43,6 +47,7 @@ export function CommentForm({ label, send, first = "", onSend, onDone }: Comment
   };
   return (
     <form
+      ref={form}
       className={classes.form}
       onSubmit={(event) => {
         event.preventDefault();

@@ -90,10 +90,19 @@ function CommentsTab() {
   const { t } = useTranslation();
   const unread = countUnread(useThreads(program.id).data ?? []);
   const icon = <MessageSquare size={15} aria-hidden="true" />;
-  return <Tab tab="comments" icon={icon} label={t("comments.title")} count={unread} />;
+  return <Tab tab="comments" icon={icon} label={t("comments.title")} count={unread} tone="news" />;
 }
 
-function Tab({ tab, icon, label, count = 0 }: { tab: DrawerTab; icon: ReactNode; label: string; count?: number }) {
+interface TabProps {
+  tab: DrawerTab;
+  icon: ReactNode;
+  label: string;
+  count?: number;
+  /** What is counted: what is wrong, or what is new. */
+  tone?: "wrong" | "news";
+}
+
+function Tab({ tab, icon, label, count = 0, tone = "wrong" }: TabProps) {
   const drawer = useUi((ui) => ui.drawer);
   const chosen = drawer.tab === tab && drawer.open;
   return (
@@ -108,7 +117,11 @@ function Tab({ tab, icon, label, count = 0 }: { tab: DrawerTab; icon: ReactNode;
     >
       {icon}
       {label}
-      {count > 0 ? <span className={classes.count}>{count}</span> : null}
+      {count > 0 ? (
+        <span className={classes.count} data-tone={tone}>
+          {count}
+        </span>
+      ) : null}
     </button>
   );
 }

@@ -123,8 +123,15 @@ def test_who_writes_too_fast_is_told_to_wait(program: str) -> None:
         Comment(thread=thread, author=writer, text="!", written_at=now) for _ in range(RATE - 1)
     )
     refused = start(program)
-    assert (refused.status_code, refused.json()["code"]) == (429, "too_many_comments")
+    assert (refused.status_code, refused.json()["code"], refused["Retry-After"]) == (429, "too_many_comments", "60")
     assert start(program, "author").status_code == 201
+
+
+def why_full(refused: Any) -> tuple[str, int]:
+    told = refused.json()
+    assert (refused.status_code, told["code"]) == (409, "comments_full")
+    assert str(told["args"]["most"]) in told["detail"]
+    return told["args"]["why"], told["args"]["most"]
 
 
 def test_a_program_and_a_thread_hold_so_many_and_the_refusal_says_how_many(program: str) -> None:
@@ -137,15 +144,12 @@ def test_a_program_and_a_thread_hold_so_many_and_the_refusal_says_how_many(progr
         Comment.objects.bulk_create(Comment(thread=of, text="!", written_at=then) for _ in range(count))
 
     fill(thread, MOST_IN_THREAD - 1)
-    refused = send("post", signed_in("author"), answers, {"text": "One more"})
-    assert (refused.status_code, str(MOST_IN_THREAD) in refused.json()["detail"]) == (429, True)
+    assert why_full(send("post", signed_in("author"), answers, {"text": "One more"})) == ("thread", MOST_IN_THREAD)
     another = {"program": thread.program, "anchor": {"kind": "program"}, "started_at": then, "last_at": then}
     CommentThread.objects.bulk_create(CommentThread(**another) for _ in range(MOST_THREADS - 1))
-    refused = start(program)
-    assert (refused.status_code, str(MOST_THREADS) in refused.json()["detail"]) == (429, True)
+    assert why_full(start(program)) == ("threads", MOST_THREADS)
     fill(CommentThread.objects.exclude(pk=thread.pk)[0], MOST_COMMENTS - MOST_IN_THREAD)
-    refused = send("post", signed_in("author"), answers, {"text": "One more"})
-    assert (refused.status_code, str(MOST_COMMENTS) in refused.json()["detail"]) == (429, True)
+    assert why_full(send("post", signed_in("author"), answers, {"text": "One more"})) == ("program", MOST_COMMENTS)
 
 
 def test_an_empty_or_endless_comment_is_refused(program: str) -> None:
