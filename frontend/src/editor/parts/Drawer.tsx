@@ -8,10 +8,9 @@ import {
   PanelBottomClose,
   PanelBottomOpen,
 } from "lucide-react";
-import type { ReactNode } from "react";
+import { lazy, type ReactNode, Suspense } from "react";
 import { IconButton } from "@/design/IconButton";
 import { useTranslation } from "react-i18next";
-import { CommentsPanel } from "../comments/CommentsPanel";
 import { countUnread, useThreads } from "../comments/threads";
 import { useOpenProgram } from "../state/context";
 import { say, showTab, useUi, type DrawerTab } from "../state/ui";
@@ -19,6 +18,10 @@ import classes from "./drawer.module.css";
 import { ProblemsPanel } from "./ProblemsPanel";
 import { ScriptPanel } from "./ScriptPanel";
 import { StepTree } from "./StepTree";
+
+/** Fetched once the program is there. */
+export const loadComments = () => import("../comments/CommentsPanel");
+const CommentsPanel = lazy(async () => ({ default: (await loadComments()).CommentsPanel }));
 
 export function Drawer({ small }: { small: boolean }) {
   const { t, diagnostics } = useOpenProgram();
@@ -75,7 +78,11 @@ function Body({ tab, beside }: { tab: DrawerTab; beside: boolean }) {
       {tab === "script" ? <ScriptPanel /> : null}
       {tab === "problems" ? <ProblemsPanel /> : null}
       {tab === "steps" ? <StepTree /> : null}
-      {tab === "comments" ? <CommentsPanel /> : null}
+      {tab === "comments" ? (
+        <Suspense fallback={null}>
+          <CommentsPanel />
+        </Suspense>
+      ) : null}
       {beside ? (
         <div className={classes.beside}>
           <ProblemsPanel titled />
