@@ -40,10 +40,7 @@ def pins(page: Page, word: str = "open thread") -> Locator:
 def shoot(page: Page, name: str) -> None:
     """Keep a picture where somebody wants to look at one."""
     if folder := os.environ.get("VIPO_PICTURES"):
-        for width, height in ((820, 1180), (1600, 1000)):
-            page.set_viewport_size({"width": width, "height": height})
-            page.wait_for_timeout(400)
-            page.screenshot(path=f"{folder}/{name}-{width}.png")
+        page.screenshot(path=f"{folder}/{name}.png")
 
 
 def test_a_comment_on_a_step_has_a_pin_and_is_answered_and_resolved_while_both_look(
@@ -90,6 +87,12 @@ def test_a_comment_on_a_step_has_a_pin_and_is_answered_and_resolved_while_both_l
     shoot(author, "comments")
     assert violations(page) == []
     assert violations(author) == []
+    author.set_viewport_size({"width": 820, "height": 1180})
+    pins(author).click()
+    thread.get_by_role("button", name="Answer", exact=True).click(trial=True)
+    shoot(author, "comments-small")
+    assert violations(author) == []
+    author.set_viewport_size({"width": 1600, "height": 1000})
 
     chip(author).click()
     author.keyboard.press("Delete")

@@ -1,6 +1,6 @@
 /** What of the comments is on one person's screen: the form that is open, the threads that were opened, the pins. */
 import { create } from "zustand";
-import { showTab } from "../state/ui";
+import { select, showTab } from "../state/ui";
 import type { About } from "./about";
 
 export interface CommentsUi {
@@ -17,13 +17,19 @@ export const useComments = create<CommentsUi>(() => ({ writing: null, opened: []
 /** Open the form of a new thread. */
 export function writeAbout(writing: About): void {
   useComments.setState({ writing });
-  showTab("comments");
+  showComments();
 }
 
 /** Go to threads in the drawer. */
 export function openThreads(opened: readonly string[]): void {
   useComments.setState({ opened });
+  showComments();
+}
+
+/** On small screens the sheet of a selected step would lie over them. */
+function showComments(): void {
   showTab("comments");
+  if (matchMedia("(max-width: 1179px)").matches) select([]);
 }
 
 /** Another program: nothing written, nothing opened; whether pins are shown stays. */
