@@ -56,7 +56,7 @@ DEEDS = (
         "look",
         "viewer",
         "read",
-        """show_review show_review_rule show_function
+        """list_asked_reviews show_review show_review_rule show_function
         show_function_version show_program show_compiled show_document show_script show_version
         list_versions export_version compare_versions wait_until_stored get_rehearsal list_rehearsals get_run
         list_events list_armed get_call list_questions plan_route plan_routes list_runs show_site list_alerts

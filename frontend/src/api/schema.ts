@@ -2470,6 +2470,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/reviews": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Asked Reviews
+         * @description List the versions of the site that wait for the asker's review; none for who may not approve here.
+         */
+        get: operations["list_asked_reviews"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/sparql": {
         parameters: {
             query?: never;
@@ -2862,6 +2882,18 @@ export interface components {
         /** @description Many ways at once. */
         AskRoutes: {
             pairs: components["schemas"]["AskRoute"][];
+        };
+        /** @description A version that waits for the asker's review; `compare_with` is the one before it that was approved last. */
+        AskedReviewShape: {
+            /** Format: date-time */
+            at: string;
+            by: string;
+            compare_with: number | null;
+            note: string;
+            number: number;
+            /** Format: uuid */
+            program: string;
+            program_name: string;
         };
         /** @description Which part of the record is asked for. */
         AuditAsked: {
@@ -11066,6 +11098,45 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_asked_reviews: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AskedReviewShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

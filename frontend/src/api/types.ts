@@ -107,6 +107,7 @@ export type NearMiss = Schemas["Encounter"];
 export type LogLine = Schemas["LogLine"];
 
 export type Review = Schemas["ReviewShape"];
+export type AskedReview = Schemas["AskedReviewShape"];
 export type ReviewRule = Schemas["ReviewRuleShape"];
 
 export type Version = Schemas["VersionShape"];
