@@ -43,6 +43,10 @@ def test_who_may_only_look_changes_nothing(sign_in: SignIn) -> None:
     expect(page.get_by_role("tabpanel").locator(".cm-content")).to_have_attribute("contenteditable", "false")
     keys_do_nothing(page)
     dragging_moves_nothing(page)
+    page.get_by_role("tab", name="Comments").click()
+    comments = page.get_by_role("tabpanel", name="Comments")
+    expect(comments.get_by_text("No open comments.")).to_be_visible()
+    expect(comments.get_by_role("button")).to_have_count(0)
 
 
 def keys_do_nothing(page: Page) -> None:
