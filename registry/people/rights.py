@@ -12,7 +12,7 @@ from typing import Literal
 
 from registry.people.roles import ROLES
 
-Role = Literal["anybody", "person", "maker", "viewer", "operator", "author", "admin"]
+Role = Literal["anybody", "person", "maker", "viewer", "commenter", "operator", "author", "admin"]
 Scope = Literal["anybody", "session", "read", "operate", "run", "admin"]
 
 
@@ -64,10 +64,17 @@ DEEDS = (
         show_robot_map download_robot_pgm download_robot_yaml show_robot_cells show_difference show_rdf show_map
         download_pgm download_yaml show_cells list_map_versions show_place current probe sample current_of_device
         probe_device sample_of_device list_programs ask post_query list_things watch_things show_thing
-        read_expression show_values show_value watch_value await_next_value query_action""",
+        read_expression show_values show_value watch_value await_next_value query_action list_threads
+        show_thread mark_thread_read""",
     ),
     _deed("stop", "viewer", "operate", "press_stop"),
     _deed("own", "viewer", "session", "list_tokens show_token create_token revoke_token list_members leave_site"),
+    _deed(
+        "comment",
+        "commenter",
+        "run",
+        "list_people_to_mention start_thread answer_thread change_thread change_comment delete_comment",
+    ),
     _deed(
         "operate",
         "operator",
