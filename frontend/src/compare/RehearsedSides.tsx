@@ -5,6 +5,7 @@ import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { useMutation } from "@tanstack/react-query";
 import { useOnce } from "@/api/once";
+import { mayOperate } from "@/api/roles";
 import type { Rehearsal, Role } from "@/api/types";
 import { clock } from "@/design/clock";
 import { reasonWords } from "@/i18n/reasons";
@@ -43,7 +44,7 @@ export function RehearsedSides({ program, role, asked, nameOf }: RehearsedProps)
   const { t } = useTranslation();
   const both = useBoth(program, asked);
   const [old, next] = [useFreshRehearsal(both.data?.[0]?.id).data, useFreshRehearsal(both.data?.[1]?.id).data];
-  if (role === "viewer" || asked[0] === asked[1] || asked.includes("0")) return null;
+  if (!mayOperate(role) || asked[0] === asked[1] || asked.includes("0")) return null;
   const waits =
     both.isPending || (both.data !== undefined && ![old, next].every((each) => each && isOver(each.status)));
   return (
