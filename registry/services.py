@@ -89,15 +89,17 @@ from registry.maps.site_maps import (
     MapView,
     NoMap,
     compare_robot_map,
-    create_site_from_map,
+    find_map,
     get_floor_plan,
     get_map,
     get_walls,
     list_map_versions,
+    map_tag,
     restore_map,
     save_map,
     use_robot_map,
 )
+from registry.maps.uploads import MapFiles, create_site_from_map, look_at_upload, read_upload
 from registry.people.access import Access, NotAMember, find_access, list_with_role, require
 from registry.people.keyed_requests import prune_keyed_requests
 from registry.people.open_sessions import drop_expired
@@ -163,6 +165,7 @@ __all__ = [
     "Listed",
     "Login",
     "MapChanged",
+    "MapFiles",
     "MapVersionView",
     "MapView",
     "Measure",
@@ -233,6 +236,7 @@ __all__ = [
     "find_bearer",
     "find_device",
     "find_ended",
+    "find_map",
     "find_member",
     "find_out",
     "find_place",
@@ -279,6 +283,8 @@ __all__ = [
     "list_tokens",
     "list_with_role",
     "listen",
+    "look_at_upload",
+    "map_tag",
     "mark_alert_seen",
     "mark_all_seen",
     "mark_stale",
@@ -301,6 +307,7 @@ __all__ = [
     "read_history",
     "read_time",
     "read_told",
+    "read_upload",
     "readmit_device",
     "reconcile_accounts",
     "record_problem",

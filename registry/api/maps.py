@@ -17,11 +17,14 @@ from registry.people.access import require
 from registry.shapes import MapShape, Origin, sends, signed_in
 
 router = Router(tags=["registry"])
+TAGGED: dict[str, Any] = {
+    "responses": {200: {"headers": {"ETag": {"description": "Names this version.", "schema": {"type": "string"}}}}}
+}
 CELLS, PGM = "application/octet-stream", "image/x-portable-graymap"
 
 
 class MapVersionShape(Schema):
-    """One version of a site's map; `source` is `upload`, `demo`, `robot:<id>`, `version:<number>` or empty."""
+    """One version of a site's map; `source` is `upload`, `picture`, `edit`, `demo`, `robot:…`, `version:…` or empty."""
 
     version: int
     width: int
@@ -68,11 +71,12 @@ class MapDifferenceShape(Schema):
     troubles: list[MapTroubleShape]
 
 
-@router.get("/sites/{slug}/map", response=MapShape)
-def show_map(request: HttpRequest, slug: str) -> dict[str, Any]:
-    """Show a site's map without its cells."""
+@router.get("/sites/{slug}/map", response=MapShape, openapi_extra=TAGGED)
+def show_map(request: HttpRequest, slug: str, response: HttpResponse) -> dict[str, Any]:
+    """Show a site's map without its cells. The ETag is what a change of the map names in If-Match."""
     require(signed_in(request), slug, "viewer")
     found = services.get_map(site=slug)
+    response["ETag"] = services.map_tag(site=slug, version=found.version)
     grid = found.grid
     return {
         "version": found.version,
@@ -96,7 +100,7 @@ def show_cells(request: HttpRequest, slug: str) -> HttpResponse:
     """Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown."""
     require(signed_in(request), slug, "viewer")
     found = services.get_map(site=slug)
-    return _cells(request, f'"{slug}-{found.version}"', found.grid)
+    return _cells(request, services.map_tag(site=slug, version=found.version), found.grid)
 
 
 def _cells(request: HttpRequest, tag: str, grid: Grid) -> HttpResponse:

@@ -149,6 +149,9 @@ def ask(client: Client, method: str, path: str, name: str, ids: dict[str, str]) 
         return client.post(path, "ASK {}", content_type="application/sparql-query")
     if name == "upload_site":
         return client.post(path, {"name": "New", "yaml": SimpleUploadedFile("map.yaml", b"image: a.pgm")})
+    if name in ("upload_map", "look_at_map"):
+        files = {"yaml": SimpleUploadedFile("map.yaml", b"image: a.pgm")}
+        return client.post(path, files, headers={"If-Match": f'"{ids["slug"]}-1"'})
     if method == "get":
         return client.get(path)
     sent = {

@@ -939,7 +939,7 @@ export interface paths {
         put?: never;
         /**
          * Upload Site
-         * @description Make a site from a ROS map; the asker becomes its admin.
+         * @description Make a site, from a ROS map (two files, or one .zip of both) or without a map; the asker becomes its admin.
          */
         post: operations["upload_site"];
         delete?: never;
@@ -1921,7 +1921,7 @@ export interface paths {
         };
         /**
          * Show Map
-         * @description Show a site's map without its cells.
+         * @description Show a site's map without its cells. The ETag is what a change of the map names in If-Match.
          */
         get: operations["show_map"];
         put?: never;
@@ -2012,6 +2012,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/map/look": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Look At Map
+         * @description Show what would change at the site if a map became its own: floor, machines, places and programs.
+         */
+        post: operations["look_at_map"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/map/restore": {
         parameters: {
             query?: never;
@@ -2026,6 +2046,28 @@ export interface paths {
          * @description Use an older version of the site's map again, as a new version. Refused while anything is under way.
          */
         post: operations["restore_map"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/map/upload": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Upload Map
+         * @description Make a ROS map (two files, or one .zip of both) the site's, as a new version; places and devices stay.
+         *
+         *     Refused while anything is under way, and where another map than the named one holds by now.
+         */
+        post: operations["upload_map"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2754,6 +2796,16 @@ export interface components {
             topics: string;
             username: string;
         };
+        /** @description What changes when a map replaces the site's version `replaces` (0: none), in square metres, and for whom. */
+        BroughtMapDifference: {
+            floor_gained_m2: number;
+            floor_lost_m2: number;
+            programs: components["schemas"]["MapTroubleOfPrograms"][];
+            replaces: number;
+            troubles: components["schemas"]["MapTroubleOfDevices"][];
+            walls_gained_m2: number;
+            walls_lost_m2: number;
+        };
         /** @description A method of a device, and its arguments by name. */
         CallMethod: {
             /** @default {} */
@@ -3344,6 +3396,23 @@ export interface components {
             width: number;
         };
         /** @description A machine or place that a map does not suit, and whether it is so only with that map. */
+        MapTroubleOfDevices: {
+            id: string;
+            is_new: boolean;
+            /** @enum {string} */
+            kind: "machine" | "place";
+            name: string;
+            /** @enum {string} */
+            why: "outside" | "walled" | "unreachable";
+        };
+        /** @description A program with steps that would be off the map, or with points in walls to which robots drive. */
+        MapTroubleOfPrograms: {
+            id: string;
+            name: string;
+            points_walled: number;
+            steps_outside: number;
+        };
+        /** @description A machine or place that a map does not suit, and whether it is so only with that map. */
         MapTroubleShape: {
             id: string;
             is_new: boolean;
@@ -3352,7 +3421,7 @@ export interface components {
             /** @enum {string} */
             why: "outside" | "walled" | "unreachable";
         };
-        /** @description One version of a site's map; `source` is `upload`, `demo`, `robot:<id>`, `version:<number>` or empty. */
+        /** @description One version of a site's map; `source` is `upload`, `picture`, `edit`, `demo`, `robot:…`, `version:…` or empty. */
         MapVersionShape: {
             at: string;
             by: string;
@@ -6897,10 +6966,10 @@ export interface operations {
         requestBody: {
             content: {
                 "multipart/form-data": {
+                    archive?: string | null;
                     image?: string | null;
                     name: string;
-                    /** Format: binary */
-                    yaml: string;
+                    yaml?: string | null;
                 };
             };
         };
@@ -9204,6 +9273,8 @@ export interface operations {
             /** @description OK */
             200: {
                 headers: {
+                    /** @description Names this version. */
+                    ETag?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -9395,6 +9466,57 @@ export interface operations {
             };
         };
     };
+    look_at_map: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": {
+                    archive?: string | null;
+                    image?: string | null;
+                    yaml?: string | null;
+                };
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BroughtMapDifference"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     restore_map: {
         parameters: {
             query?: never;
@@ -9430,6 +9552,70 @@ export interface operations {
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
             422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    upload_map: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The ETag of the map that it replaces. */
+                "If-Match"?: string;
+                /** @description `*` where the site has no map yet. */
+                "If-None-Match"?: string;
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": {
+                    archive?: string | null;
+                    image?: string | null;
+                    /**
+                     * @default upload
+                     * @enum {string}
+                     */
+                    source?: "upload" | "picture" | "edit";
+                    yaml?: string | null;
+                };
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChangedMap"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            412: components["responses"]["Refused412"];
+            422: components["responses"]["Refused422"];
+            428: components["responses"]["Refused428"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
