@@ -126,11 +126,17 @@ def use_robot_map(*, site: str, device_id: str, version: int, replaces: int, by:
 
 def restore_map(*, site: str, version: int, replaces: int, by: User) -> MapView:
     """Use an older version of the site's map again, as a new version. Raises NoMap, MapChanged."""
-    row = SiteMap.objects.filter(site=find_site(site), version=version).first()
+    found = get_map_version(site=site, version=version)
+    return save_map(site=site, grid=found.grid, source=f"version:{version}", by=by, replaces=replaces)
+
+
+def get_map_version(*, site: str, version: int) -> MapView:
+    """Return a version of a site's map that is kept. Raises NoMap."""
+    rows = SiteMap.objects.filter(site=find_site(site), version=version)
+    row = rows.values_list("pk", "created_at").first()
     if row is None:
         raise NoMap(f"Version {version} of this site's map is not kept. Choose one of the list.")
-    grid = Grid(row.width, row.height, row.resolution_m, row.origin_x_m, row.origin_y_m, row.cells)
-    return save_map(site=site, grid=grid, source=f"version:{version}", by=by, replaces=replaces)
+    return MapView(site, version, _grid(*row))
 
 
 def save_map(

@@ -96,7 +96,15 @@ def make_one_of_each(slug: str) -> dict[str, str]:
         "call": call.pk,
         "alert_id": DeviceAlert.objects.create(device_id=device, code="offline", first_at=NOW, last_at=NOW).pk,
     }
-    named = {"device_id": device, "device": device, "thing": device, "slug": slug, "site": slug, "number": "1"}
+    named = {
+        "device_id": device,
+        "device": device,
+        "thing": device,
+        "slug": slug,
+        "site": slug,
+        "number": "1",
+        "version": "1",
+    }
     named |= {"name": "jobStatus", "action": "mix", "session": "0"}
     named |= _make_guest(site)
     return {**named, **{name: str(key) for name, key in made.items()}}

@@ -1,5 +1,6 @@
 """A site's map is changed by what a robot has sent, and back: only at rest, in versions, and programs go on."""
 
+import gzip
 import json
 from datetime import UTC, datetime, timedelta
 
@@ -294,3 +295,14 @@ def test_before_a_map_is_saved_it_is_said_which_places_and_programs_it_troubles(
     assert registry.get_map(site=SITE).version == 1
     same = bring(client, PLAN, tag="", path="map/look").json()
     assert (same["programs"], [each for each in same["troubles"] if each["is_new"]]) == ([], [])
+
+
+def test_an_earlier_version_can_be_looked_at(factory):
+    client = sign_in_member("admin", SITE)
+    assert bring(client, walled(7, -8, 7.5, -7.5)).status_code == 201
+    old = f"/api/sites/{SITE}/map/versions/1"
+    shown = client.get(old).json()
+    assert (shown["version"], shown["width"], shown["origin"]["x"]) == (1, PLAN.width, PLAN.origin_x_m)
+    assert gzip.decompress(client.get(f"{old}/cells").content) == PLAN.cells
+    missing = client.get(f"/api/sites/{SITE}/map/versions/9")
+    assert (missing.status_code, missing.json()["code"]) == (404, "no_map")
