@@ -26,8 +26,8 @@ export function useBringMap(slug: string) {
         : { "If-None-Match": "*" };
       return api.upload<{ version: number }>(`/sites/${slug}/map/upload`, form, known);
     },
-    onSettled: async () => {
-      await Promise.all(staleWithSiteMap(slug).map((queryKey) => queries.invalidateQueries({ queryKey })));
+    onSettled: () => {
+      for (const queryKey of staleWithSiteMap(slug)) void queries.invalidateQueries({ queryKey });
     },
   });
 }

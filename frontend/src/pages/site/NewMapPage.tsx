@@ -24,14 +24,14 @@ function NewMap({ site, replaces }: { site: Site; replaces: number }) {
   const bring = useBringMap(site.slug);
   const submit = (event: FormEvent) => {
     event.preventDefault();
-    bring.mutate(
-      { form: choice.makeForm(), source: choice.source, replaces },
-      {
-        onSuccess: ({ version }) => {
-          notifications.show({ message: t("mapEdit.saved", { version }) });
-          void navigate(`/sites/${site.slug}/map`);
-        },
+    const sent = bring.mutateAsync({ form: choice.makeForm(), source: choice.source, replaces });
+    // The page may be loading the new map by then, so this does not hang on what is shown.
+    sent.then(
+      ({ version }) => {
+        notifications.show({ message: t("mapEdit.saved", { version }) });
+        void navigate(`/sites/${site.slug}/map`);
       },
+      () => undefined, // the form shows why
     );
   };
   const problem = bring.isError ? problemText(bring.error, t("shell.problem.screen")) : null;
