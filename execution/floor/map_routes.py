@@ -23,7 +23,7 @@ _TAGS: dict[str, Any] = {
     "parameters": [
         {"in": "header", "name": name, "required": False, "schema": {"type": "string"}, "description": told}
         for name, told in (
-            ("If-Match", "The ETag of the map that it replaces."),
+            ("If-Match", "The ETag of the cells of the map that it replaces."),
             ("If-None-Match", "`*` where the site has no map yet."),
         )
     ],

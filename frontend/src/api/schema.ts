@@ -1921,7 +1921,7 @@ export interface paths {
         };
         /**
          * Show Map
-         * @description Show a site's map without its cells. The ETag is what a change of the map names in If-Match.
+         * @description Show a site's map without its cells.
          */
         get: operations["show_map"];
         put?: never;
@@ -1981,7 +1981,7 @@ export interface paths {
         };
         /**
          * Show Cells
-         * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown.
+         * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown; by its ETag it is replaced.
          */
         get: operations["show_cells"];
         put?: never;
@@ -9321,8 +9321,6 @@ export interface operations {
             /** @description OK */
             200: {
                 headers: {
-                    /** @description Names this version. */
-                    ETag?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -9618,7 +9616,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description The ETag of the map that it replaces. */
+                /** @description The ETag of the cells of the map that it replaces. */
                 "If-Match"?: string;
                 /** @description `*` where the site has no map yet. */
                 "If-None-Match"?: string;

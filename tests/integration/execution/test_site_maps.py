@@ -241,7 +241,7 @@ def bring(client, grid, tag=f'"{SITE}-1"', source="edit", path="map/upload"):
 
 def test_a_map_that_somebody_has_changed_becomes_the_sites_and_is_exact_to_the_cell(factory):
     client = sign_in_member("admin", SITE)
-    assert client.get(f"/api/sites/{SITE}/map")["ETag"] == f'"{SITE}-1"'
+    assert client.get(f"/api/sites/{SITE}/map/cells")["ETag"] == f'"{SITE}-1"'
     changed = walled(7, -8, 7.5, -7.5)
     assert bring(client, changed).json() == {"version": 2}
     assert registry.get_map(site=SITE).grid == changed
