@@ -1981,7 +1981,7 @@ export interface paths {
         };
         /**
          * Show Cells
-         * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown; by its ETag it is replaced.
+         * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown. Its ETag names the version.
          */
         get: operations["show_cells"];
         put?: never;

@@ -17,7 +17,8 @@ from tests.kit.files import ROOT
 
 pytestmark = pytest.mark.browser
 
-ROBOT = "bareRobot"
+ROBOT = "bare-hall.robot"
+"""Where several sites share a server, ids of new ones begin with their site."""
 TEXT = (ROOT / "registry" / "demo" / "devices" / "robot01.ttl").read_text().replace("robot01", ROBOT)
 HEADER = "image: hall.pgm\nresolution: 0.1\norigin: [-4.0, -3.0, 0.0]\n"
 WIDTH, HEIGHT = 80, 60
