@@ -103,7 +103,7 @@ def _measures(grid: Grid) -> dict[str, Any]:
 
 @router.get("/sites/{slug}/map/cells", openapi_extra=sends(CELLS))
 def show_cells(request: HttpRequest, slug: str) -> HttpResponse:
-    """Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown. Its ETag names the version."""
+    """Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown. The ETag is the version's."""
     require(signed_in(request), slug, "viewer")
     found = services.get_map(site=slug)
     return _cells(request, services.map_tag(site=slug, version=found.version), found.grid)

@@ -1981,7 +1981,7 @@ export interface paths {
         };
         /**
          * Show Cells
-         * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown. Its ETag names the version.
+         * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown. The ETag is the version's.
          */
         get: operations["show_cells"];
         put?: never;

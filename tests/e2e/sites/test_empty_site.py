@@ -6,6 +6,7 @@ import json
 import re
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 import paho.mqtt.client as mqtt
 import pytest
@@ -36,15 +37,15 @@ def write_hall(folder: Path) -> list[Path]:
 def come_in(setup: dict[str, Any]) -> mqtt.Client:
     """Connect a robot that stands in the middle of the floor, as its dialog says."""
     client = mqtt.Client(mqtt.CallbackAPIVersion.VERSION2, ROBOT)
-    client.username_pw_set(ROBOT, str(setup["password"]))
-    client.connect(str(setup["host"]), int(setup["port"]))
+    client.username_pw_set(ROBOT, str(setup["credential"]))
+    broker = urlsplit(setup["broker"])
+    client.connect(broker.hostname or "", broker.port or 1883)
     client.loop_start()
-    text = re.sub(r'vipo:site "[^"]*"', f'vipo:site "{setup["site"]}"', TEXT)
-    at = {"location": {"x": 0.0, "y": 0.0, "z": 0.0, "theta": 0.0}}
+    text = TEXT.replace('"painting-factory"', '"bare-hall"').replace("15.78 -11.75", "1.0 1.0")
     for topic, payload in (
         ("desc", text),
         ("presence", '{"s": "online", "boot": 1}'),
-        ("state", json.dumps({"boot": 1, "seq": 1, "done": True, **at})),
+        ("state", json.dumps({"boot": 1, "seq": 1, "done": True, "loc": [1, 1, 0, 0], "props": {"battery": 90}})),
     ):
         client.publish(f"vipo/v1/dev/{ROBOT}/up/{topic}", payload, 1, retain=True).wait_for_publish(20)
     return client

@@ -31,8 +31,7 @@ export function StartCard({ site, otherwise }: { site: Site; otherwise: ReactNod
   const devices = useDevices(site.slug).data ?? [];
   const steps = useSteps(site, map);
   const next = steps?.find((step) => !step.done);
-  // A demo without programs has a card of its own.
-  if (!steps || !next || (next.key === "program" && site.simulated)) return otherwise;
+  if (!steps || !next) return otherwise;
   return (
     <Panel className={styles.begin} aria-labelledby="start">
       <div className={styles.beginText}>
