@@ -19,6 +19,7 @@ from ninja.responses import Status
 from pydantic import ValidationError
 
 from editor import services
+from editor.comments.routes import router as comments_router
 from editor.documents.knowledge import MOST_BYTES as MOST_SNAPSHOT_BYTES
 from editor.programs.access import program_for, require_here
 from editor.programs.views import LibraryView, ProgramView
@@ -46,6 +47,7 @@ from vipo_device.protocol.texts import cleaned, cleaned_json
 
 router = Router(tags=["editor"])
 router.add_router("", versions_router)
+router.add_router("", comments_router)
 router.add_router("", reviews_router)
 
 

@@ -148,6 +148,61 @@ class LibraryUse(models.Model):
         constraints = [models.UniqueConstraint(fields=["function", "program"], name="one_use_per_program")]
 
 
+class CommentThread(models.Model):
+    """A talk beside a program's document: about a construct, an arrow, a place of the map, or the whole program.
+
+    `anchor` says about what, as `editor.comments.anchors` reads it; `label` is what that was called when it began, and
+    stays where the thing is deleted. `last_at` is when somebody last wrote in it.
+    """
+
+    id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
+    program = models.ForeignKey(Program, on_delete=models.CASCADE, related_name="threads")
+    anchor = models.JSONField()
+    label = models.CharField(max_length=120, blank=True)
+    started_at = models.DateTimeField()
+    last_at = models.DateTimeField()
+    resolved_at = models.DateTimeField(null=True)
+    resolved_by = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
+
+    class Meta:
+        """Listed by program, the last written in first."""
+
+        indexes = [models.Index(fields=["program", "-last_at"], name="threads_of_program")]
+
+
+class Comment(models.Model):
+    """What a person wrote in a thread; `mentions` are the ids of those whom it calls."""
+
+    id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
+    thread = models.ForeignKey(CommentThread, on_delete=models.CASCADE, related_name="comments")
+    author = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
+    text = models.TextField()
+    mentions = models.JSONField(default=list)
+    written_at = models.DateTimeField()
+    edited_at = models.DateTimeField(null=True)
+
+    class Meta:
+        """Read in the order in which they were written."""
+
+        indexes = [
+            models.Index(fields=["thread", "written_at"], name="comments_of_thread"),
+            models.Index(fields=["author", "written_at"], name="comments_of_author"),
+        ]
+
+
+class ThreadReading(models.Model):
+    """Up to when a person has read a thread."""
+
+    thread = models.ForeignKey(CommentThread, on_delete=models.CASCADE, related_name="readings")
+    person = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE, related_name="+")
+    read_to = models.DateTimeField()
+
+    class Meta:
+        """One for each person and thread."""
+
+        constraints = [models.UniqueConstraint(fields=["thread", "person"], name="one_reading_per_person")]
+
+
 class ReviewRule(models.Model):
     """How many approvals a site demands before a program may run on its devices (0: none), and who may give them.
 

@@ -128,7 +128,7 @@ from registry.processes.findings import Finding, find_trouble
 from registry.processes.heart import Heart
 from registry.processes.heartbeats import ProcessView, list_processes, prune_processes, read_time
 from registry.sites.invitations import prune_invitations
-from registry.sites.members import remove_member, set_member
+from registry.sites.members import PersonView, list_people, remove_member, set_member
 from registry.sites.quota import set_site_quota
 from registry.sites.sites import (
     create_site,
@@ -181,6 +181,7 @@ __all__ = [
     "NotRetired",
     "Outage",
     "Part",
+    "PersonView",
     "PlaceChange",
     "PlaceView",
     "Places",
@@ -276,6 +277,7 @@ __all__ = [
     "list_heard_sites",
     "list_map_versions",
     "list_open_alerts",
+    "list_people",
     "list_placed",
     "list_places",
     "list_positions",

@@ -151,7 +151,7 @@ def tell_rest(request: HttpRequest, response: HttpResponse, listed: Listed[Any])
     return list(listed)
 
 
-Role = Literal["viewer", "operator", "author", "admin"]
+Role = Literal["viewer", "commenter", "operator", "author", "admin"]
 Kind = Literal["robot", "machine"]
 Lifecycle = Literal["pending", "approved", "retired"]
 Reading = Annotated[Any, Unchecked(bool | int | float | str | None)]

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from datetime import datetime
 from typing import Any, Literal
 from uuid import UUID
 
 from django.db import transaction
+from django.db.models import Max
 
 from editor.documents.store import get_document
 from editor.errors import BadRequest, MayNotReview
@@ -24,6 +26,8 @@ from vipo_device.protocol.texts import find_unfit, normal
 Verdict = Literal["approved", "changes", "withdrawn"]
 WhyNot = Literal["", "role", "own"]
 MOST_NOTE = 500
+MOST_SHOWN = 20
+"""Of so many programs, those that a review was asked for last, a person is told whether it waits for them."""
 MOST_WORDS = 100
 """So often a person may ask and say something about one content; to withdraw is always possible."""
 
@@ -45,6 +49,47 @@ class Review:
     why_not: WhyNot
     errors: int | None = None
     warnings: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class AskedReview:
+    """A version that somebody asked to have reviewed: `compare_with` is the one approved last before it."""
+
+    program_id: UUID
+    program: str
+    number: int
+    compare_with: int | None
+    by: str
+    note: str
+    at: datetime
+
+
+def list_asked(*, site: str, user: Any) -> list[AskedReview]:
+    """Return the versions of a site that wait for a person's review, those asked for last first.
+
+    A version waits for somebody who may approve it until they have said something about it, it is approved, or changes
+    are asked for. Of each program only what was asked last counts.
+    """
+    rule = get_rule(site=site)
+    if user.pk not in reviewers_of(site, rule):
+        return []
+    asked = ReviewEntry.objects.filter(program__site__slug=site, kind=ReviewEntry.Kind.ASKED)
+    newest = asked.values("program_id").annotate(newest=Max("pk")).order_by("-newest")[:MOST_SHOWN]
+    rows = ReviewEntry.objects.filter(pk__in=[row["newest"] for row in newest]).select_related("program")
+    return [_asked(row, site, rule) for row in rows.order_by("-pk") if _waits_for(row, site, rule, user)]
+
+
+def _waits_for(row: ReviewEntry, site: str, rule: Rule, user: Any) -> bool:
+    standing = read_standing(site=site, program_id=row.program_id, digest=row.digest, rule=rule)
+    enough = len(standing.approved) >= max(1, rule.approvals)
+    if enough or standing.objecting or any(word.person == user.pk for word in standing.approved):
+        return False
+    return not _Line(row.program_id, site, rule, row.number).why_not(user)
+
+
+def _asked(row: ReviewEntry, site: str, rule: Rule) -> AskedReview:
+    before = _Line(row.program_id, site, rule, row.number).approved_before()
+    return AskedReview(row.program_id, row.program.name, row.number, before, row.name, row.note, row.at)
 
 
 def show_review(*, program_id: UUID, user: Any, number: int | None = None) -> Review:

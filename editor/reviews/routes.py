@@ -11,6 +11,7 @@ from editor.errors import NeedsPerson
 from editor.programs.access import program_for
 from editor.reviews import reviews, rules
 from editor.reviews.shapes import (
+    AskedReviewShape,
     ReviewRuleShape,
     ReviewShape,
     ReviewToAsk,
@@ -38,6 +39,13 @@ def set_review_rule(request: HttpRequest, slug: str, body: SetReviewRule) -> rul
     """Choose what the site demands from now on; runs that are under way go on."""
     require(request.user, slug, "admin")
     return rules.set_rule(site=slug, rule=rules.Rule(body.approvals, body.least_role))
+
+
+@router.get("/sites/{slug}/reviews", response=list[AskedReviewShape])
+def list_asked_reviews(request: HttpRequest, slug: str) -> list[reviews.AskedReview]:
+    """List the versions of the site that wait for the asker's review; none for who may not approve here."""
+    require(request.user, slug, "viewer")
+    return reviews.list_asked(site=slug, user=signed_in(request))
 
 
 @router.get("/programs/{program}/review", response=ReviewShape, openapi_extra=_MAY_REFUSE)

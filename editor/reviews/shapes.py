@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from datetime import datetime
 from typing import Annotated, Literal
+from uuid import UUID
 
 from ninja import Field, Schema
 from pydantic import Strict
@@ -66,6 +67,18 @@ class ReviewShape(Schema):
     errors: int | None
     warnings: int | None
     history: list[WordShape]
+
+
+class AskedReviewShape(Schema):
+    """A version that waits for the asker's review; `compare_with` is the one before it that was approved last."""
+
+    program: UUID = Field(validation_alias="program_id")
+    program_name: str = Field(validation_alias="program")
+    number: int
+    compare_with: int | None
+    by: str
+    note: str
+    at: datetime
 
 
 class ReviewToAsk(Asked):

@@ -15,7 +15,7 @@ _CODES: dict[Kind, str] = {
     "stops": "stop_pressed stop_reset",
     "devices": """device_asked device_approved device_rejected device_retired device_readmitted device_key_given
         device_key_revoked enrolment_key_renewed""",
-    "programs": """program_deleted review_rule_set review_asked review_approved review_changes
+    "programs": """program_deleted comment_deleted review_rule_set review_asked review_approved review_changes
         review_withdrawn""",
     "map": "map_published place_added place_changed place_removed",
     "sign_in": "sign_in_locked",

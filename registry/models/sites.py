@@ -36,6 +36,7 @@ class Membership(models.Model):
         """Each role may do all that the ones before it may."""
 
         VIEWER = "viewer"
+        COMMENTER = "commenter"
         OPERATOR = "operator"
         AUTHOR = "author"
         ADMIN = "admin"

@@ -22,8 +22,11 @@ if TYPE_CHECKING:
     from django.db.models import QuerySet
 
 SCOPES = ("read", "operate", "run", "admin")
-"""What a token may be for. Each stretches to the role at the same place of ROLES; `read` is part of all others, and
-`admin` has all others in it, but `operate` (devices, stop, alerts) and `run` (programs and runs) stand side by side."""
+"""What a token may be for. `read` is part of all others, and `admin` has all others in it, but `operate` (devices,
+stop, alerts) and `run` (programs and runs) stand side by side."""
+_SCOPE_OF = {"viewer": "read", "commenter": "run", "operator": "operate", "author": "run", "admin": "admin"}
+_STRETCHES_TO = {_SCOPE_OF[role]: role for role in ROLES}
+"""The highest role that a token of each scope stretches to."""
 
 
 class NotAMember(RegistryError):
@@ -66,7 +69,7 @@ class Access:
 
 def scope_of(role: str) -> str:
     """Return the scope that what a role may do needs, where nothing else is said."""
-    return SCOPES[ROLES.index(role)]
+    return _SCOPE_OF[role]
 
 
 def has_not_ended(prefix: str = "") -> Q:
@@ -87,8 +90,8 @@ def access_of(user: User, member: Membership) -> Access:
     """Return the standing of a member: the lesser of their role and of what their token's scopes stretch to."""
     if user.grant is None:
         return Access(member.site_id, member.site.slug, member.role)
-    widest = max(SCOPES.index(scope) for scope in user.grant.scopes | {"read"})
-    role = ROLES[min(widest, ROLES.index(member.role))]
+    widest = max((_STRETCHES_TO[scope] for scope in user.grant.scopes | {"read"}), key=ROLES.index)
+    role = min(widest, member.role, key=ROLES.index)
     return Access(member.site_id, member.site.slug, role, user.grant.scopes)
 
 

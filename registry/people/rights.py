@@ -12,7 +12,7 @@ from typing import Literal
 
 from registry.people.roles import ROLES
 
-Role = Literal["anybody", "person", "maker", "viewer", "operator", "author", "admin"]
+Role = Literal["anybody", "person", "maker", "viewer", "commenter", "operator", "author", "admin"]
 Scope = Literal["anybody", "session", "read", "operate", "run", "admin"]
 
 
@@ -56,7 +56,7 @@ DEEDS = (
         "look",
         "viewer",
         "read",
-        """show_review show_review_rule show_function
+        """list_asked_reviews show_review show_review_rule show_function
         show_function_version show_program show_compiled show_document show_script show_version
         list_versions export_version compare_versions wait_until_stored get_rehearsal list_rehearsals get_run
         list_events list_armed get_call list_questions plan_route plan_routes list_runs show_site list_alerts
@@ -65,10 +65,17 @@ DEEDS = (
         download_pgm download_yaml show_cells list_map_versions show_map_version show_version_cells
         show_place current probe sample current_of_device
         probe_device sample_of_device list_programs ask post_query list_things watch_things show_thing
-        read_expression show_values show_value watch_value await_next_value query_action""",
+        read_expression show_values show_value watch_value await_next_value query_action list_threads
+        show_thread mark_thread_read""",
     ),
     _deed("stop", "viewer", "operate", "press_stop"),
     _deed("own", "viewer", "session", "list_tokens show_token create_token revoke_token list_members leave_site"),
+    _deed(
+        "comment",
+        "commenter",
+        "run",
+        "list_people_to_mention start_thread answer_thread change_thread change_comment delete_comment",
+    ),
     _deed(
         "operate",
         "operator",

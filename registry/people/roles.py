@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-ROLES = ("viewer", "operator", "author", "admin")
+ROLES = ("viewer", "commenter", "operator", "author", "admin")
 
 
 def allows(has: str, role: str) -> bool:

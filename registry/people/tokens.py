@@ -30,8 +30,8 @@ USE_NOTED_EVERY = timedelta(minutes=1)
 KEPT_EXPIRED = timedelta(days=30)
 BROKER = "broker"
 """The scope that lets a token in at the MQTT broker, too; it goes with `read` alone and says nothing of roles."""
-_LEAST_ROLE = {"read": "viewer", "operate": "viewer", "run": "operator", "admin": "admin", BROKER: "viewer"}
-"""Who may give a token which scope; viewers operate nothing but the stop, which everybody may press."""
+_LEAST_ROLE = {"read": "viewer", "operate": "viewer", "run": "commenter", "admin": "admin", BROKER: "viewer"}
+"""Who may give a token which scope; viewers operate nothing but the stop, and commenters' programs write comments."""
 
 
 class InvalidToken(RegistryError):

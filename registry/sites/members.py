@@ -18,7 +18,7 @@ from registry.audit.record import note_act
 from registry.errors import RegistryError
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import ApiToken, Invitation, Membership, Site, User
-from registry.people.access import ROLES, NotAMember, allows, require
+from registry.people.access import ROLES, NotAMember, allows, has_not_ended, require
 from registry.sites.sites import BadName, UnknownPerson, find_site
 
 LONGEST = timedelta(days=3660)
@@ -66,12 +66,28 @@ class MemberView:
 
 
 @dataclass(frozen=True, slots=True)
+class PersonView:
+    """A member as others may see them: by name, without an address."""
+
+    id: int
+    name: str
+    initials: str
+
+
+@dataclass(frozen=True, slots=True)
 class Ending:
     """What ends with somebody's part in a site; `signs_out`: it is their only one, so their sessions end, too."""
 
     tokens: tuple[str, ...]
     invitations: int
     signs_out: bool
+
+
+def list_people(*, site: str) -> tuple[PersonView, ...]:
+    """Return the members of a site whose access has not ended, by name."""
+    rows = Membership.objects.filter(has_not_ended(), site__slug=site, user__is_active=True)
+    found = rows.select_related("user").order_by("user__display_name", "user_id")
+    return tuple(PersonView(row.user.pk, row.user.display_name, row.user.initials) for row in found)
 
 
 def list_members(*, site: str, only: User | None = None) -> tuple[MemberView, ...]:

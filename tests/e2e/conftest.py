@@ -7,6 +7,9 @@ bring their own loop would meet.
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Protocol
@@ -15,6 +18,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, WebError, expect, sync_playwright
 
 from tests.kit.demo import Demo, running_demo
+from tests.kit.files import ROOT
 
 CHROMIUM = "/usr/bin/chromium"
 FLAGS = [
@@ -30,6 +34,23 @@ FLAGS = [
 ]
 PATIENCE_MS = 40_000
 DEVICES = 11
+
+MAKE_MEMBER = """
+import json
+import os
+from django.conf import settings
+from django.contrib.auth import BACKEND_SESSION_KEY, HASH_SESSION_KEY, SESSION_KEY
+from django.contrib.sessions.backends.db import SessionStore
+from registry.models import Membership, Site, User
+role, name = os.environ["ROLE"], os.environ["NAME"]
+user = User.objects.create_user(email=f"{role}@x.example", password="not used here", display_name=name)
+Membership.objects.create(user=user, site=Site.objects.get(slug="painting-factory"), role=role)
+session = SessionStore()
+session[SESSION_KEY], session[HASH_SESSION_KEY] = str(user.pk), user.get_session_auth_hash()
+session[BACKEND_SESSION_KEY] = settings.AUTHENTICATION_BACKENDS[0]
+session.create()
+print(json.dumps({"name": settings.SESSION_COOKIE_NAME, "value": session.session_key}))
+"""
 
 
 class SignIn(Protocol):
@@ -78,6 +99,16 @@ def sign_in_by_form(chromium: Browser, demo: Demo, role: str) -> Any:
     state = context.storage_state()
     context.close()
     return state
+
+
+def make_member(demo: Demo, role: str, name: str) -> Any:
+    """Make somebody with this role at the painting factory; return what their browser keeps of their sign-in."""
+    command = [sys.executable, "manage.py", "shell", "--verbosity", "0", "-c", MAKE_MEMBER]
+    environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state), "ROLE": role, "NAME": name}
+    environment.pop("DJANGO_SETTINGS_MODULE", None)
+    made = subprocess.run(command, cwd=ROOT, env=environment, check=True, capture_output=True, text=True)
+    common = {"domain": "127.0.0.1", "path": "/", "expires": -1, "httpOnly": True, "secure": False, "sameSite": "Lax"}
+    return {"cookies": [{**json.loads(made.stdout), **common}], "origins": []}
 
 
 def wait_for_devices(chromium: Browser, demo: Demo, state: Any) -> None:

@@ -127,7 +127,7 @@ def make_things(page: Page) -> dict[str, str]:
     }
 
 
-WIDE, NARROW = (1600, 1000), (820, 1180)
+WIDE, TABLET, PHONE = (1600, 1000), (820, 1180), (390, 844)
 MOVED = """() => Promise.allSettled(
     document.getAnimations()
         .filter((each) => each.playState === "running" && each.effect.getTiming().iterations !== Infinity)
@@ -135,28 +135,29 @@ MOVED = """() => Promise.allSettled(
 )"""
 
 
-@pytest.mark.parametrize(("sizes", "dark", "language"), [((WIDE, NARROW), False, "en"), ((NARROW, WIDE), True, "de")])
+@pytest.mark.parametrize(
+    ("sizes", "dark", "language"), [((WIDE, TABLET), False, "en"), ((TABLET, WIDE, PHONE), True, "de")]
+)
 def test_every_screen_is_sound(
     sign_in: SignIn,
     faults: list[str],
     things: dict[str, str],
-    sizes: tuple[tuple[int, int], tuple[int, int]],
+    sizes: tuple[tuple[int, int], ...],
     dark: bool,
     language: str,
 ) -> None:
-    """Each screen is loaded at one size and then taken to the other; each size is the first one in one language."""
+    """Each screen is loaded at one size and then taken to the others; wide and tablet are the first in one language."""
     found: list[str] = []
     every = screens(sign_in("author"), things)
-    (width, height), _ = sizes
+    width, height = sizes[0]
     page = sign_in("author", width=width, height=height, dark=dark, language=language)
     for screen in every:
         resize(page, *sizes[0])
         page.goto(re.sub(r"(https?://[^/]+).*", r"\1", page.url) + screen.path)
         expect(page.locator(screen.ready).first).to_be_visible(timeout=60_000)
-        found += [f"{screen.name} at {sizes[0]}: {fault}" for fault in look_over(page, language)]
-        resize(page, *sizes[1])
-        expect(page.locator(screen.ready).first).to_be_visible(timeout=60_000)
-        found += [f"{screen.name} at {sizes[1]}: {fault}" for fault in look_over(page, language)]
+        for size in sizes:
+            resize(page, *size)
+            found += [f"{screen.name} at {size}: {fault}" for fault in look_over(page, language)]
         found += [f"{screen.name}: {fault}" for fault in faults]
         faults.clear()
     assert not found, "\n".join(found)
@@ -169,12 +170,19 @@ def resize(page: Page, width: int, height: int) -> None:
     page.evaluate(MOVED)
 
 
+STOP_ALL_CUT = """() => [...document.querySelectorAll('header button[aria-keyshortcuts="Control+Shift+."]')]
+    .map((each) => each.getBoundingClientRect())
+    .some((box) => box.left < 0 || box.top < 0 || box.right > innerWidth || box.bottom > innerHeight)"""
+
+
 def look_over(page: Page, language: str) -> list[str]:
     """What is wrong with a screen, in words."""
     found = []
     overflow = page.evaluate("document.documentElement.scrollWidth - innerWidth")
     if overflow > 0:
         found.append(f"is {overflow} px wider than the window")
+    if page.evaluate(STOP_ALL_CUT):
+        found.append("has a Stop all that is not wholly in the window")
     if page.evaluate("document.documentElement.lang") != language:
         found.append("does not speak the chosen language")
     found += [f"shows the raw key {key}" for key in RAW_KEY.findall(page.locator("body").inner_text())]

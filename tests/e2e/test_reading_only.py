@@ -2,48 +2,23 @@
 
 from __future__ import annotations
 
-import json
-import os
 import re
-import subprocess
-import sys
 from typing import Any
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.e2e.conftest import SignIn
+from tests.e2e.conftest import SignIn, make_member
 from tests.e2e.screens import SITE, ask, chip, the_map
 from tests.kit.demo import Demo
-from tests.kit.files import ROOT
 
 pytestmark = pytest.mark.browser
-
-MAKE_VIEWER = """
-import json
-from django.conf import settings
-from django.contrib.auth import BACKEND_SESSION_KEY, HASH_SESSION_KEY, SESSION_KEY
-from django.contrib.sessions.backends.db import SessionStore
-from registry.models import Membership, Site, User
-user = User.objects.create_user(email="viewer@x.example", password="not used here", display_name="Vera Look")
-Membership.objects.create(user=user, site=Site.objects.get(slug="painting-factory"), role="viewer")
-session = SessionStore()
-session[SESSION_KEY], session[HASH_SESSION_KEY] = str(user.pk), user.get_session_auth_hash()
-session[BACKEND_SESSION_KEY] = settings.AUTHENTICATION_BACKENDS[0]
-session.create()
-print(json.dumps({"name": settings.SESSION_COOKIE_NAME, "value": session.session_key}))
-"""
 
 
 @pytest.fixture(scope="module")
 def viewer(demo: Demo, signed_in: dict[str, Any]) -> None:
     """Somebody who may look at the painting factory, signed in."""
-    command = [sys.executable, "manage.py", "shell", "--verbosity", "0", "-c", MAKE_VIEWER]
-    environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state)}
-    environment.pop("DJANGO_SETTINGS_MODULE", None)
-    made = subprocess.run(command, cwd=ROOT, env=environment, check=True, capture_output=True, text=True)
-    common = {"domain": "127.0.0.1", "path": "/", "expires": -1, "httpOnly": True, "secure": False, "sameSite": "Lax"}
-    signed_in["viewer"] = {"cookies": [{**json.loads(made.stdout), **common}], "origins": []}
+    signed_in["viewer"] = make_member(demo, "viewer", "Vera Look")
 
 
 def open_paint_order(page: Page) -> None:
@@ -68,6 +43,10 @@ def test_who_may_only_look_changes_nothing(sign_in: SignIn) -> None:
     expect(page.get_by_role("tabpanel").locator(".cm-content")).to_have_attribute("contenteditable", "false")
     keys_do_nothing(page)
     dragging_moves_nothing(page)
+    page.get_by_role("tab", name="Comments").click()
+    comments = page.get_by_role("tabpanel", name="Comments")
+    expect(comments.get_by_text("No open comments.")).to_be_visible()
+    expect(comments.get_by_role("button")).to_have_count(0)
 
 
 def keys_do_nothing(page: Page) -> None:

@@ -9,13 +9,14 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from http.cookies import SimpleCookie
 from typing import Any
-from uuid import uuid4
+from uuid import UUID, uuid4
 
 from django.core.files.uploadedfile import SimpleUploadedFile
 from django.db import transaction
 from django.test import Client
 
 from editor import services as editor
+from editor.models import Comment, CommentThread
 from execution.models import Command, DeadLetter, Question, Rehearsal, Run
 from registry import services
 from registry.models import Device, DeviceAlert, Site, User
@@ -30,6 +31,10 @@ ANSWER: dict[str, Any] = {"type": "boolean", "unit": "", "minimum": None, "maxim
 BODIES: dict[str, dict[str, Any]] = {
     "rename_program": {"name": "Other"},
     "arm_program": {"on": False},
+    "start_thread": {"text": "Why so?", "anchor": {"kind": "program"}},
+    "answer_thread": {"text": "So."},
+    "change_thread": {"resolved": True},
+    "change_comment": {"text": "How so?"},
     "read_expression": {"value": None, "step": ""},
     "draw_script": {"text": ""},
     "answer_question": {"value": True},
@@ -83,7 +88,7 @@ def make_one_of_each(slug: str) -> dict[str, str]:
         id=uuid4(), site=site, position=1, device=device, method="mix", by="Me", send_after=NOW, created_at=NOW
     )
     table = services.PlaceChange(name="Table", kind="point", x=1.5, y=1.5)
-    made = {
+    made: dict[str, Any] = {
         "program": program,
         "place_id": services.add_place(site=slug, place=table).id,
         "run": run.pk,
@@ -96,18 +101,17 @@ def make_one_of_each(slug: str) -> dict[str, str]:
         "call": call.pk,
         "alert_id": DeviceAlert.objects.create(device_id=device, code="offline", first_at=NOW, last_at=NOW).pk,
     }
-    named = {
-        "device_id": device,
-        "device": device,
-        "thing": device,
-        "slug": slug,
-        "site": slug,
-        "number": "1",
-        "version": "1",
-    }
-    named |= {"name": "jobStatus", "action": "mix", "session": "0"}
+    made |= _make_comment(program)
+    named = {"device_id": device, "device": device, "thing": device, "slug": slug, "site": slug, "number": "1"}
+    named |= {"version": "1", "name": "jobStatus", "action": "mix", "session": "0"}
     named |= _make_guest(site)
     return {**named, **{name: str(key) for name, key in made.items()}}
+
+
+def _make_comment(program: UUID) -> dict[str, Any]:
+    """Begin a thread in a program, as somebody who has left since."""
+    thread = CommentThread.objects.create(program_id=program, anchor={"kind": "program"}, started_at=NOW, last_at=NOW)
+    return {"thread": thread.pk, "comment": Comment.objects.create(thread=thread, text="Why?", written_at=NOW).pk}
 
 
 def _make_guest(site: Site) -> dict[str, str]:

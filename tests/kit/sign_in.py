@@ -11,8 +11,18 @@ from registry import services
 from registry.models import User
 
 PASSWORD = "correct-horse-9"
-ROLES = ("viewer", "operator", "author", "admin")
+ROLES = ("viewer", "commenter", "operator", "author", "admin")
 EVERYBODY = (*ROLES, "stranger", "nobody")
+
+
+def from_role(least: str) -> tuple[str, ...]:
+    """Return the roles that may do all that this one may."""
+    return ROLES[ROLES.index(least) :]
+
+
+def below_role(least: str) -> tuple[str, ...]:
+    """Return the roles that may not all that this one may."""
+    return ROLES[: ROLES.index(least)]
 
 
 def find_person(name: str) -> User:

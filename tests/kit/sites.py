@@ -36,7 +36,7 @@ ROBOT = replace(MIXER, id="robot1", name="Robot One", kind="robot", device_class
 
 
 def make_hall() -> str:
-    """Make a site with a map, a member of each role (viewer@…, operator@…, author@…, admin@…) and a stranger@…."""
+    """Make a site with a map, a member of each role (viewer@… to admin@…) and a stranger@…."""
     services.create_site(name="Hall", slug="hall")
     for name in ROLES:
         add_person(name, "hall")

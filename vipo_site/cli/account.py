@@ -9,7 +9,7 @@ from vipo_site.cli.terminal import CLEAN, complain, set_up, write
 
 ACCOUNT = "Let somebody sign in, or a program, and give them a role at a site; a new password is printed this once."
 NOTHING = "Name what to change: --site with --role, --sites, or --new-password."
-ROLES = ("viewer", "operator", "author", "admin", "none")
+ROLES = ("viewer", "commenter", "operator", "author", "admin", "none")
 
 
 def add_account_arguments(sub: argparse.ArgumentParser) -> None:

@@ -40,6 +40,8 @@ MADE = {
     "create_program": Place("show_program", (), {"program": "id"}),
     "copy_version": Place("show_program", (), {"program": "id"}),
     "pin_version": Place("show_version", ("program",), {"number": "number"}),
+    "start_thread": Place("show_thread", ("program",), {"thread": "id"}),
+    "answer_thread": Place("show_thread", ("program", "thread"), {}),
     "save_function": Place("show_function_version", (), {"function": "id", "number": "version"}),
     "start_run": Place("get_run", (), {"run": "id"}),
     "start_rehearsal": Place("get_rehearsal", (), {"rehearsal": "id"}),

@@ -55,6 +55,8 @@ export const keys = {
   processes: (slug: string) => ["processes", slug] as const,
   versions: (id: string) => ["versions", id] as const,
   version: (id: string, number: number) => ["version", id, number] as const,
+  threads: (id: string) => ["threads", id] as const,
+  peopleToMention: (id: string) => ["people-to-mention", id] as const,
   comparison: (id: string) => ["comparison", id] as const,
   reviews: ["review"] as const,
   reviewRule: (slug: string) => ["review-rule", slug] as const,

@@ -354,6 +354,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/programs/{program}/comments/{comment}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Delete Comment
+         * @description Delete one's own comment; admins delete any. A thread goes with its last comment.
+         */
+        delete: operations["delete_comment"];
+        options?: never;
+        head?: never;
+        /**
+         * Change Comment
+         * @description Write one's own comment anew; the answer is its thread.
+         */
+        patch: operations["change_comment"];
+        trace?: never;
+    };
     "/api/programs/{program}/comparison": {
         parameters: {
             query?: never;
@@ -432,6 +456,26 @@ export interface paths {
          * @description Read a value that an author writes as one line, or print one for whoever may look.
          */
         post: operations["read_expression"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/people": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List People To Mention
+         * @description List whom a comment may mention: the members of the site by name, without their addresses.
+         */
+        get: operations["list_people_to_mention"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -570,6 +614,94 @@ export interface paths {
          *     The answer is 409 if that takes longer than a few seconds.
          */
         post: operations["wait_until_stored"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/threads": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Threads
+         * @description List a program's threads of comments, the last written in first.
+         */
+        get: operations["list_threads"];
+        put?: never;
+        /**
+         * Start Thread
+         * @description Begin a thread with its first comment; at most 20 comments of a person within a minute.
+         */
+        post: operations["start_thread"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/threads/{thread}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Thread
+         * @description Return a thread with its comments.
+         */
+        get: operations["show_thread"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        /**
+         * Change Thread
+         * @description Mark a thread as resolved, or open it again.
+         */
+        patch: operations["change_thread"];
+        trace?: never;
+    };
+    "/api/programs/{program}/threads/{thread}/comments": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Answer Thread
+         * @description Write an answer into a thread; the answer is the whole thread.
+         */
+        post: operations["answer_thread"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/threads/{thread}/read": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Mark Thread Read
+         * @description Note that the asker has read a thread up to now.
+         */
+        post: operations["mark_thread_read"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2420,6 +2552,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/reviews": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Asked Reviews
+         * @description List the versions of the site that wait for the asker's review; none for who may not approve here.
+         */
+        get: operations["list_asked_reviews"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/sparql": {
         parameters: {
             query?: never;
@@ -2702,6 +2854,30 @@ export interface components {
             limit: number;
             state?: ("open" | "seen" | "over") | null;
         };
+        /** @description What a thread shall be about; see AnchorShape. */
+        AnchorAsked: {
+            id?: string | null;
+            /** @enum {string} */
+            kind: "program" | "construct" | "arrow" | "place";
+            root?: ("steps" | "functions" | "roles" | "parameters" | "zones") | null;
+            to?: string | null;
+            x?: number | null;
+            y?: number | null;
+        };
+        /**
+         * @description What a thread is about: the program, a construct by root and id, an arrow from `id` to `to`, or a place.
+         *
+         *     `x` and `y` are where its pin stood on the map when it began, metres.
+         */
+        AnchorShape: {
+            id: string | null;
+            /** @enum {string} */
+            kind: "program" | "construct" | "arrow" | "place";
+            root: ("steps" | "functions" | "roles" | "parameters" | "zones") | null;
+            to: string | null;
+            x: number | null;
+            y: number | null;
+        };
         /** @description The answer: yes or no, a number, a text, or one of the options. */
         AnswerQuestion: {
             value: boolean | number | string;
@@ -2788,6 +2964,18 @@ export interface components {
         /** @description Many ways at once. */
         AskRoutes: {
             pairs: components["schemas"]["AskRoute"][];
+        };
+        /** @description A version that waits for the asker's review; `compare_with` is the one before it that was approved last. */
+        AskedReviewShape: {
+            /** Format: date-time */
+            at: string;
+            by: string;
+            compare_with: number | null;
+            note: string;
+            number: number;
+            /** Format: uuid */
+            program: string;
+            program_name: string;
         };
         /** @description Which part of the record is asked for. */
         AuditAsked: {
@@ -2908,6 +3096,17 @@ export interface components {
                 [key: string]: unknown;
             }[];
         };
+        /** @description A comment; `mentions` are those whom it calls by `@` and their names. */
+        CommentShape: {
+            author: components["schemas"]["Author"] | null;
+            edited_at: string | null;
+            /** Format: uuid */
+            id: string;
+            mentions: components["schemas"]["Author"][];
+            text: string;
+            /** Format: date-time */
+            written_at: string;
+        };
         /** @description Two sides and how they differ, where both can be read. */
         ComparisonShape: {
             difference: components["schemas"]["DifferenceShape"] | null;
@@ -2985,7 +3184,7 @@ export interface components {
         /** @description Something that people do at a site, and the roles that may. */
         DeedShape: {
             name: string;
-            roles: ("viewer" | "operator" | "author" | "admin")[];
+            roles: ("viewer" | "commenter" | "operator" | "author" | "admin")[];
         };
         /** @description What a library function holds; `functions` are those that it calls. */
         DefinitionShape: {
@@ -3005,7 +3204,7 @@ export interface components {
             email: string;
             password: string;
             /** @enum {string} */
-            role: "viewer" | "operator" | "author" | "admin";
+            role: "viewer" | "commenter" | "operator" | "author" | "admin";
         };
         /** @description A method of a description. */
         DescribedMethod: {
@@ -3271,7 +3470,7 @@ export interface components {
             mine: boolean;
             people: string[];
             /** @enum {string} */
-            role: "viewer" | "operator" | "author" | "admin";
+            role: "viewer" | "commenter" | "operator" | "author" | "admin";
             /** @enum {string} */
             state: "open" | "used_up" | "expired" | "revoked";
             used: number;
@@ -3388,7 +3587,7 @@ export interface components {
             mine: boolean;
             people: string[];
             /** @enum {string} */
-            role: "viewer" | "operator" | "author" | "admin";
+            role: "viewer" | "commenter" | "operator" | "author" | "admin";
             /** @enum {string} */
             state: "open" | "used_up" | "expired" | "revoked";
             used: number;
@@ -3481,7 +3680,7 @@ export interface components {
         /** @description What is to be another; what is left out stays, and `ends_at: null` takes the end of access away. */
         MemberChange: {
             ends_at?: string | null;
-            role?: ("viewer" | "operator" | "author" | "admin") | null;
+            role?: ("viewer" | "commenter" | "operator" | "author" | "admin") | null;
         };
         /** @description A member, and what ends when they are removed. */
         MemberDetail: {
@@ -3496,7 +3695,7 @@ export interface components {
             me: boolean;
             name: string;
             /** @enum {string} */
-            role: "viewer" | "operator" | "author" | "admin";
+            role: "viewer" | "commenter" | "operator" | "author" | "admin";
             seen_at: string | null;
         };
         /**
@@ -3516,7 +3715,7 @@ export interface components {
             me: boolean;
             name: string;
             /** @enum {string} */
-            role: "viewer" | "operator" | "author" | "admin";
+            role: "viewer" | "commenter" | "operator" | "author" | "admin";
             seen_at: string | null;
         };
         /** @description Something a device can be told to do. */
@@ -3549,7 +3748,7 @@ export interface components {
             /** @default  */
             email: string;
             /** @enum {string} */
-            role: "viewer" | "operator" | "author" | "admin";
+            role: "viewer" | "commenter" | "operator" | "author" | "admin";
             /** @default 1 */
             uses: number;
         };
@@ -3590,7 +3789,7 @@ export interface components {
             expires_at: string;
             invited_by: string;
             /** @enum {string} */
-            role: "viewer" | "operator" | "author" | "admin";
+            role: "viewer" | "commenter" | "operator" | "author" | "admin";
             site: string;
             site_name: string;
         };
@@ -4313,7 +4512,7 @@ export interface components {
             pending: number;
             robots: number;
             /** @enum {string} */
-            role: "viewer" | "operator" | "author" | "admin";
+            role: "viewer" | "commenter" | "operator" | "author" | "admin";
             simulated: boolean;
             slug: string;
             stop: components["schemas"]["Stop"];
@@ -4395,6 +4594,34 @@ export interface components {
             active: boolean;
             at: string | null;
             by: string;
+        };
+        /** @description Whether a thread is resolved. */
+        ThreadChange: {
+            resolved: boolean;
+        };
+        /** @description A thread with its comments, the oldest first; `unread` counts those that the asker has not read. */
+        ThreadShape: {
+            anchor: components["schemas"]["AnchorShape"];
+            comments: components["schemas"]["CommentShape"][];
+            /** Format: uuid */
+            id: string;
+            label: string;
+            resolved_at: string | null;
+            resolved_by: components["schemas"]["Author"] | null;
+            /** @description False once what it is about has been deleted from the program. */
+            stands: boolean;
+            /** Format: date-time */
+            started_at: string;
+            unread: number;
+        };
+        /** @description The first comment of a thread; `label` is what people call the thing that it is about. */
+        ThreadToStart: {
+            anchor: components["schemas"]["AnchorAsked"];
+            /** @default  */
+            label: string;
+            /** @default [] */
+            mentions: number[];
+            text: string;
         };
         /** @description A token without its secret; `mine` says whether it is the asker's own. */
         TokenShape: {
@@ -4525,6 +4752,12 @@ export interface components {
         Words: {
             de: string;
             en: string;
+        };
+        /** @description A comment to write; whom it mentions by their ids. */
+        WordsToWrite: {
+            /** @default [] */
+            mentions: number[];
+            text: string;
         };
         /** @description A named area of the map: a polygon in metres, and what it asks of robots. */
         ZoneShape: {
@@ -5488,6 +5721,96 @@ export interface operations {
             };
         };
     };
+    delete_comment: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+                comment: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_comment: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+                comment: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WordsToWrite"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ThreadShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     compare_versions: {
         parameters: {
             query: {
@@ -5694,6 +6017,45 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_people_to_mention: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Author"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
@@ -6101,6 +6463,274 @@ export interface operations {
                 "application/json": components["schemas"]["Seen"];
             };
         };
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_threads: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ThreadShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    start_thread: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ThreadToStart"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ThreadShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_thread: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+                thread: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ThreadShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_thread: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+                thread: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ThreadChange"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ThreadShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    answer_thread: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+                thread: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WordsToWrite"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ThreadShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    mark_thread_read: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+                thread: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
         responses: {
             /** @description No Content */
             204: {
@@ -10780,6 +11410,45 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_asked_reviews: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AskedReviewShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

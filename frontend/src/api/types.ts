@@ -17,6 +17,9 @@ export type Me = Schemas["Me"];
 export type User = Schemas["Person"];
 export type Site = Schemas["SiteShape"];
 export type Role = Site["role"];
+export type Thread = Schemas["ThreadShape"];
+export type ThreadToStart = Schemas["ThreadToStart"];
+export type WordsToWrite = Schemas["WordsToWrite"];
 export type SiteStop = Schemas["Stop"];
 
 export type SiteMapInfo = Schemas["MapShape"];
@@ -104,6 +107,7 @@ export type NearMiss = Schemas["Encounter"];
 export type LogLine = Schemas["LogLine"];
 
 export type Review = Schemas["ReviewShape"];
+export type AskedReview = Schemas["AskedReviewShape"];
 export type ReviewRule = Schemas["ReviewRuleShape"];
 
 export type Version = Schemas["VersionShape"];

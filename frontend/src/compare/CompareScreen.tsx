@@ -18,6 +18,7 @@ import { CompareHead } from "./CompareHead";
 import { CompareMap } from "./CompareMap";
 import styles from "./compare.module.css";
 import { keyOf, neighbour, type Shown, spotOf } from "./marks";
+import { RehearsedSides } from "./RehearsedSides";
 import { ReviewBar } from "./ReviewBar";
 import { RestoreDialog } from "./RestoreDialog";
 import { ScriptDifference } from "./ScriptDifference";
@@ -207,6 +208,15 @@ function Compared(props: ComparedProps) {
           asked={props.asked}
           onSince={(old) => choose({ ...sides, old })}
         />
+        {props.asked ? (
+          <RehearsedSides
+            key={props.asked.join()}
+            program={props.program.id}
+            role={site.role}
+            asked={props.asked}
+            nameOf={(id) => devices.find((device) => device.id === id)?.name ?? id}
+          />
+        ) : null}
       </CompareHead>
       <MapOf {...{ plan, devices, comparison, pictures, choice }} />
       <ChangeList

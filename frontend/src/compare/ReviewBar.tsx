@@ -8,6 +8,7 @@ import { FactList } from "@/design/FactList";
 import { AskForReview } from "@/shell/review/AskForReview";
 import { NoteForm } from "@/shell/review/NoteForm";
 import { factsOf, findingsOf, isReviewed, useReview, useVerdict, type Verdict } from "@/shell/review/review";
+import { mayOperate } from "@/api/roles";
 import type { Review, Role } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
 import styles from "./compare.module.css";
@@ -37,10 +38,10 @@ export function ReviewBar({ program, role, asked, onSince }: BarProps) {
             {t("review.since", { number: since })}
           </Button>
         ) : null}
-        {role === "viewer" || review.may_run || review.why_not === "" ? null : (
+        {!mayOperate(role) || review.may_run || review.why_not === "" ? null : (
           <AskForReview program={program} version={number ?? null} />
         )}
-        {review.number === null || role === "viewer" ? null : (
+        {review.number === null || !mayOperate(role) ? null : (
           <Say key={review.number} program={program} review={review} number={review.number} />
         )}
       </div>

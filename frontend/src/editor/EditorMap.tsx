@@ -30,6 +30,7 @@ import { RouteBends } from "./gestures/RouteBends";
 import { StageAtHand } from "./gestures/StageAtHand";
 import { settle } from "./state/actions";
 import { useGestures } from "./state/gestures";
+import { CommentPins } from "./comments/CommentPins";
 import { Cursors } from "./canvas/Cursors";
 import { DevicePalette } from "./canvas/DevicePalette";
 import { LanePreview } from "./canvas/LanePreview";
@@ -104,6 +105,7 @@ function Plane({ drawing }: { drawing: Drawing }) {
       <PreviewLine from={drawing.from} route={drawing.preview} pointer={drawing.pointer} />
       <RouteBends />
       <ModeMark />
+      <CommentPins />
       <ZoneHandles pointer={drawing.pointer} />
     </>
   );

@@ -4,6 +4,7 @@ import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
 import { useDevices, useMe, useProgram, useSite, useSiteMap } from "@/api/queries";
+import { mayOperate } from "@/api/roles";
 import type { Device, Program, Site, User } from "@/api/types";
 import { activityWords } from "@/i18n/activity";
 import { useSiteLive } from "@/live/site";
@@ -179,7 +180,7 @@ function Loaded({ program, site, devices: live, shared, canEdit, user, openAnew 
       people,
       loaded,
       canEdit: draws,
-      canRun: loaded && site.role !== "viewer",
+      canRun: loaded && mayOperate(site.role),
       apply: (edits: readonly Edit[]) => {
         if (draws) shared.apply(edits);
       },

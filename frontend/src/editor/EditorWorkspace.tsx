@@ -17,7 +17,7 @@ import { EditorMap } from "./EditorMap";
 import { useClipboard } from "./gestures/clipboard";
 import { Inspector, loadPanels } from "./inspector/Inspector";
 import { Dialogs } from "./dialogs/Dialogs";
-import { Drawer } from "./parts/Drawer";
+import { Drawer, loadComments } from "./parts/Drawer";
 import { EditorTop } from "./parts/EditorTop";
 import { NotTaken } from "./parts/NotTaken";
 import { Unopened } from "./parts/Unopened";
@@ -103,7 +103,7 @@ export function EditorWorkspace() {
 
 function useFormsLater(): void {
   useEffect(() => {
-    const fetchAll = () => [loadPanels, loadZoneForm].forEach((load) => void load().catch(() => {}));
+    const fetchAll = () => [loadPanels, loadZoneForm, loadComments].forEach((load) => void load().catch(() => {}));
     const timer = setTimeout(fetchAll, FETCH_AFTER_MS);
     return () => clearTimeout(timer);
   }, []);

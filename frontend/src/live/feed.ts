@@ -91,6 +91,8 @@ export class SiteFeed {
         return;
       case "programs":
         return this.#caches.refresh(keys.programs(this.slug));
+      case "comments":
+        return this.#caches.refresh(keys.threads(message.program));
       case "review":
         this.#caches.refresh(keys.reviewRule(this.slug));
         return this.#caches.refresh(keys.reviews);
@@ -123,9 +125,9 @@ export class SiteFeed {
       keys.armed,
       keys.alerts,
     ].map((key) => key(this.slug) as readonly string[]);
-    const open = ["run", "run-events", "rehearsal", "robot-map", "map-difference", "map-versions"].map((name) => [
-      name,
-    ]);
+    const open = ["threads", "run", "run-events", "rehearsal", "robot-map", "map-difference", "map-versions"].map(
+      (name) => [name],
+    );
     this.#refreshAll([...stale, ...open]);
   }
 

@@ -50,6 +50,7 @@ export type LiveMessage =
   | ({ type: "stop" } & SiteStop)
   | { type: "traffic"; robots: Record<string, RobotTraffic> }
   | { type: "programs" }
+  | { type: "comments"; program: string }
   | { type: "review" }
   | { type: "role"; role: Role }
   | ({ type: "checked" } & CheckedProgram);

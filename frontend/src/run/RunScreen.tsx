@@ -5,6 +5,7 @@ import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
 import { keys, useDevices, useQuestions, useRun, useRunEvents, useSite, useSiteMap } from "@/api/queries";
+import { mayOperate } from "@/api/roles";
 import type { Device, Run, RunEvent, Site } from "@/api/types";
 import { QuestionCard } from "@/shell/questions/QuestionCard";
 import { shownQuestions } from "@/shell/questions/openQuestions";
@@ -145,7 +146,7 @@ function useRunView({ run, site }: LoadedProps) {
   const lines = useMemo(() => stepLines(run.compiled, run.steps), [run.compiled, run.steps]);
   const numberOf = (step: string) => run.compiled.numbers[step] ?? "";
   const nameOf = (id: string) => devices.find((device) => device.id === id)?.name ?? id;
-  const allowed = site !== undefined && site.role !== "viewer";
+  const allowed = site !== undefined && mayOperate(site.role);
   return { run, site, devices, map, events, over, now, selected, setSelected, lines, numberOf, nameOf, allowed };
 }
 

@@ -6,6 +6,7 @@ import { useTranslation } from "react-i18next";
 import { ApiProblem } from "@/api/client";
 import { useOnce } from "@/api/once";
 import { keys, useArmed } from "@/api/queries";
+import { mayOperate } from "@/api/roles";
 import type { ArmedProgram, Role } from "@/api/types";
 
 interface ArmSwitchProps {
@@ -38,7 +39,7 @@ export function ArmSwitch({ site, program, role, stored }: ArmSwitchProps) {
       aria-label={t("run.arm.label")}
       title={armed ? t("run.arm.since", { name: armed.by, version: armed.version }) : t("run.arm.label")}
       checked={armed !== undefined}
-      disabled={arm.isPending || role === undefined || role === "viewer"}
+      disabled={arm.isPending || !mayOperate(role)}
       onChange={(event) => arm.mutate(event.currentTarget.checked)}
     />
   );

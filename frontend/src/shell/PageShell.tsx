@@ -6,6 +6,7 @@ import { ConnectionStrip } from "./ConnectionStrip";
 import { useCurrentSite } from "./currentSite";
 import { FindingsStrip } from "./findings/FindingsStrip";
 import { QuestionsBell } from "./questions/QuestionsBell";
+import { ReviewsBell } from "./review/ReviewsBell";
 import { SideBar } from "./SideBar";
 import { StopAllButton } from "./stop/StopAllButton";
 import styles from "./shell.module.css";
@@ -32,10 +33,11 @@ export function PageShell({ title, chips, actions, detail, children }: PageShell
       <header className={styles.head}>
         <div className={styles.headRow}>
           <h1 className={styles.title}>{title}</h1>
-          {chips}
+          <div className={styles.chips}>{chips}</div>
           <div className={styles.spring} />
-          {actions}
+          <div className={styles.actions}>{actions}</div>
           {slug ? <QuestionsBell slug={slug} /> : null}
+          {slug ? <ReviewsBell slug={slug} /> : null}
           {slug ? <AlertsBell slug={slug} /> : null}
           {slug ? <StopAllButton slug={slug} /> : null}
         </div>

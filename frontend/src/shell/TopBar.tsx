@@ -8,6 +8,7 @@ import { AlertsBell } from "./alerts/AlertsBell";
 import { FindingsStrip } from "./findings/FindingsStrip";
 import { PaletteButton } from "./palette/PaletteButton";
 import { QuestionsBell } from "./questions/QuestionsBell";
+import { ReviewsBell } from "./review/ReviewsBell";
 import { StopAllButton } from "./stop/StopAllButton";
 import styles from "./shell.module.css";
 
@@ -39,12 +40,15 @@ export function TopBar({ site, crumbs, chips, children, presence, actions }: Top
           </nav>
         ) : null}
         {chips ? <div className={styles.group}>{chips}</div> : null}
-        {children}
+        <div className={styles.middle}>{children}</div>
         <div className={styles.spring} />
-        <PaletteButton slug={site} small />
+        <div className={styles.middle}>
+          <PaletteButton slug={site} small />
+        </div>
         {presence ? <div className={styles.presence}>{presence}</div> : null}
-        {actions ? <div className={styles.group}>{actions}</div> : null}
+        {actions ? <div className={`${styles.group} ${styles.last}`}>{actions}</div> : null}
         {site ? <QuestionsBell slug={site} /> : null}
+        {site ? <ReviewsBell slug={site} /> : null}
         {site ? <AlertsBell slug={site} /> : null}
         {site ? <StopAllButton slug={site} /> : null}
       </div>

@@ -8,6 +8,7 @@ import { useDevices, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Rehearsal, RehearsalResult } from "@/api/types";
 import { Crumb, TopBar } from "@/shell/TopBar";
 import { waitWords } from "@/i18n/waits";
+import { useFreshRehearsal } from "@/live/rehearsal";
 import { useSiteLive } from "@/live/site";
 import { MapPane } from "./MapPane";
 import { ResultPanel } from "./ResultPanel";
@@ -16,7 +17,7 @@ import styles from "./SimulationScreen.module.css";
 import { neighbour, segmentsOf, stepStarts } from "./timeline";
 import { Transport, type Marker } from "./Transport";
 import { useMoment } from "./useMoment";
-import { useFreshRehearsal, useStartRehearsal } from "./useRehearsals";
+import { useStartRehearsal } from "./useRehearsals";
 import { WaitingPane } from "./waiting/WaitingPane";
 
 const NO_DEVICES: Device[] = [];

@@ -1,27 +1,12 @@
-/** A rehearsal as it stands, and how it is started and cancelled. */
+/** What of a site is rehearsed, and how a rehearsal is started and cancelled. */
 import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { useEffect } from "react";
 import { useLocation, useNavigate } from "react-router-dom";
 import { api, ApiProblem } from "@/api/client";
 import { useOnce } from "@/api/once";
-import { keys, useRehearsal, useRehearsals } from "@/api/queries";
-import { isOver } from "@/live/messages";
+import { keys, useRehearsals } from "@/api/queries";
 
-const POLL_MS = 1000;
 const LIST_MS = 2000;
-
-/** Ask for the rehearsal again until it is over; the live socket is faster, this holds when it is away. */
-export function useFreshRehearsal(id: string | undefined) {
-  const query = useRehearsal(id);
-  const queries = useQueryClient();
-  const status = query.data?.status;
-  useEffect(() => {
-    if (!id || (status && isOver(status))) return;
-    const timer = setInterval(() => void queries.invalidateQueries({ queryKey: keys.rehearsal(id) }), POLL_MS);
-    return () => clearInterval(timer);
-  }, [id, status, queries]);
-  return query;
-}
 
 /** What of the site is not over, as long as it is looked at: places move whenever any rehearsal ends. */
 export function useOpenRehearsals(site: string | undefined) {

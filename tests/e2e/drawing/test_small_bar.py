@@ -20,7 +20,7 @@ NEVER_OVER = """class Task(object):
     def run(self, ctx):
         self.new_task()
 """
-PARTS = "header > div:first-child > *:not(.visually-hidden)"
+PARTS = "header > div:first-child > *:not(.visually-hidden), header > div:first-child > [class*=middle] > *"
 BOXES = f"""() => [...document.querySelectorAll({PARTS!r})]
     .map((part) => part.getBoundingClientRect()).filter((box) => box.width > 1)
     .map((box) => [Math.round(box.left), Math.round(box.right)])"""

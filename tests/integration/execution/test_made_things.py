@@ -47,6 +47,8 @@ def make_each(client: Client) -> dict[str, Any]:
     code = invitation.json()["link"].rpartition("#")[2]
     grid = demo_floor.grid()
     person = {"code": code, "name": "Nora Lind", "email": "nora@vipo.example", "password": "a-horse-in-the-rain-9"}
+    threads = f"/api/programs/{task}/threads"
+    thread = post_json(client, threads, {"text": "Why wait?", "anchor": {"kind": "program"}})
     return {
         "make_invitation": invitation,
         "join_as_new": post_json(Client(), "/api/invitations/join", person),
@@ -71,6 +73,8 @@ def make_each(client: Client) -> dict[str, Any]:
         "create_program": post_json(client, f"{AT_SITE}/programs", {"name": "New"}),
         "pin_version": post_json(client, f"/api/programs/{task}/versions"),
         "copy_version": post_json(client, f"/api/programs/{task}/versions/1/copy", {"name": "Copy"}),
+        "start_thread": thread,
+        "answer_thread": post_json(client, f"{threads}/{thread.json()['id']}/comments", {"text": "For the paint."}),
         "save_function": post_json(client, f"{AT_SITE}/library", function),
         "start_rehearsal": post_json(client, f"/api/programs/{task}/rehearsals"),
         "call_method": post_json(

@@ -13,7 +13,7 @@ from django.test import Client
 
 from registry import services
 from registry.models import DeviceEvent, Membership, Site, User
-from tests.kit.sign_in import PASSWORD, ROLES, signed_in
+from tests.kit.sign_in import PASSWORD, ROLES, below_role, signed_in
 from tests.kit.sites import MIXER, NOW, come, describe, say
 from vipo_device.descriptions.forms import CONTENT_TYPES, FORMS
 from vipo_device.descriptions.reader import read_description
@@ -141,10 +141,10 @@ def test_only_admins_decide_about_devices(hall: str, method: str, path: str) -> 
     describe()
     address, body = f"/api/sites/hall/devices/mixer1{path}", json.dumps({"name": "Mine"})
     answers = {}
-    for name in ("stranger", "nobody", "viewer", "operator", "author"):
+    for name in ("stranger", "nobody", *below_role("admin")):
         call = getattr(signed_in(name), method)
         answers[name] = call(address, body, content_type="application/json").status_code
-    assert answers == {"stranger": 404, "nobody": 401, "viewer": 403, "operator": 403, "author": 403}
+    assert answers == {"stranger": 404, "nobody": 401, **dict.fromkeys(below_role("admin"), 403)}
     device = services.get_device(site="hall", device_id="mixer1")
     assert (device.lifecycle, device.name) == ("pending", "Mixer One")
     assert getattr(signed_in("admin"), method)(address, body, content_type="application/json").status_code == 200

@@ -1,4 +1,4 @@
-"""Every operation of the API, asked by seven people about what is theirs and what is another site's."""
+"""Every operation of the API, asked by everybody about what is theirs and what is another site's."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tests.kit.api_calls import ask_each, make_one_of_each
 from tests.kit.api_rights import OPERATIONS, RIGHTS
 from tests.kit.sign_in import add_person, find_person, signed_in
 
-SEVEN = {
+ASKERS = {
     "nobody": ("", ""),
     "shed-viewer": ("shed", "viewer"),
     "shed-admin": ("shed", "admin"),
@@ -51,7 +51,7 @@ def own_session(client: Client, person: str) -> str:
 
 def expected(name: str, person: str, site: str) -> int:
     """Return the status with which somebody is refused, by the one table; 0 if they get through."""
-    right, (home, role) = RIGHTS[name], SEVEN[person]
+    right, (home, role) = RIGHTS[name], ASKERS[person]
     if right.role == "anybody":
         return 0
     if person == "nobody":
@@ -74,11 +74,11 @@ def test_every_operation_stands_in_the_table_once() -> None:
 
 
 @pytest.mark.parametrize("site", ["hall", "shed"])
-@pytest.mark.parametrize("person", SEVEN)
-def test_each_of_seven_people_may_do_what_the_table_says_and_nothing_else(
+@pytest.mark.parametrize("person", ASKERS)
+def test_each_person_may_do_what_the_table_says_and_nothing_else(
     sites: dict[str, dict[str, str]], person: str, site: str
 ) -> None:
-    mine = person != "nobody" and SEVEN[person][0] == site
+    mine = person != "nobody" and ASKERS[person][0] == site
     token = token_of(person if mine else "admin" if site == "hall" else "shed-admin", site)
     client, odd, asked = signed_in(person), {}, 0
     named = {**sites[site], "token_id": token, "session": own_session(client, person)}

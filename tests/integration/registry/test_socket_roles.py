@@ -1,4 +1,4 @@
-"""Every socket, stream and address of the directory, opened by seven people for what is theirs and another site's."""
+"""Every socket, stream and address of the directory, opened by everybody for what is theirs and another site's."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from tests.kit.files import ROOT, copy_migrated
 from tests.kit.waiting import wait_for
 from tests.kit.web import Web, environment
 
-SEVEN = {
+ASKERS = {
     "nobody": ("", ""),
     "shed-viewer": ("shed", "viewer"),
     "shed-admin": ("shed", "admin"),
@@ -73,7 +73,7 @@ def plant(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Plant]:
     folder = tmp_path_factory.mktemp("roles")
     copy_migrated(folder / "vipo.sqlite3")
     done = subprocess.run(
-        [sys.executable, "-c", MAKE, json.dumps(SEVEN)],
+        [sys.executable, "-c", MAKE, json.dumps(ASKERS)],
         cwd=ROOT, env=environment(folder, {}), capture_output=True, text=True,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
@@ -88,7 +88,7 @@ def plant(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Plant]:
 
 def expected(right: Right, person: str, site: str) -> int:
     """Return the status with which somebody is refused; 0 if they get through."""
-    home, role = SEVEN[person]
+    home, role = ASKERS[person]
     if right.role == "anybody":
         return 0
     if person == "nobody":
@@ -160,8 +160,8 @@ async def first_word(plant: Plant, address: str, headers: dict[str, str]) -> int
 CODES = {401: 4401, 404: 4404, 0: 0}
 
 
-@pytest.mark.parametrize("person", SEVEN)
-async def test_each_of_seven_people_opens_the_sockets_of_their_site_and_no_other(plant: Plant, person: str) -> None:
+@pytest.mark.parametrize("person", ASKERS)
+async def test_each_person_opens_the_sockets_of_their_site_and_no_other(plant: Plant, person: str) -> None:
     odd = {}
     nowhere = {"slug": "nowhere", "program": str(uuid4())}
     for route, right in SOCKETS.items():
@@ -219,8 +219,8 @@ def opened(client: httpx.Client, path: str) -> int:
         return 0
 
 
-@pytest.mark.parametrize("person", SEVEN)
-def test_each_of_seven_people_opens_the_streams_of_their_site_and_no_other(plant: Plant, person: str) -> None:
+@pytest.mark.parametrize("person", ASKERS)
+def test_each_person_opens_the_streams_of_their_site_and_no_other(plant: Plant, person: str) -> None:
     odd = {}
     paths = {call["operationId"]: path for path, calls in OPERATIONS.items() for call in calls.values()}
     root = f"http://127.0.0.1:{plant.web.port}"
@@ -237,8 +237,8 @@ def test_each_of_seven_people_opens_the_streams_of_their_site_and_no_other(plant
     assert odd == {}
 
 
-@pytest.mark.parametrize("person", SEVEN)
-def test_each_of_seven_people_asks_the_directory_as_the_table_says(plant: Plant, person: str) -> None:
+@pytest.mark.parametrize("person", ASKERS)
+def test_each_person_asks_the_directory_as_the_table_says(plant: Plant, person: str) -> None:
     odd = {}
     root = f"http://127.0.0.1:{plant.web.port}"
     session = {} if person == "nobody" else {"sessionid": plant.web.sessions[person]}

@@ -67,9 +67,11 @@ def test_every_answer_has_a_shape(described):
     assert [key for key, answer in answers.items() if not has_shape(answer)] == [
         ("delete", "/api/me/sessions/{session}", "204"),
         ("delete", "/api/programs/{program}", "204"),
+        ("delete", "/api/programs/{program}/comments/{comment}", "204"),
         ("put", "/api/programs/{program}/document", "204"),
         ("put", "/api/programs/{program}/script", "204"),
         ("post", "/api/programs/{program}/stored", "204"),
+        ("post", "/api/programs/{program}/threads/{thread}/read", "204"),
         ("delete", "/api/sites/{slug}/invitations/{invitation}", "204"),
         ("post", "/api/sites/{slug}/leave", "204"),
         ("delete", "/api/sites/{slug}/places/{place_id}", "204"),

@@ -3,6 +3,7 @@ import { Button, Tooltip } from "@mantine/core";
 import { Play } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
+import { mayOperate } from "@/api/roles";
 import type { Device, DeviceMethod, Site } from "@/api/types";
 import { TryMethod } from "./TryMethod";
 
@@ -12,7 +13,7 @@ function hindrance(
   device: Device,
   method: DeviceMethod,
 ): "onlyOperators" | "inPrograms" | "offline" | null {
-  if (site.role === "viewer") return "onlyOperators";
+  if (!mayOperate(site.role)) return "onlyOperators";
   if (device.kind === "robot" && method.name === "move") return "inPrograms";
   return device.status === "offline" ? "offline" : null;
 }

@@ -1,5 +1,8 @@
 /** Commands about the program as a whole. */
-import { Box, Library, Play, Settings2 } from "lucide-react";
+import { Box, Library, MapPin, MessageSquarePlus, Play, Settings2 } from "lucide-react";
+import { mayComment } from "@/api/roles";
+import { aboutFrom } from "../comments/about";
+import { useComments, writeAbout } from "../comments/commentsUi";
 import { useScreen } from "../state/screen";
 import { select, useUi } from "../state/ui";
 import { command, needsRight, type Command, type WhyNot } from "./command";
@@ -27,6 +30,21 @@ export const PROGRAM_COMMANDS: readonly Command[] = [
     keys: ["Ctrl+Shift+Enter"],
     whyNot: ({ canRun }) => (canRun && useScreen.getState().simulate ? null : "commands.why.no_running"),
     run: () => useScreen.getState().simulate?.(),
+  }),
+  command({
+    id: "comment_on",
+    ...PROGRAM,
+    icon: MessageSquarePlus,
+    keys: ["Shift+C"],
+    menus: ["step", "arrow", "floor"],
+    whyNot: ({ site }) => (mayComment(site.role) ? null : "commands.why.no_comments"),
+    run: (open, on) => writeAbout(aboutFrom(open, on)),
+  }),
+  command({
+    id: "comment_pins",
+    ...PROGRAM,
+    icon: MapPin,
+    run: () => useComments.setState(({ pins }) => ({ pins: !pins })),
   }),
   command({
     id: "library",

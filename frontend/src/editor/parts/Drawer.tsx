@@ -1,13 +1,27 @@
-/** The drawer at the bottom: script, problems, steps. */
-import { Copy, FileCode2, ListTree, OctagonAlert, PanelBottomClose, PanelBottomOpen } from "lucide-react";
-import type { ReactNode } from "react";
+/** The drawer at the bottom: script, problems, steps, comments. */
+import {
+  Copy,
+  FileCode2,
+  ListTree,
+  MessageSquare,
+  OctagonAlert,
+  PanelBottomClose,
+  PanelBottomOpen,
+} from "lucide-react";
+import { lazy, type ReactNode, Suspense } from "react";
 import { IconButton } from "@/design/IconButton";
+import { useTranslation } from "react-i18next";
+import { countUnread, useThreads } from "../comments/threads";
 import { useOpenProgram } from "../state/context";
 import { say, showTab, useUi, type DrawerTab } from "../state/ui";
 import classes from "./drawer.module.css";
 import { ProblemsPanel } from "./ProblemsPanel";
 import { ScriptPanel } from "./ScriptPanel";
 import { StepTree } from "./StepTree";
+
+/** Fetched once the program is there. */
+export const loadComments = () => import("../comments/CommentsPanel");
+const CommentsPanel = lazy(async () => ({ default: (await loadComments()).CommentsPanel }));
 
 export function Drawer({ small }: { small: boolean }) {
   const { t, diagnostics } = useOpenProgram();
@@ -29,6 +43,7 @@ export function Drawer({ small }: { small: boolean }) {
             count={diagnostics.length}
           />
           <Tab tab="steps" icon={<ListTree size={15} aria-hidden="true" />} label={t("drawer.steps")} />
+          <CommentsTab />
         </div>
         <Actions />
       </div>
@@ -63,6 +78,11 @@ function Body({ tab, beside }: { tab: DrawerTab; beside: boolean }) {
       {tab === "script" ? <ScriptPanel /> : null}
       {tab === "problems" ? <ProblemsPanel /> : null}
       {tab === "steps" ? <StepTree /> : null}
+      {tab === "comments" ? (
+        <Suspense fallback={null}>
+          <CommentsPanel />
+        </Suspense>
+      ) : null}
       {beside ? (
         <div className={classes.beside}>
           <ProblemsPanel titled />
@@ -72,7 +92,24 @@ function Body({ tab, beside }: { tab: DrawerTab; beside: boolean }) {
   );
 }
 
-function Tab({ tab, icon, label, count = 0 }: { tab: DrawerTab; icon: ReactNode; label: string; count?: number }) {
+function CommentsTab() {
+  const { program } = useOpenProgram();
+  const { t } = useTranslation();
+  const unread = countUnread(useThreads(program.id).data ?? []);
+  const icon = <MessageSquare size={15} aria-hidden="true" />;
+  return <Tab tab="comments" icon={icon} label={t("comments.title")} count={unread} tone="news" />;
+}
+
+interface TabProps {
+  tab: DrawerTab;
+  icon: ReactNode;
+  label: string;
+  count?: number;
+  /** What is counted: what is wrong, or what is new. */
+  tone?: "wrong" | "news";
+}
+
+function Tab({ tab, icon, label, count = 0, tone = "wrong" }: TabProps) {
   const drawer = useUi((ui) => ui.drawer);
   const chosen = drawer.tab === tab && drawer.open;
   return (
@@ -87,7 +124,11 @@ function Tab({ tab, icon, label, count = 0 }: { tab: DrawerTab; icon: ReactNode;
     >
       {icon}
       {label}
-      {count > 0 ? <span className={classes.count}>{count}</span> : null}
+      {count > 0 ? (
+        <span className={classes.count} data-tone={tone}>
+          {count}
+        </span>
+      ) : null}
     </button>
   );
 }

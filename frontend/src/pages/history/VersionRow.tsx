@@ -5,6 +5,7 @@ import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { useVersion } from "@/api/queries";
+import { mayOperate } from "@/api/roles";
 import type { Program, RunSummary, Site, Version } from "@/api/types";
 import { compareAddress, DRAFT, versionTitle } from "@/compare/sides";
 import { Avatar } from "@/design/Avatar";
@@ -135,7 +136,7 @@ function More({ version, program, site }: RowProps) {
           </IconButton>
         </Menu.Target>
         <Menu.Dropdown>
-          {site.role === "viewer" ? null : (
+          {!mayOperate(site.role) ? null : (
             <Menu.Item leftSection={<Play size={15} />} onClick={() => setAsks("run")}>
               {t("history.run_it", { number: version.number })}
             </Menu.Item>

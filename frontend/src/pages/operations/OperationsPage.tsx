@@ -4,6 +4,7 @@ import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
 import { useFindings, useOperations, useProcesses, useSite } from "@/api/queries";
+import { mayOperate } from "@/api/roles";
 import type { Finding } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { EmptyState } from "@/design/EmptyState";
@@ -99,12 +100,12 @@ function OperationsOfSite({ slug }: { slug: string }) {
         {problem ? (
           <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), operations.refetch()])} />
         ) : null}
-        {role === "viewer" ? (
+        {!mayOperate(role) ? (
           <Panel>
             <EmptyState title={t("operations.notForYou")} />
           </Panel>
         ) : null}
-        {!problem && role !== "viewer" && operations.isPending ? <TableSkeleton /> : null}
+        {!problem && mayOperate(role) && operations.isPending ? <TableSkeleton /> : null}
         <Age at={operations.dataUpdatedAt} />
         {found?.length ? <FindingList findings={found} /> : null}
         {role === "admin" ? <SetAside slug={slug} /> : null}

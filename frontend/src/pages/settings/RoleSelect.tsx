@@ -5,8 +5,14 @@ import type { Role } from "@/api/types";
 import { Chip, type Tone } from "@/design/Chip";
 import styles from "./settings.module.css";
 
-export const ROLES: readonly Role[] = ["viewer", "operator", "author", "admin"];
-const TONES: Record<Role, Tone> = { viewer: "quiet", operator: "busy", author: "machine", admin: "brand" };
+export const ROLES: readonly Role[] = ["viewer", "commenter", "operator", "author", "admin"];
+const TONES: Record<Role, Tone> = {
+  viewer: "quiet",
+  commenter: "quiet",
+  operator: "busy",
+  author: "machine",
+  admin: "brand",
+};
 
 export function RoleChip({ role }: { role: Role }) {
   const { t } = useTranslation();

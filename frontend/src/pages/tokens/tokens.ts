@@ -27,6 +27,7 @@ export function useRevokeToken(slug: string) {
 
 const GIVEN_BY: Record<Role, readonly TokenScope[]> = {
   viewer: ["read", "operate", "broker"],
+  commenter: ["read", "operate", "run", "broker"],
   operator: ["read", "operate", "run", "broker"],
   author: ["read", "operate", "run", "broker"],
   admin: ["read", "operate", "run", "admin", "broker"],

@@ -4,6 +4,7 @@ import { BellOff } from "lucide-react";
 import { useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useDevices } from "@/api/queries";
+import { mayOperate } from "@/api/roles";
 import type { Alert } from "@/api/types";
 import { useNow } from "@/design/useNow";
 import { EmptyState } from "@/design/EmptyState";
@@ -53,7 +54,7 @@ function Rows({ slug, alerts, onLeave, onSeen }: RowsProps) {
           now={now}
           busy={one.isPending}
           onLeave={onLeave}
-          onSeen={role === undefined || role === "viewer" ? undefined : () => see(alert.id)}
+          onSeen={!mayOperate(role) ? undefined : () => see(alert.id)}
         />
       ))}
     </ul>
@@ -67,7 +68,7 @@ function Head({ slug, count }: { slug: string; count: number }) {
   return (
     <div className={styles.head}>
       <h2>{t("alerts.title")}</h2>
-      {role === undefined || role === "viewer" ? null : (
+      {!mayOperate(role) ? null : (
         <Button
           size="compact-sm"
           variant="subtle"

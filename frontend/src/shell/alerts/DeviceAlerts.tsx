@@ -2,6 +2,7 @@
 import { useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useDevices } from "@/api/queries";
+import { mayOperate } from "@/api/roles";
 import type { Alert } from "@/api/types";
 import { useNow } from "@/design/useNow";
 import { StatusGlyph } from "@/design/StatusGlyph";
@@ -60,7 +61,7 @@ function List({ slug, alerts, brief, onSeen }: ListProps) {
   const known = useDevices(slug).data ?? [];
   const { role } = useAlerts(slug);
   const { one } = useMarkSeen(slug);
-  const maySee = role !== undefined && role !== "viewer";
+  const maySee = mayOperate(role);
   const see = (id: number) => {
     one.mutate(id);
     onSeen();

@@ -38,7 +38,7 @@ describe("what is wrong with processes", () => {
 
   it("is told on every screen only when it is grave, and never to viewers", () => {
     expect(gravest([{ ...apart(3), severity: "warning" }, apart(4)])).toEqual([apart(4)]);
-    expect((["viewer", "operator", "author", "admin"] as const).filter(seesOperations)).toHaveLength(3);
+    expect((["viewer", "commenter", "operator", "author", "admin"] as const).filter(seesOperations)).toHaveLength(3);
     expect(seesOperations(undefined)).toBe(false);
   });
 });

@@ -1,11 +1,12 @@
 /** What is wrong with VIPO's own processes, in words, and who is told. */
 import i18next from "i18next";
+import { mayOperate } from "@/api/roles";
 import type { Finding, Role } from "@/api/types";
 import { formatNumber, formatSpan, withUnit } from "@/i18n/format";
 
 /** Operators and whoever may more have the page of operations. */
 export function seesOperations(role: Role | undefined): boolean {
-  return role !== undefined && role !== "viewer";
+  return mayOperate(role);
 }
 
 /** A finding as a sentence in the language of the screen; one that this page does not know yet as the server says it. */

@@ -6,6 +6,7 @@ import { CircleHelp } from "lucide-react";
 import { lazy, Suspense, useEffect } from "react";
 import { useTranslation } from "react-i18next";
 import { useQuestions, useSite } from "@/api/queries";
+import { mayOperate } from "@/api/roles";
 import type { Question } from "@/api/types";
 import { type Notice, useLiveStore } from "@/live/store";
 import styles from "./questions.module.css";
@@ -51,7 +52,7 @@ export function QuestionsBell({ slug }: { slug: string }) {
   const { t } = useTranslation();
   const role = useSite(slug).data?.role;
   const questions = useQuestions(slug).data ?? NONE;
-  const allowed = role !== undefined && role !== "viewer";
+  const allowed = mayOperate(role);
   useToasts(questions, allowed);
   const count = openCount(questions);
   if (count === 0) return null;

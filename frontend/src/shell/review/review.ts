@@ -2,7 +2,7 @@
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
-import type { Review, ReviewRule } from "@/api/types";
+import type { AskedReview, Review, ReviewRule } from "@/api/types";
 import type { Fact } from "@/design/FactList";
 
 export type Verdict = "approved" | "changes" | "withdrawn";
@@ -19,6 +19,18 @@ export const useReview = (program: string, version: number | null | undefined) =
     enabled: version !== undefined,
     staleTime: 0,
   });
+
+/** The versions of the site that wait for this person's review. */
+export const useAskedReviews = (slug: string) =>
+  useQuery({
+    queryKey: [...keys.reviews, "asked", slug],
+    queryFn: () => api.get<AskedReview[]>(`/sites/${encodeURIComponent(slug)}/reviews`),
+  });
+
+/** Where a version is reviewed: beside what was approved before it; the first one beside itself. */
+export function reviewAddress({ program, number, compare_with }: AskedReview): string {
+  return `/programs/${program}/compare?old=${compare_with ?? number}&new=${number}`;
+}
 
 /** Ask for a review; what is drawn now becomes a version first. `before` waits until the server has it. */
 export function useAskForReview(program: string, version: number | null, before?: () => Promise<void>) {

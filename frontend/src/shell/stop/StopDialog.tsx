@@ -2,6 +2,7 @@
 import { Modal } from "@mantine/core";
 import { useTranslation } from "react-i18next";
 import { useDevices } from "@/api/queries";
+import { mayOperate } from "@/api/roles";
 import type { Device, Site } from "@/api/types";
 import { StatusBadge } from "@/design/StatusBadge";
 import { activityWords } from "@/i18n/activity";
@@ -52,7 +53,7 @@ export function StopDialog({ site, opened, busy, onReset, onClose }: StopDialogP
         <p>{at ? t("shell.stop.pressedAt", { who, at: formatMoment(at) }) : t("shell.stop.pressed", { who })}</p>
         <Robots devices={robots} />
         <p className={styles.note}>{t("shell.stop.software")}</p>
-        {site.role === "viewer" ? (
+        {!mayOperate(site.role) ? (
           <p>{t("shell.stop.askOperator")}</p>
         ) : (
           <HoldButton label={t("shell.stop.reset")} hint={t("shell.stop.holdHint")} disabled={busy} onHeld={onReset} />

@@ -3,6 +3,7 @@ import { X } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { ApiProblem } from "@/api/client";
+import { mayOperate } from "@/api/roles";
 import type { RehearsalSummary, Site } from "@/api/types";
 import { IconButton } from "@/design/IconButton";
 import { useCancelRehearsal, useOpenRehearsals } from "../useRehearsals";
@@ -23,7 +24,7 @@ export function OpenRehearsals({ site, except }: { site: Site; except?: string }
           <Row
             key={each.id}
             rehearsal={each}
-            allowed={each.mine || site.role !== "viewer"}
+            allowed={each.mine || mayOperate(site.role)}
             busy={cancel.isPending}
             onCancel={() => cancel.mutate(each.id)}
           />

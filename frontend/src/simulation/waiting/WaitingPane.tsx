@@ -3,6 +3,7 @@ import { Button } from "@mantine/core";
 import { X } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { ApiProblem } from "@/api/client";
+import { mayOperate } from "@/api/roles";
 import type { Program, Rehearsal, Site } from "@/api/types";
 import { reasonWords } from "@/i18n/reasons";
 import { isOver } from "@/live/messages";
@@ -34,7 +35,7 @@ export function WaitingPane({ rehearsal, loading, refusal, site, program, onAgai
       </div>
       {refusal === undefined ? null : <p role="alert">{refusal}</p>}
       {shown ? <Standing rehearsal={shown} site={site} /> : null}
-      {over && site?.role !== "viewer" ? (
+      {over && mayOperate(site?.role) ? (
         <Button onClick={onAgain}>{t(rehearsal ? "simulation.again" : "simulation.start")}</Button>
       ) : null}
       {(over || rehearsal?.status === "queued") && site && program ? (
@@ -97,7 +98,7 @@ function Course({ rehearsal }: { rehearsal: Rehearsal }) {
 function CancelOwn({ rehearsal, site }: { rehearsal: Rehearsal; site?: Site }) {
   const { t } = useTranslation();
   const cancel = useCancelRehearsal(site?.slug);
-  if (!rehearsal.mine && site?.role === "viewer") return null;
+  if (!rehearsal.mine && !mayOperate(site?.role)) return null;
   return (
     <>
       <Button

@@ -11,13 +11,12 @@ import pytest
 from registry import services
 from registry.models import Device, TopicClaim, User
 from registry.services import TopicNotAsked, TopicTaken
-from tests.kit.sign_in import post_json, signed_in
+from tests.kit.sign_in import below_role, post_json, signed_in
 from tests.kit.sites import MIXER, NOW, approve, describe
 from vipo_device.protocol.description import Description, MethodSpec
 
 TOPIC = "plant/mixer1/start"
 WHO: dict[str, Any] = {"site": "hall", "device_id": "mixer1", "by": None, "at": NOW}
-ROLES_BELOW = ("viewer", "operator", "author")
 
 
 def asking(topic: str = TOPIC, device: str = "mixer1", **fields: Any) -> Description:
@@ -103,8 +102,8 @@ def test_only_admins_decide_about_topics(person: Callable[[str], User], what: st
         answer = post_json(signed_in(name), f"/api/sites/hall/devices/mixer1/topics/{what}", {"topic": TOPIC})
         return int(answer.status_code)
 
-    answers = {name: ask(name) for name in ("stranger", "nobody", *ROLES_BELOW)}
-    assert answers == {"stranger": 404, "nobody": 401, **dict.fromkeys(ROLES_BELOW, 403)}
+    answers = {name: ask(name) for name in ("stranger", "nobody", *below_role("admin"))}
+    assert answers == {"stranger": 404, "nobody": 401, **dict.fromkeys(below_role("admin"), 403)}
     assert bool(may_hear()) is (what == "withdraw")
     assert (ask("admin"), ask("admin")) == (200, 409)
     assert bool(may_hear()) is (what == "confirm")

@@ -53,6 +53,7 @@ def test_an_admin_sees_all_members_and_others_see_themselves(hall: str) -> None:
     assert [(member["name"], member["role"], member["me"]) for member in seen] == [
         ("Admin Person", "admin", True),
         ("Author Person", "author", False),
+        ("Commenter Person", "commenter", False),
         ("Operator Person", "operator", False),
         ("Viewer Person", "viewer", False),
     ]

@@ -11,7 +11,7 @@ from django.test import Client
 
 from registry import services
 from registry.models import ApiToken, Device
-from registry.people.access import ROLES, SCOPES
+from registry.people.access import ROLES, SCOPES, NotAllowed
 from tests.kit.api_calls import ask_each, make_one_of_each
 from tests.kit.api_rights import RIGHTS
 from tests.kit.sign_in import find_person
@@ -57,6 +57,25 @@ def test_a_token_does_what_its_scopes_say_and_no_more(ids: dict[str, str], scope
         if not fits:
             odd[name] = (needed, answer.status_code, answer.content[:200])
     assert odd == {}
+
+
+@pytest.mark.parametrize(
+    ("scopes", "role"),
+    [(("read",), "viewer"), (("operate",), "operator"), (("run",), "author"), (("operate", "run"), "author"),
+     (("admin",), "admin")],
+)  # fmt: skip
+def test_a_scope_stretches_to_the_highest_role_whose_deeds_need_it(
+    hall: str, scopes: tuple[str, ...], role: str
+) -> None:
+    client = Client(headers={"Authorization": f"Bearer {make_token(*scopes)}"})
+    assert client.get("/api/sites/hall").json()["role"] == role
+
+
+def test_commenters_give_tokens_for_programs_that_comment_and_viewers_do_not(hall: str) -> None:
+    client = Client(headers={"Authorization": f"Bearer {make_token('run', person='commenter')}"})
+    assert client.get("/api/sites/hall").json()["role"] == "commenter"
+    with pytest.raises(NotAllowed, match="a token for run needs the role commenter"):
+        make_token("run", person="viewer")
 
 
 @pytest.mark.parametrize("role", ROLES[:-1])

@@ -1,5 +1,6 @@
 import { Fragment } from "react";
 import { useTranslation } from "react-i18next";
+import { mayOperate } from "@/api/roles";
 import type { Device, DeviceMethod, MethodParameter, Site } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { TryButton } from "@/device/methods/TryButton";
@@ -71,7 +72,7 @@ export function Methods({ site, device }: { site: Site; device: Device }) {
       ) : (
         <MethodTable site={site} device={device} />
       )}
-      {site.role === "viewer" ? <p className={styles.none}>{t("device.try.onlyOperators")}</p> : null}
+      {!mayOperate(site.role) ? <p className={styles.none}>{t("device.try.onlyOperators")}</p> : null}
     </section>
   );
 }

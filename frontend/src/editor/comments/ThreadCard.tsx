@@ -1,0 +1,183 @@
+/** A thread: what it is about, what was written, and what one may do with it. */
+import { Button } from "@mantine/core";
+import { Check, RotateCcw } from "lucide-react";
+import { useEffect, useRef, useState } from "react";
+import { useTranslation } from "react-i18next";
+import type { Thread } from "@/api/types";
+import { mayComment } from "@/api/roles";
+import { formatMoment } from "@/i18n/format";
+import { problemText } from "@/shell/LoadProblem";
+import { showSteps } from "../commands/view";
+import { useOpenProgram } from "../state/context";
+import { say, select } from "../state/ui";
+import { aboutOf, standsNow, stepOf } from "./about";
+import { CommentForm } from "./CommentForm";
+import classes from "./comments.module.css";
+import { piecesOf } from "./mentions";
+import { useCommenting } from "./threads";
+
+type Comment = Thread["comments"][number];
+
+interface ThreadCardProps {
+  thread: Thread;
+  me: number | undefined;
+  /** It was opened by its pin. */
+  opened: boolean;
+  /** The keyboard goes to it. */
+  isFirst: boolean;
+}
+
+/** What is done in a thread; a refusal is shown for a moment. */
+function useActs() {
+  const { t } = useTranslation();
+  const act = useCommenting(useOpenProgram().program.id);
+  const tell = (problem: unknown) => say(problemText(problem, t("shell.problem.screen")));
+  return { act, now: (done: Promise<unknown>) => void done.catch(tell) };
+}
+
+export function ThreadCard({ thread, me, opened, isFirst }: ThreadCardProps) {
+  const open = useOpenProgram();
+  const { act, now } = useActs();
+  const { t } = useTranslation();
+  const about = aboutOf(open, thread);
+  const card = useInSight(isFirst);
+  const writes = mayComment(open.site.role);
+  return (
+    <li ref={card} className={classes.thread} aria-label={about} tabIndex={-1} data-opened={opened || undefined}>
+      <div className={classes.head}>
+        <AboutLine thread={thread} about={about} />
+        {thread.unread > 0 ? (
+          <Button size="compact-xs" variant="light" onClick={() => now(act.markRead(thread.id))}>
+            {t("comments.markRead", { count: thread.unread })}
+          </Button>
+        ) : null}
+        {writes ? (
+          <Button
+            size="compact-xs"
+            variant="default"
+            leftSection={
+              thread.resolved_at ? <RotateCcw size={12} aria-hidden="true" /> : <Check size={12} aria-hidden="true" />
+            }
+            onClick={() => now(act.resolve(thread.id, !thread.resolved_at))}
+          >
+            {t(thread.resolved_at ? "comments.reopen" : "comments.resolve")}
+          </Button>
+        ) : null}
+      </div>
+      <ol className={classes.comments}>
+        {thread.comments.map((each) => (
+          <Written key={each.id} comment={each} isMine={me !== undefined && each.author?.id === me} />
+        ))}
+      </ol>
+      {writes ? <Answer thread={thread.id} /> : null}
+    </li>
+  );
+}
+
+/** A thread that was opened by its pin is brought into sight, with the keyboard. */
+function useInSight(isFirst: boolean) {
+  const card = useRef<HTMLLIElement>(null);
+  useEffect(() => {
+    if (!isFirst) return;
+    card.current?.scrollIntoView({ block: "nearest" });
+    card.current?.focus({ preventScroll: true });
+  }, [isFirst]);
+  return card;
+}
+
+/** A button that opens the form; it closes once the answer is sent, or when it is not wanted. */
+function Answer({ thread }: { thread: string }) {
+  const { t } = useTranslation();
+  const { act } = useActs();
+  const [opened, setOpened] = useState(false);
+  if (opened)
+    return (
+      <CommentForm
+        label={t("comments.answer")}
+        send={t("comments.send")}
+        onSend={(words) => act.answer(thread, words)}
+        onDone={() => setOpened(false)}
+      />
+    );
+  return (
+    <div className={classes.acts}>
+      <Button size="compact-xs" variant="subtle" onClick={() => setOpened(true)}>
+        {t("comments.send")}
+      </Button>
+    </div>
+  );
+}
+
+function AboutLine({ thread, about }: { thread: Thread; about: string }) {
+  const { t } = useTranslation();
+  const open = useOpenProgram();
+  const step = stepOf(open, thread);
+  if (step !== null)
+    return (
+      <button
+        type="button"
+        className={classes.about}
+        onClick={() => {
+          select([step]);
+          showSteps(open, [step]);
+        }}
+      >
+        {about}
+      </button>
+    );
+  return (
+    <span className={classes.about}>
+      {about}
+      {standsNow(open, thread) ? null : <em> {t("comments.deleted")}</em>}
+    </span>
+  );
+}
+
+function Written({ comment, isMine }: { comment: Comment; isMine: boolean }) {
+  const { t } = useTranslation();
+  const { site } = useOpenProgram();
+  const { act, now } = useActs();
+  const [edits, setEdits] = useState(false);
+  const edit = isMine && mayComment(site.role);
+  if (edits)
+    return (
+      <li>
+        <CommentForm
+          label={t("comments.edit")}
+          send={t("comments.save")}
+          first={comment.text}
+          onSend={(words) => act.edit(comment.id, words)}
+          onDone={() => setEdits(false)}
+        />
+      </li>
+    );
+  return (
+    <li>
+      <div className={classes.who}>
+        <b>{comment.author?.name ?? t("comments.nobody")}</b> {formatMoment(comment.written_at)}
+        {comment.edited_at ? ` · ${t("comments.edited")}` : null}
+        {edit ? (
+          <Button size="compact-xs" variant="subtle" onClick={() => setEdits(true)}>
+            {t("comments.edit")}
+          </Button>
+        ) : null}
+        {edit || site.role === "admin" ? (
+          <Button size="compact-xs" variant="subtle" onClick={() => now(act.remove(comment.id))}>
+            {t("comments.delete")}
+          </Button>
+        ) : null}
+      </div>
+      <p className={classes.text}>
+        {piecesOf(comment.text, comment.mentions).map(({ text, person }, at) =>
+          person ? (
+            <b key={at} className={classes.named}>
+              {text}
+            </b>
+          ) : (
+            text
+          ),
+        )}
+      </p>
+    </li>
+  );
+}
