@@ -13,7 +13,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import ask, saved, tell, violations
+from tests.e2e.screens import ask, opened, saved, tell, violations
 from tests.kit.files import ROOT
 
 pytestmark = pytest.mark.browser
@@ -88,9 +88,11 @@ def test_an_empty_site_comes_to_its_first_program_and_a_change_of_its_map(sign_i
         page.get_by_role("link", name="Home", exact=True).click()
         card.get_by_role("button", name="Draw a program").click()
         expect(page).to_have_url(re.compile("/programs/"))
+        opened(page)
         page.keyboard.press("m")
         page.keyboard.type("Bench")
         page.keyboard.press("Enter")
+        expect(page.get_by_text("Nothing to fix")).to_be_visible()
         saved(page)
         page.get_by_role("button", name="Simulate").click()
         expect(page.get_by_role("region", name="Result")).to_contain_text("Finishes without errors")
