@@ -98,6 +98,7 @@ from registry.maps.site_maps import (
     save_map,
     use_robot_map,
 )
+from registry.maps.zones import ZoneChange, add_zone, change_zone, find_zone, remove_zone
 from registry.people.access import Access, NotAMember, find_access, list_with_role, require
 from registry.people.keyed_requests import prune_keyed_requests
 from registry.people.open_sessions import drop_expired
@@ -134,11 +135,12 @@ from registry.sites.sites import (
     list_places,
     list_sites,
     list_slugs,
+    list_zones,
     save_places,
     set_enrolment_key,
     set_site_stop,
 )
-from registry.sites.views import PlaceView, SiteView, StopView, site_to_json
+from registry.sites.views import PlaceView, SiteView, StopView, ZoneView, site_to_json
 from registry.sparql.queries import QueryAnswer, run_query
 
 __all__ = [
@@ -201,14 +203,18 @@ __all__ = [
     "TokenView",
     "TopicNotAsked",
     "TopicTaken",
+    "ZoneChange",
+    "ZoneView",
     "account_file",
     "acting",
     "add_place",
+    "add_zone",
     "alert_to_json",
     "approve_device",
     "broker_of",
     "change_password",
     "change_place",
+    "change_zone",
     "check_device_password",
     "check_sign_in",
     "close_account",
@@ -239,6 +245,7 @@ __all__ = [
     "find_place",
     "find_trouble",
     "find_unchanged",
+    "find_zone",
     "flush_alerts",
     "flush_samples",
     "forget_attempts",
@@ -280,6 +287,7 @@ __all__ = [
     "list_slugs",
     "list_tokens",
     "list_with_role",
+    "list_zones",
     "listen",
     "mark_alert_seen",
     "mark_all_seen",
@@ -309,6 +317,7 @@ __all__ = [
     "reject_device",
     "remove_member",
     "remove_place",
+    "remove_zone",
     "renew_enrolment_key",
     "reopen_account",
     "require",
