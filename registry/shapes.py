@@ -243,7 +243,7 @@ class PlaceShape(Schema):
 ZoneRule = Literal["keep_out", "slow", "one_at_a_time"]
 
 
-class ZoneShape(Schema):
+class SiteZoneShape(Schema):
     """A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow."""
 
     id: str
@@ -262,7 +262,7 @@ class MapShape(Schema):
     resolution_m: float
     origin: Origin
     places: list[PlaceShape]
-    zones: list[ZoneShape]
+    zones: list[SiteZoneShape]
     walls: list[tuple[float, float, float, float]]
 
 

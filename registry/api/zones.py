@@ -11,7 +11,7 @@ from pydantic import Field
 
 from registry import services
 from registry.people.access import require
-from registry.shapes import Asked, Line, Number, ZoneRule, ZoneShape, signed_in
+from registry.shapes import Asked, Line, Number, SiteZoneShape, ZoneRule, signed_in
 
 router = Router(tags=["registry"])
 Coordinate = Annotated[Number, Field(ge=-1e6, le=1e6)]
@@ -38,7 +38,7 @@ class ZoneEdit(Asked):
     speed_m_s: Speed | None = None
 
 
-@router.post("/sites/{slug}/zones", response={201: ZoneShape})
+@router.post("/sites/{slug}/zones", response={201: SiteZoneShape})
 def add_zone(request: HttpRequest, slug: str, body: NewZone) -> dict[str, Any]:
     """Make a zone on a site's map. Robots heed it from then on, those under way, too."""
     require(signed_in(request), slug, "admin")
@@ -47,14 +47,14 @@ def add_zone(request: HttpRequest, slug: str, body: NewZone) -> dict[str, Any]:
     return asdict(services.add_zone(site=slug, zone_id=zone_id, zone=services.ZoneChange(**values)))
 
 
-@router.get("/sites/{slug}/zones/{zone_id}", response=ZoneShape)
+@router.get("/sites/{slug}/zones/{zone_id}", response=SiteZoneShape)
 def show_zone(request: HttpRequest, slug: str, zone_id: str) -> dict[str, Any]:
     """Show a zone of a site's map."""
     require(signed_in(request), slug, "viewer")
     return asdict(services.find_zone(site=slug, zone_id=zone_id))
 
 
-@router.patch("/sites/{slug}/zones/{zone_id}", response=ZoneShape)
+@router.patch("/sites/{slug}/zones/{zone_id}", response=SiteZoneShape)
 def edit_zone(request: HttpRequest, slug: str, zone_id: str, body: ZoneEdit) -> dict[str, Any]:
     """Change a zone: robots heed it as it is from then on, those under way, too."""
     require(signed_in(request), slug, "admin")

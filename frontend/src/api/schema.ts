@@ -3589,7 +3589,7 @@ export interface components {
                 number
             ][];
             width: number;
-            zones: components["schemas"]["ZoneShape"][];
+            zones: components["schemas"]["SiteZoneShape"][];
         };
         /** @description A machine or place that a map does not suit, and whether it is so only with that map. */
         MapTroubleShape: {
@@ -4461,6 +4461,18 @@ export interface components {
             simulated: boolean;
             slug: string;
             stop: components["schemas"]["Stop"];
+        };
+        /** @description A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow. */
+        SiteZoneShape: {
+            id: string;
+            name: string;
+            points: [
+                number,
+                number
+            ][];
+            /** @enum {string} */
+            rule: "keep_out" | "slow" | "one_at_a_time";
+            speed_m_s: number | null;
         };
         /** @description Metres. */
         SizeShape: {
@@ -11852,7 +11864,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ZoneShape"];
+                    "application/json": components["schemas"]["SiteZoneShape"];
                 };
             };
             400: components["responses"]["Refused400"];
@@ -11893,7 +11905,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ZoneShape"];
+                    "application/json": components["schemas"]["SiteZoneShape"];
                 };
             };
             400: components["responses"]["Refused400"];
@@ -11982,7 +11994,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ZoneShape"];
+                    "application/json": components["schemas"]["SiteZoneShape"];
                 };
             };
             400: components["responses"]["Refused400"];

@@ -12,6 +12,15 @@ export interface MapPlace {
   readonly label?: readonly [number, number] | null;
 }
 
+/** An area of the floor with a rule for all robots; metres, metres a second. */
+export interface MapZone {
+  readonly id: string;
+  readonly name: string;
+  readonly rule: "keep_out" | "slow" | "one_at_a_time";
+  readonly points: readonly Point[];
+  readonly speed_m_s: number | null;
+}
+
 /** One version of a site's map; `cells` row by row from the bottom row: 0 free, 100 wall, 255 unknown. */
 export interface FloorPlan {
   readonly version: number;
@@ -20,6 +29,7 @@ export interface FloorPlan {
   readonly resolution_m: number;
   readonly origin: { readonly x: number; readonly y: number };
   readonly places: readonly MapPlace[];
+  readonly zones?: readonly MapZone[];
   readonly cells: Uint8Array;
 }
 
