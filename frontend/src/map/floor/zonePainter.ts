@@ -5,7 +5,8 @@ import type { MapZone } from "./floor";
 
 export interface ZoneSign {
   readonly zone: MapZone;
-  readonly words: string;
+  /** Its rule and name, and its rule alone where there is no room for both. */
+  readonly words: readonly [string, string];
   readonly outline: Path2D;
   readonly box: Box;
 }
@@ -30,7 +31,7 @@ const FONT = "600 11.5px 'Inter Variable', Inter, sans-serif";
 const WORDS_FROM = 0.45;
 const TAG = { height: 22, pad: 7, icon: 14, gap: 5, inset: 5 };
 
-export function zoneSign(zone: MapZone, words: string): ZoneSign {
+export function zoneSign(zone: MapZone, words: ZoneSign["words"]): ZoneSign {
   const corners = zone.points.map(toPixels);
   const outline = new Path2D();
   corners.forEach(({ x, y }, index) => (index === 0 ? outline.moveTo(x, y) : outline.lineTo(x, y)));
@@ -82,8 +83,11 @@ export function paintZoneTags(canvas: Canvas, palette: Palette, signs: readonly 
 }
 
 function paintTag(canvas: Canvas, palette: Palette, { zone, words, box }: ZoneSign): void {
-  const width = 2 * TAG.pad + TAG.icon + TAG.gap + canvas.measureText(words).width;
-  const left = box.right - box.left > width + 2 * TAG.inset ? box.left + TAG.inset : (box.left + box.right - width) / 2;
+  const room = box.right - box.left - 2 * TAG.inset;
+  const widthOf = (text: string) => 2 * TAG.pad + TAG.icon + TAG.gap + canvas.measureText(text).width;
+  const said = widthOf(words[0]) <= room ? words[0] : words[1];
+  const width = widthOf(said);
+  const left = width <= room ? box.left + TAG.inset : (box.left + box.right - width) / 2;
   const top = Math.max(box.top + TAG.inset, box.bottom - TAG.height - TAG.inset);
   const line = palette[LOOKS[zone.rule].line];
   canvas.fillStyle = palette.panel;
@@ -97,7 +101,7 @@ function paintTag(canvas: Canvas, palette: Palette, { zone, words, box }: ZoneSi
   canvas.lineWidth = 1.5;
   canvas.stroke(iconOf(zone.rule, left + TAG.pad + TAG.icon / 2, middle));
   canvas.fillStyle = palette.text;
-  canvas.fillText(words, left + TAG.pad + TAG.icon + TAG.gap, middle + 0.5);
+  canvas.fillText(said, left + TAG.pad + TAG.icon + TAG.gap, middle + 0.5);
 }
 
 /** A barred circle, a dial, one head: what each rule says without words. */

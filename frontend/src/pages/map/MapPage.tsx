@@ -66,6 +66,8 @@ function ModeButtons({ mode, change }: { mode: Mode | null; change: (mode: Mode 
       <Button
         key={each.mode}
         variant={isOn ? "filled" : "default"}
+        classNames={{ label: styles.actionLabel ?? "", section: styles.actionIcon ?? "" }}
+        title={t(isOn ? each.end : each.begin)}
         leftSection={<Icon size={16} aria-hidden="true" />}
         onClick={() => change(isOn ? null : each.mode)}
       >

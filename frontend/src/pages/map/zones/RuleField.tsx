@@ -20,7 +20,7 @@ export function RuleField({ rule, speed, change }: RuleFieldProps) {
   const choose = (next: ZoneRule) => change(next, next === "slow" ? (speed ?? USUAL_SPEED_M_S) : null);
   return (
     <>
-      <Radio.Group label={t("zone.rule")} value={rule} onChange={(next) => choose(next as ZoneRule)}>
+      <Radio.Group label={t("zone.rule")} value={rule} onChange={(next) => choose(next)}>
         <div className={styles.adding}>
           {ZONE_RULES.map((each) => (
             <Radio key={each} value={each} label={t(`zone.rules.${each}`)} description={t(`zone.means.${each}`)} />

@@ -6,7 +6,9 @@ import { useTranslation } from "react-i18next";
 import type { MapZone, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { formatNumber, withUnit } from "@/i18n/format";
+import { ruleWords } from "@/map/floor/zoneWords";
 import styles from "../places/places.module.css";
+import own from "./zones.module.css";
 import { areaOf } from "./outline";
 import { RemoveZone } from "./RemoveZone";
 import type { ZoneEditing } from "./useZones";
@@ -65,23 +67,19 @@ function Adding({ editing }: { editing: ZoneEditing }) {
 
 function Row({ zone, editing }: { zone: MapZone; editing: ZoneEditing | null }) {
   const { t } = useTranslation();
-  const rule =
-    zone.rule === "slow"
-      ? t("zone.atMost", { speed: withUnit(formatNumber(zone.speed_m_s ?? 0, 2), "m/s") })
-      : t(`zone.rules.${zone.rule}`);
   const words = (
     <>
       <span>{zone.name}</span>
-      <Chip>{rule}</Chip>
+      <Chip>{ruleWords(zone, t)}</Chip>
       <code>{withUnit(formatNumber(areaOf(zone.points), 1), "m²")}</code>
     </>
   );
-  if (!editing) return <div className={styles.row}>{words}</div>;
+  if (!editing) return <div className={`${styles.row} ${own.row}`}>{words}</div>;
   const isOpen = editing.zone?.id === zone.id;
   return (
     <button
       type="button"
-      className={styles.row}
+      className={`${styles.row} ${own.row}`}
       aria-expanded={isOpen}
       onClick={() => editing.select(isOpen ? null : zone.id)}
     >
