@@ -119,3 +119,23 @@ export function cellAt(plan: FloorPlan, point: Point): number {
   if (column < 0 || row < 0 || column >= plan.width || row >= plan.height) return 255;
   return plan.cells[row * plan.width + column] ?? 255;
 }
+
+const marks = new WeakMap<FloorPlan, string>();
+
+/** Differs whenever robots may drive over another floor: another map, or other zones to keep out of. */
+export function floorMark(plan: FloorPlan | null | undefined): string | undefined {
+  if (!plan) return undefined;
+  const known = marks.get(plan);
+  if (known !== undefined) return known;
+  const closed = (plan.zones ?? []).filter(({ rule }) => rule === "keep_out").map(({ points }) => points);
+  const mark = String(plan.version) + (closed.length > 0 ? `-${hashOf(JSON.stringify(closed))}` : "");
+  marks.set(plan, mark);
+  return mark;
+}
+
+/** FNV-1a of 32 bits. */
+function hashOf(text: string): string {
+  let hash = 0x811c9dc5;
+  for (let at = 0; at < text.length; at += 1) hash = Math.imul(hash ^ text.charCodeAt(at), 0x01000193) >>> 0;
+  return hash.toString(36);
+}
