@@ -190,7 +190,8 @@ def check_floor(context: Context, document: object) -> None:
     if context.surroundings.floor is None and not zones and not of_site:
         return
     tree = context.tree
-    closed: list[Zone | ZoneFacts] = [zone for zone in (*zones, *of_site) if zone.rule == "keep_out"]
+    everywhere: tuple[Zone | ZoneFacts, ...] = (*zones, *of_site)
+    closed = [zone for zone in everywhere if zone.rule == "keep_out"]
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         for node in tree.walked(block):
             if isinstance(node, n.LOADS):

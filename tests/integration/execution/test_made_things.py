@@ -59,6 +59,11 @@ def make_each(client: Client) -> dict[str, Any]:
             client, f"{AT_SITE}/map/from-device", {"device": "robot01", "version": 1, "replaces": 1}
         ),
         "restore_map": post_json(client, f"{AT_SITE}/map/restore", {"version": 1, "replaces": 2}),
+        "add_zone": post_json(
+            client,
+            f"{AT_SITE}/zones",
+            {"name": "Aisle", "rule": "keep_out", "points": [[7.0, -8.0], [8.0, -8.0], [8.0, -7.0]]},
+        ),
         "add_place": post_json(client, f"{AT_SITE}/places", {"name": "Bench", "kind": "point", "x": 7.0, "y": -8.0}),
         "create_program": post_json(client, f"{AT_SITE}/programs", {"name": "New"}),
         "pin_version": post_json(client, f"/api/programs/{task}/versions"),
