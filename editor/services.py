@@ -3,7 +3,7 @@
 from editor.documents.mending import Mending, mend_program, restore_rows, show_mending
 from editor.documents.store import Change, get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram, NotApproved
-from editor.programs.checking import build_surroundings
+from editor.programs.checking import build_surroundings, find_zones
 from editor.programs.drawn_script import DrawnScript
 from editor.programs.floor_use import ProgramTrouble, list_program_troubles
 from editor.programs.library import get_function, save_function, search_library
@@ -56,6 +56,7 @@ __all__ = [
     "delete_program",
     "draw_script",
     "find_version",
+    "find_zones",
     "get_compiled",
     "get_document",
     "get_function",

@@ -101,6 +101,7 @@ from registry.maps.site_maps import (
     use_robot_map,
 )
 from registry.maps.uploads import MapFiles, create_site_from_map, look_at_upload, read_upload
+from registry.maps.zones import ZoneChange, add_zone, change_zone, find_zone, remove_zone
 from registry.people.access import Access, NotAMember, find_access, list_with_role, require
 from registry.people.keyed_requests import prune_keyed_requests
 from registry.people.open_sessions import drop_expired
@@ -137,11 +138,12 @@ from registry.sites.sites import (
     list_places,
     list_sites,
     list_slugs,
+    list_zones,
     save_places,
     set_enrolment_key,
     set_site_stop,
 )
-from registry.sites.views import PlaceView, SiteView, StopView, site_to_json
+from registry.sites.views import PlaceView, SiteView, StopView, ZoneView, site_to_json
 from registry.sparql.queries import QueryAnswer, run_query
 
 __all__ = [
@@ -205,14 +207,18 @@ __all__ = [
     "TokenView",
     "TopicNotAsked",
     "TopicTaken",
+    "ZoneChange",
+    "ZoneView",
     "account_file",
     "acting",
     "add_place",
+    "add_zone",
     "alert_to_json",
     "approve_device",
     "broker_of",
     "change_password",
     "change_place",
+    "change_zone",
     "check_device_password",
     "check_sign_in",
     "close_account",
@@ -244,6 +250,7 @@ __all__ = [
     "find_place",
     "find_trouble",
     "find_unchanged",
+    "find_zone",
     "flush_alerts",
     "flush_samples",
     "forget_attempts",
@@ -286,6 +293,7 @@ __all__ = [
     "list_slugs",
     "list_tokens",
     "list_with_role",
+    "list_zones",
     "listen",
     "look_at_upload",
     "map_tag",
@@ -318,6 +326,7 @@ __all__ = [
     "reject_device",
     "remove_member",
     "remove_place",
+    "remove_zone",
     "renew_enrolment_key",
     "reopen_account",
     "require",

@@ -240,6 +240,19 @@ class PlaceShape(Schema):
     label: tuple[float, float] | None
 
 
+ZoneRule = Literal["keep_out", "slow", "one_at_a_time"]
+
+
+class SiteZoneShape(Schema):
+    """A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow."""
+
+    id: str
+    name: str
+    rule: ZoneRule
+    points: list[tuple[float, float]]
+    speed_m_s: float | None
+
+
 class MapShape(Schema):
     """A site's map without its cells."""
 
@@ -249,6 +262,7 @@ class MapShape(Schema):
     resolution_m: float
     origin: Origin
     places: list[PlaceShape]
+    zones: list[SiteZoneShape]
     walls: list[tuple[float, float, float, float]]
 
 

@@ -10,7 +10,7 @@ from editor.language.parsing.script import Parsed, parse_script
 from editor.language.plan.instructions import Plan
 from editor.language.plan.json_form import UnreadablePlan, plan_from_json, plan_to_json
 from editor.language.site.json_form import UnreadableSite, surroundings_from_json, surroundings_to_json
-from editor.language.site.surroundings import DeviceFacts, FloorFacts, PlaceFacts, Surroundings
+from editor.language.site.surroundings import DeviceFacts, FloorFacts, PlaceFacts, Surroundings, ZoneFacts
 from editor.language.tree.program import Tree
 
 __all__ = [
@@ -26,6 +26,7 @@ __all__ = [
     "Tree",
     "UnreadablePlan",
     "UnreadableSite",
+    "ZoneFacts",
     "compile_document",
     "compiled_to_json",
     "parse_script",

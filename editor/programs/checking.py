@@ -6,11 +6,19 @@ import hashlib
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, cast
 
 from editor.errors import NoSuchProgram
 from editor.language.reading.well_formed import well_formed_function
-from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
+from editor.language.site.surroundings import (
+    DeviceFacts,
+    FloorFacts,
+    LibraryFacts,
+    PlaceFacts,
+    Surroundings,
+    ZoneFacts,
+    ZoneRule,
+)
 from editor.models import LibraryFunction, LibraryUse, LibraryVersion, Program
 from editor.programs.summary import Summary
 from registry import services as registry
@@ -29,7 +37,14 @@ def build_surroundings(*, site: str) -> Surroundings:
         place.id: PlaceFacts(place.id, place.name, _kind(place.kind), place.x, place.y, place.theta)
         for place in registry.list_places(site=site)
     }
-    return Surroundings(devices=devices, places=places, floor=_floor(site), library=_library(site))
+    return Surroundings(devices, places, _floor(site), _library(site), find_zones(site=site))
+
+
+def find_zones(*, site: str) -> tuple[ZoneFacts, ...]:
+    """Return the zones of a site's floor as the language and traffic see them, by id."""
+    return tuple(
+        ZoneFacts(z.id, z.name, cast("ZoneRule", z.rule), z.points, z.speed_m_s) for z in registry.list_zones(site=site)
+    )
 
 
 def _library(site: str) -> dict[str, LibraryFacts]:
@@ -122,7 +137,9 @@ def fingerprint_of(surroundings: Surroundings) -> str:
     library = sorted((name, facts.name, sorted(facts.versions.items())) for name, facts in _known(surroundings).items())
     floor = surroundings.floor
     mark = floor.mark if isinstance(floor, FloorPlan) else ""
-    return hashlib.sha256(repr((devices, sorted(surroundings.places.items()), library, mark)).encode()).hexdigest()
+    zones = (surroundings.zones,) if surroundings.zones else ()
+    seen = (devices, sorted(surroundings.places.items()), library, mark, *zones)
+    return hashlib.sha256(repr(seen).encode()).hexdigest()
 
 
 def _known(surroundings: Surroundings) -> Mapping[str, LibraryFacts]:

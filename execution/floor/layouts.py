@@ -1,14 +1,19 @@
-"""A site as its floor sees it: the layout of map, places and devices, worked out only when one of these is another."""
+"""A site as its floor sees it: the layout of map, places, zones and devices, worked out when one is another."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from editor import services as editor
 from editor.language.site.surroundings import PlaceFacts
 from execution.traffic.layout import Layout, make_layout
+from execution.traffic.messages import FloorZone, site_zones
 from registry import services as registry
+from registry.floorplan.plan import Grid
 from vipo_device.protocol.description import Description, Pose
+
+_MadeOf = tuple[int, tuple[Description, ...], tuple[PlaceFacts, ...], tuple[FloorZone, ...]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,7 +21,7 @@ class _Known:
     """A site's layout, with what it was made of; `stamp` tells the same without the descriptions (None: cannot)."""
 
     stamp: tuple[object, ...] | None
-    made_of: tuple[int, tuple[Description, ...], tuple[PlaceFacts, ...]]
+    made_of: _MadeOf
     layout: Layout
 
 
@@ -24,7 +29,7 @@ _layouts: dict[str, _Known] = {}
 
 
 def get_layout(slug: str) -> Layout:
-    """Return the layout of a site as its map, places and approved devices are now; raises NoMap."""
+    """Return the layout of a site as its map, places, zones and approved devices are now; raises NoMap."""
     return look_at_site(slug)[0]
 
 
@@ -32,27 +37,38 @@ def look_at_site(slug: str) -> tuple[Layout, tuple[registry.PositionView, ...]]:
     """Return the layout and where the devices are; what these say of themselves is read only when it is news."""
     positions = registry.list_positions(site=slug, lifecycle="approved")
     places = tuple(place_facts(place) for place in registry.list_places(site=slug))
+    zones = site_zones(editor.find_zones(site=slug))
     site_map = registry.get_map(site=slug)
-    known, stamp = _layouts.get(slug), _stamp(site_map.version, positions, places)
+    known, stamp = _layouts.get(slug), _stamp(site_map.version, positions, places, zones)
     if known is not None and stamp is not None and known.stamp == stamp:
         return known.layout, positions
     placed = registry.list_placed(site=slug, lifecycle="approved")
     positions = tuple(position for position, _ in placed)
     at_home = tuple(replace(d, pose=Pose(0, 0)) if d.kind == "robot" else d for _, d in placed)
-    made_of = (site_map.version, at_home, places)
-    is_same = known is not None and known.made_of == made_of
-    layout = known.layout if known is not None and is_same else make_layout(site_map.grid, at_home, places)
-    _layouts[slug] = _Known(_stamp(site_map.version, positions, places), made_of, layout)
+    made_of = (site_map.version, at_home, places, zones)
+    layout = _layout_of(known, made_of, site_map.grid)
+    _layouts[slug] = _Known(_stamp(site_map.version, positions, places, zones), made_of, layout)
     return layout, positions
 
 
+def _layout_of(known: _Known | None, made_of: _MadeOf, grid: Grid) -> Layout:
+    """Return the layout; what is known already is taken as far as it is the same: a zone changes no lattice."""
+    _, at_home, places, zones = made_of
+    if known is None or known.made_of[:3] != made_of[:3]:
+        return make_layout(grid, at_home, places, zones)
+    return known.layout if known.made_of == made_of else replace(known.layout, zones=zones)
+
+
 def _stamp(
-    version: int, positions: tuple[registry.PositionView, ...], places: tuple[PlaceFacts, ...]
+    version: int,
+    positions: tuple[registry.PositionView, ...],
+    places: tuple[PlaceFacts, ...],
+    zones: tuple[FloorZone, ...],
 ) -> tuple[object, ...] | None:
     """Return what differs whenever a layout would; robots are at home wherever they are."""
     if not all(position.version for position in positions):
         return None
-    return (version, tuple((p.id, p.version, None if p.kind == "robot" else p.pose) for p in positions), places)
+    return (version, tuple((p.id, p.version, None if p.kind == "robot" else p.pose) for p in positions), places, zones)
 
 
 def place_facts(place: registry.PlaceView) -> PlaceFacts:

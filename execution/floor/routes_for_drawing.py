@@ -1,4 +1,4 @@
-"""Paths for drawing: what a robot would drive between two places."""
+"""Paths for drawing: what a robot would drive between two places, outside the zones of the floor to keep out of."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import Any
 from execution.floor.layouts import get_layout
 from execution.machine.floor_task import Target
 from execution.traffic.layout import Layout, NoSuchSpot
-from execution.traffic.routes import drawn, length_m, plan_path
+from execution.traffic.routes import drawn, length_m
+from execution.traffic.zones import path_outside
 from execution.views import RouteView
 
 SPEED_M_S = 0.5
@@ -26,7 +27,7 @@ def plan_routes(*, site: str, pairs: Sequence[tuple[Any, Any]]) -> tuple[RouteVi
 
 def _route(layout: Layout, start: Any, end: Any, speed_m_s: float) -> RouteView | None:
     try:
-        nodes = plan_path(layout, _node(layout, start), _node(layout, end))
+        nodes = path_outside(layout, layout.zones, (_node(layout, start), _node(layout, end)))
     except NoSuchSpot:
         return None
     if nodes is None:

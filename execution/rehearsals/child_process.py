@@ -22,7 +22,8 @@ from dataclasses import asdict
 from typing import Any
 
 from editor.language import plan_from_json
-from editor.language.site.surroundings import PlaceFacts
+from editor.language.site.json_form import zone_from_json, zone_to_json
+from editor.language.site.surroundings import PlaceFacts, ZoneFacts
 from execution.rehearsals.course import Course
 from execution.rehearsals.rehearsal import Conditions, rehearse
 from registry.floorplan.plan import Grid
@@ -35,13 +36,14 @@ BEHIND_THE_RUNS = 15
 PR_SET_PDEATHSIG = 1
 
 
-def scene_to_json(scene: Scene, places: Sequence[PlaceFacts]) -> dict[str, Any]:
-    """Return a scene and the named places as JSON."""
+def scene_to_json(scene: Scene, places: Sequence[PlaceFacts], zones: Sequence[ZoneFacts] = ()) -> dict[str, Any]:
+    """Return a scene, the named places and the zones of the floor as JSON."""
     grid = asdict(scene.grid) | {"cells": base64.b64encode(zlib.compress(scene.grid.cells)).decode()}
     return {
         "grid": grid,
         "devices": [description_to_json(device) for device in scene.devices],
         "places": [asdict(place) for place in places],
+        "zones": [zone_to_json(zone) for zone in zones],
         "seed": scene.seed,
         "stocks": {device: dict(stock) for device, stock in scene.stocks.items()},
         "poses": {device: asdict(pose) for device, pose in scene.poses.items()},
@@ -50,8 +52,8 @@ def scene_to_json(scene: Scene, places: Sequence[PlaceFacts]) -> dict[str, Any]:
     }
 
 
-def scene_from_json(data: Mapping[str, Any]) -> tuple[Scene, tuple[PlaceFacts, ...]]:
-    """Read what `scene_to_json` wrote."""
+def scene_from_json(data: Mapping[str, Any]) -> tuple[Scene, tuple[PlaceFacts, ...], tuple[ZoneFacts, ...]]:
+    """Read what `scene_to_json` wrote; jobs that wait since before there were zones have none."""
     grid = Grid(**{**data["grid"], "cells": zlib.decompress(base64.b64decode(data["grid"]["cells"]))})
     devices: list[Description] = [description_from_json(device) for device in data["devices"]]
     scene = Scene(
@@ -63,7 +65,8 @@ def scene_from_json(data: Mapping[str, Any]) -> tuple[Scene, tuple[PlaceFacts, .
         carrying=data["carrying"],
         readings=data["readings"],
     )
-    return scene, tuple(PlaceFacts(**place) for place in data["places"])
+    zones = tuple(zone_from_json(zone) for zone in data.get("zones", ()))
+    return scene, tuple(PlaceFacts(**place) for place in data["places"]), zones
 
 
 class _Teller:
@@ -92,9 +95,10 @@ def run_job(job: Mapping[str, Any]) -> dict[str, Any]:
     _write({"begun": True})  # before it gives way to others: its start is not counted, and may take long beside them
     _hold_to(limits)
     teller = _Teller(limits)
-    scene, places = scene_from_json(job["scene"])
+    scene, places, zones = scene_from_json(job["scene"])
     conditions = Conditions(job.get("driver", "physics"), job.get("parameters", {}))
-    return rehearse(plan_from_json(job["plan"]), scene, places=places, conditions=conditions, follow=teller)
+    plan = plan_from_json(job["plan"])
+    return rehearse(plan, scene, places=places, zones=zones, conditions=conditions, follow=teller)
 
 
 def _hold_to(limits: Mapping[str, Any]) -> None:

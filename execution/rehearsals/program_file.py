@@ -34,7 +34,8 @@ def rehearse_program(
     if compiled.plan is None:
         errors = [d.message for d in compiled.diagnostics if d.severity == "error"]
         raise ValueError(f"The program has errors and cannot be rehearsed. {errors[0] if errors else ''}".strip())
-    return rehearse(compiled.plan, scene, places=places, conditions=Conditions(driver))
+    zones = surroundings.zones
+    return rehearse(compiled.plan, scene, places=places, zones=zones, conditions=Conditions(driver))
 
 
 def read_site(site: Mapping[str, Any], seed: int) -> tuple[Surroundings, Scene, tuple[PlaceFacts, ...]]:

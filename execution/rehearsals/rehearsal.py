@@ -12,7 +12,7 @@ from typing import Any, assert_never
 
 from editor.language.expressions.nodes import AnswerSpec
 from editor.language.plan.instructions import Plan
-from editor.language.site.surroundings import PlaceFacts
+from editor.language.site.surroundings import PlaceFacts, ZoneFacts
 from execution.floor_protocol import AskingRun, to_floor, to_machine, to_run
 from execution.machine import machine
 from execution.machine import messages as r
@@ -59,18 +59,20 @@ def rehearse(
     scene: Scene,
     *,
     places: Iterable[PlaceFacts] = (),
+    zones: Iterable[ZoneFacts] = (),
     conditions: Conditions | None = None,
     follow: Follow | None = None,
 ) -> dict[str, Any]:
     """Carry the plan out in a world made from the scene; returns the result (`RehearsalResultShape`).
 
-    The scene's seed decides all chance. What goes wrong is in `errors`; a program that does not end is stopped after
-    `conditions.limit_s` of virtual time, or when `follow` says that its time is over.
+    `zones` are those of the site's floor, besides the program's own. The scene's seed decides all chance. What goes
+    wrong is in `errors`; a program that does not end is stopped after `conditions.limit_s` of virtual time, or when
+    `follow` says that its time is over.
     """
     conditions = conditions or Conditions()
     world = make_world(scene=scene, driver=conditions.driver)
     try:
-        layout = make_layout(scene.grid, scene.devices, places)
+        layout = make_layout(scene.grid, scene.devices, places, m.site_zones(zones))
         return _Rehearsal(plan, layout, world, conditions.limit_s, follow).run(conditions.parameters)
     finally:
         world.close()

@@ -15,6 +15,7 @@ from django.db import transaction
 from django.db.models import Max, QuerySet
 from django.db.models.functions import Now
 
+from editor import services as editor
 from execution import mailbox
 from execution.archive.rows import read_rehearsal
 from execution.errors import NotFound, NotPossibleNow, TooManyRehearsals
@@ -107,7 +108,7 @@ def _scene(site: str, seed: int) -> dict[str, Any]:
         carrying={name: robot.carrying for name, robot in robots.items()},
         readings={d.id: {"battery": d.readings["battery"]} for d in robots.values() if "battery" in d.readings},
     )
-    return scene_to_json(scene, places)
+    return scene_to_json(scene, places, editor.find_zones(site=site))
 
 
 def get_rehearsal(*, rehearsal_id: UUID | str) -> RehearsalView:

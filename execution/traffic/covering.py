@@ -18,7 +18,7 @@ from execution.traffic.path_release import cut_path, set_path
 from execution.traffic.route_points import HORIZON, leads_along, points_ahead, set_points
 from execution.traffic.routes import drawn
 from execution.traffic.turn import Turn
-from execution.traffic.zones import cells_of, kept_out, path_for, speed_limit
+from execution.traffic.zones import cells_of, is_shut_way, kept_out, path_for, speed_limit
 from registry.floorplan.coverage import STEP_M, CannotCover, Lane, covered_share, in_order
 from registry.floorplan.lattice import STANDING_MARGIN_M
 from vipo_device.protocol.description import Scalar
@@ -211,12 +211,14 @@ def _leg(
         needed = layout.needed(goal)
     except NoSuchSpot:
         return None
-    if not needed.isdisjoint(closed) or layout.cell(goal) in shut:
+    there = layout.point(goal)
+    if not needed.isdisjoint(closed) or layout.cell(goal) in shut or (shut and is_shut_way(turn, robot, there, there)):
         return None
     if start == goal:
         return (start,)
-    here, there = layout.point(start), layout.point(goal)
+    here = layout.point(start)
     near = hypot(there[0] - here[0], there[1] - here[1]) <= max(STRAIGHT_M, STEP_M)
+    near = near and not (shut and is_shut_way(turn, robot, here, there))
     if near and layout.ground.is_passable(here, there, layout.ground.radius_m + STANDING_MARGIN_M):
         return (start, goal)
     return path_for(turn, robot, goal, closed, start=start)

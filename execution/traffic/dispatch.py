@@ -251,7 +251,9 @@ def _go(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:
         turn.finish(task, "blocked", str(error))
         return
     if path is None:
-        turn.finish(task, "blocked", f"There is no way for {turn.name(robot.id)} to {turn.name(task.order.target.id)}.")
+        point = task.order.target.point
+        where = turn.name(task.order.target.id) if point is None else f"({point[0]:.2f}, {point[1]:.2f})"
+        turn.finish(task, "blocked", f"There is no way for {turn.name(robot.id)} to {where}.")
         return
     set_points(turn, set_path(turn, robot, path[0]), task, path[1])
 

@@ -11,8 +11,9 @@ from dataclasses import replace
 
 from execution.traffic.floor_state import Door, FloorState, Robot, Sent
 from execution.traffic.messages import DoorStuck, FloorZone
+from execution.traffic.outlines import touches
 from execution.traffic.turn import Turn
-from execution.traffic.zones import cells_of, is_in, touches
+from execution.traffic.zones import cells_of, is_in
 from vipo_device.protocol.doors import DoorMethods, door_methods
 
 AHEAD_NODES = 8

@@ -20,6 +20,7 @@ from execution.traffic.path_release import (
     cut_path,
     drop_pieces,
     end_piece,
+    heed_zones,
     keep_stations,
     leave_gone,
     place,
@@ -57,6 +58,7 @@ def step(
     turn = Turn(layout, _without_gap(state, now), now)
     _know_robots(turn)
     leave_gone(turn)
+    heed_zones(turn)
     for event in events:
         _take(turn, event)
     _check_limits(turn)

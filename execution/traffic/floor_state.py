@@ -143,7 +143,7 @@ class FloorState:
     offline: Mapping[str, float] = field(default_factory=dict)
     """By device: since when it has been away."""
     zones: Mapping[str, tuple[FloorZone, ...]] = field(default_factory=dict)
-    """By run: the zones of its program."""
+    """By run: the zones of its program; under no name those of the site that its robots heed already."""
     locks: Mapping[str, str] = field(default_factory=dict)
     """By zone for one robot at a time: the robot that is in it."""
     passages: tuple[FloorZone, ...] = ()

@@ -1,4 +1,7 @@
-"""A site as traffic sees it: the lattice, and the spots where robots stop (stations, docks, named places, points)."""
+"""A site as traffic sees it: the lattice, its zones, and the spots where robots stop.
+
+Spots are stations, docks, named places and points.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ from dataclasses import dataclass, field
 
 from editor.language.site.surroundings import PlaceFacts
 from execution.machine.floor_task import Target
+from execution.traffic.messages import FloorZone
 from registry.floorplan.lattice import STANDING_MARGIN_M, Ground, Lattice, Point, attach, make_lattice
 from registry.floorplan.plan import FloorPlan, Grid, stations
 from vipo_device.protocol.description import Description
@@ -47,8 +51,10 @@ class Layout:
     places: Mapping[str, Spot]
     docks: tuple[str, ...]
     names: Mapping[str, str]
+    zones: tuple[FloorZone, ...] = ()
+    """What holds on this floor for every robot, besides the zones of its run's program."""
     points: dict[str, Spot] = field(default_factory=dict)
-    zone_cells: dict[tuple[Point, ...], frozenset[int]] = field(default_factory=dict)
+    zone_cells: dict[tuple[tuple[Point, ...], bool], frozenset[int]] = field(default_factory=dict)
 
     def name(self, thing: str) -> str:
         """Return what people call a device or a place."""
@@ -106,8 +112,10 @@ class Layout:
         return frozenset((node,)) if isinstance(node, int) else self.spot(node).body
 
 
-def make_layout(grid: Grid, devices: Iterable[Description], places: Iterable[PlaceFacts] = ()) -> Layout:
-    """Work out the layout of a site from its map, its approved devices and its named places."""
+def make_layout(
+    grid: Grid, devices: Iterable[Description], places: Iterable[PlaceFacts] = (), zones: Iterable[FloorZone] = ()
+) -> Layout:
+    """Work out the layout of a site from its map, its approved devices, its named places and its zones."""
     devices = list(devices)
     radius_m = max((d.radius_m for d in devices if d.kind == "robot"), default=0.0) or DEFAULT_RADIUS_M
     ground = Ground(grid, FloorPlan(grid, devices).clearance_m, radius_m)
@@ -121,7 +129,7 @@ def make_layout(grid: Grid, devices: Iterable[Description], places: Iterable[Pla
         _put(named, ground, lattice, place.id, (place.x, place.y), place.theta if place.kind == "dock" else None)
     docks = tuple(p.id for p in places if p.kind == "dock" and p.id in named)
     by_id = {d.id: d for d in devices}
-    return Layout(ground, lattice, by_id, found, named, docks, names)
+    return Layout(ground, lattice, by_id, found, named, docks, names, tuple(zones))
 
 
 def _put(

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from editor.language.expressions.nodes import Zone
+from editor.language.site.surroundings import ZoneFacts
 from execution.machine.floor_task import TaskOrder
 from vipo_device.protocol.description import Scalar
 
@@ -25,7 +26,7 @@ class Reason:
 
 @dataclass(frozen=True, slots=True)
 class FloorZone:
-    """A zone of a run's program; `key` is the same for all runs of that program."""
+    """A zone of a run's program, or of the site's floor; `key` is the same for all runs of that program."""
 
     key: str
     name: str
@@ -44,6 +45,11 @@ def zone_from_json(data: Mapping[str, Any]) -> FloorZone:
 def floor_zones(program: str, zones: Iterable[Zone]) -> tuple[FloorZone, ...]:
     """Return the zones of a plan as the floor knows them."""
     return tuple(FloorZone(f"{program}/{z.id}", z.name, z.rule, z.points, z.speed_m_s, z.door) for z in zones)
+
+
+def site_zones(zones: Iterable[ZoneFacts]) -> tuple[FloorZone, ...]:
+    """Return the zones of a site's floor as the floor knows them; no program has their keys."""
+    return tuple(FloorZone(f"site/{z.id}", z.name, z.rule, z.points, z.speed_m_s) for z in zones)
 
 
 def zone_to_json(zone: FloorZone) -> dict[str, Any]:

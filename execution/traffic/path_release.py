@@ -12,7 +12,7 @@ from execution.traffic.messages import PathPlanned
 from execution.traffic.route_points import pass_points
 from execution.traffic.routes import drawn
 from execution.traffic.turn import Turn
-from execution.traffic.zones import in_the_way, speed_limit, take_zones
+from execution.traffic.zones import enters_at, in_the_way, leads_through, speed_limit, take_zones
 from registry.floorplan.lattice import Point, attach
 
 AHEAD = 4
@@ -24,6 +24,8 @@ LAST_NODES = 5
 CLEAR_OF_M = 0.44
 """A cell is given back when the robot's middle is this far from the cell's: two radii and a margin."""
 LOST_M = 0.4
+SITE = ""
+"""Under this name, which no run has, the floor remembers which zones of the site its robots heed."""
 FORESEEN = 12
 """Nodes behind what is released of which a robot is told, so that it may prepare for them."""
 
@@ -127,7 +129,9 @@ def cut_path(turn: Turn, robot: Robot) -> Robot:
     """Let the robot go no farther than what is released to it."""
     if not turn.is_driving(robot):
         robot = turn.put(robot, path=(turn.node(robot),), passed=0, released=0, idle_since=turn.now)
-    return turn.put(robot, path=robot.path[: robot.released + 1], evading="", blocked_since=None)
+    route_at = tuple(index for index in robot.route_at if index <= robot.released)
+    path = robot.path[: robot.released + 1]
+    return turn.put(robot, path=path, route_at=route_at, evading="", blocked_since=None)
 
 
 def release_next(turn: Turn, robot: Robot) -> None:
@@ -214,8 +218,33 @@ def leave_gone(turn: Turn) -> None:
             turn.offline.setdefault(robot.id, turn.now)
             robot = turn.put(robot, online=False)
         if not all(turn.layout.has_node(node) for node in robot.path):
-            drop_pieces(turn, robot, cancel=True)
-            place(turn, turn.put(robot, evading="", yields_to="", blocked_since=None, idle_since=turn.now))
+            _stand_here(turn, robot)
+
+
+def _stand_here(turn: Turn, robot: Robot) -> None:
+    """Let a robot stop where it is and forget its path."""
+    drop_pieces(turn, robot, cancel=True)
+    place(turn, turn.put(robot, evading="", yields_to="", blocked_since=None, idle_since=turn.now))
+
+
+def heed_zones(turn: Turn) -> None:
+    """Let robots under way heed zones of the floor that are new or another since the last step.
+
+    A path that leads into a keep-out is cut before it; what of it was released already is called off, and the robot
+    plans anew from where it comes to stand. So is what was released with too high a speed.
+    """
+    before, now = turn.zones.get(SITE, ()), turn.layout.zones
+    if before == now:
+        return
+    slow = [zone for zone in now if zone.rule == "slow" and zone not in before]
+    for robot in [robot for robot in turn.robots.values() if robot.path]:
+        released = robot.path[robot.passed : robot.released + 1] if turn.is_driving(robot) else ()
+        enters = enters_at(turn, robot)
+        if (enters is not None and released and enters <= robot.released) or leads_through(turn.layout, released, slow):
+            _stand_here(turn, robot)
+        elif enters is not None:
+            cut_path(turn, robot)
+    turn.zones = {run: zones for run, zones in turn.zones.items() if run != SITE} | ({SITE: now} if now else {})
 
 
 def keep_stations(turn: Turn) -> None:

@@ -1,18 +1,21 @@
-"""What zones of a program mean for its robots: where they may not drive, drive slowly, or only one at a time.
+"""What zones mean for robots: where they may not drive, drive slowly, or only one at a time.
 
-A zone's cells are those whose middle lies in it or nearer to its edge than a robot's radius.
+Those of the site's floor hold for every robot at any time, those of a program for the robots of its runs. A zone's
+cells are those from which a way to a neighbour, as far as its middle, lies in the zone or nearer to it than a robot's
+radius: whoever drives over other cells alone does not come near it, however narrow it is. The passage of a door, which
+is as narrow as can be, has only those cells whose middle is that near: a robot before the door is not in it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import chain
-from math import hypot
 
 from execution.machine.places import lies_in
 from execution.traffic.floor_state import Robot
 from execution.traffic.layout import Layout, Node
 from execution.traffic.messages import FloorZone
+from execution.traffic.outlines import touches, touches_way
 from execution.traffic.routes import plan_path
 from execution.traffic.turn import Turn
 from registry.floorplan.lattice import Point
@@ -24,29 +27,37 @@ INSIDE_COST = 1000.0
 
 def cells_of(layout: Layout, zone: FloorZone) -> frozenset[int]:
     """Return the cells of a zone; worked out once for each layout."""
-    if zone.points not in layout.zone_cells:
-        lattice, reach_m = layout.lattice, layout.ground.radius_m
-        cells = (c for c in lattice.links if touches(zone.points, lattice.centre(c), reach_m))
-        layout.zone_cells[zone.points] = frozenset(cells)
-    return layout.zone_cells[zone.points]
+    key = (zone.points, zone.rule == "door")
+    if key not in layout.zone_cells:
+        layout.zone_cells[key] = frozenset(_find_cells(layout, zone))
+    return layout.zone_cells[key]
 
 
-def touches(outline: tuple[Point, ...], point: Point, reach_m: float) -> bool:
-    """Tell whether a point lies in an outline or nearer to its edge than `reach_m`."""
-    edges = zip(outline, (*outline[1:], *outline[:1]), strict=True)
-    return lies_in(point, outline) or any(_edge_distance_m(point, start, end) < reach_m for start, end in edges)
+def _find_cells(layout: Layout, zone: FloorZone) -> Iterator[int]:
+    lattice, reach_m = layout.lattice, layout.ground.radius_m
+    near_m = reach_m + lattice.side_m / 2
+    (left, right), (bottom, top) = ((min(axis), max(axis)) for axis in zip(*zone.points, strict=True))
+    for cell in lattice.links:
+        x, y = lattice.centre(cell)
+        if not (left - near_m < x < right + near_m and bottom - near_m < y < top + near_m):
+            continue
+        ways = _half_ways(layout, cell) if zone.rule != "door" else (((x, y), (x, y)),)
+        if any(touches_way(zone.points, *way, reach_m) for way in ways):
+            yield cell
 
 
-def _edge_distance_m(point: Point, start: Point, end: Point) -> float:
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    span = dx * dx + dy * dy
-    share = 0.0 if span == 0 else ((point[0] - start[0]) * dx + (point[1] - start[1]) * dy) / span
-    share = min(1.0, max(0.0, share))
-    return hypot(start[0] + share * dx - point[0], start[1] + share * dy - point[1])
+def _half_ways(layout: Layout, cell: int) -> Iterator[tuple[Point, Point]]:
+    """Go through the ways from a cell half to each neighbour: over them lies every way that robots drive there."""
+    here = layout.lattice.centre(cell)
+    yield here, here
+    for neighbour in layout.lattice.links[cell]:
+        x, y = layout.lattice.centre(neighbour)
+        yield here, ((here[0] + x) / 2, (here[1] + y) / 2)
 
 
 def _zones(turn: Turn, robot: Robot, rule: str) -> Iterator[FloorZone]:
-    return (zone for zone in turn.zones.get(robot.run, ()) if zone.rule == rule)
+    of_run = turn.zones.get(robot.run, ()) if robot.run else ()
+    return (zone for zone in chain(turn.layout.zones, of_run) if zone.rule == rule)
 
 
 def is_in(layout: Layout, node: Node, zone: FloorZone) -> bool:
@@ -56,7 +67,26 @@ def is_in(layout: Layout, node: Node, zone: FloorZone) -> bool:
 
 def kept_out(turn: Turn, robot: Robot) -> frozenset[int]:
     """Return the cells that a robot may not drive over."""
-    return frozenset(chain.from_iterable(cells_of(turn.layout, zone) for zone in _zones(turn, robot, "keep_out")))
+    return shut_cells(turn.layout, _zones(turn, robot, "keep_out"))
+
+
+def shut_cells(layout: Layout, zones: Iterable[FloorZone]) -> frozenset[int]:
+    """Return the cells of those of the zones that robots keep out of."""
+    return frozenset(chain.from_iterable(cells_of(layout, zone) for zone in zones if zone.rule == "keep_out"))
+
+
+def is_shut_way(turn: Turn, robot: Robot, start: Point, end: Point) -> bool:
+    """Tell whether a straight way leads a robot where it may not drive."""
+    reach_m = turn.layout.ground.radius_m
+    return any(touches_way(zone.points, start, end, reach_m) for zone in _zones(turn, robot, "keep_out"))
+
+
+def is_shut_spot(layout: Layout, zones: Iterable[FloorZone], node: Node) -> bool:
+    """Tell whether a node off the lattice is where robots keep out, or can only be come to over such floor."""
+    if isinstance(node, int):
+        return False
+    middle, spot, reach_m = layout.lattice.centre(layout.cell(node)), layout.point(node), layout.ground.radius_m
+    return any(zone.rule == "keep_out" and touches_way(zone.points, middle, spot, reach_m) for zone in zones)
 
 
 def path_for(
@@ -67,18 +97,51 @@ def path_for(
     extra: Mapping[int, float] | None = None,
     start: Node | None = None,
 ) -> tuple[Node, ...] | None:
-    """Return a robot's path that keeps out of the zones of its run; one that stands in such a zone may leave it.
+    """Return a robot's path that keeps out of all zones it must; one that stands in such a zone may leave it.
 
     It leads from where the robot is, or from `start`.
     """
-    layout = turn.layout
-    start = turn.node(robot) if start is None else start
-    shut = kept_out(turn, robot)
+    zones = tuple(_zones(turn, robot, "keep_out"))
+    return path_outside(turn.layout, zones, (turn.node(robot) if start is None else start, goal), closed, extra)
+
+
+def path_outside(
+    layout: Layout,
+    zones: Collection[FloorZone],
+    ends: tuple[Node, Node],
+    closed: Collection[int] = (),
+    extra: Mapping[int, float] | None = None,
+) -> tuple[Node, ...] | None:
+    """Return a path that keeps out of those of the zones that ask for it, but for leaving one where it begins."""
+    start, goal = ends
+    shut = shut_cells(layout, zones)
+    if not shut or start == goal:
+        return plan_path(layout, start, goal, closed, extra)
+    if is_shut_spot(layout, zones, goal):
+        return None
     if layout.cell(start) not in shut:
-        return plan_path(layout, start, goal, {*closed, *shut} if shut else closed, extra)
+        return plan_path(layout, start, goal, {*closed, *shut}, extra)
     path = plan_path(layout, start, goal, closed, {**(extra or {}), **dict.fromkeys(shut, INSIDE_COST)})
     inside = [layout.cell(node) in shut for node in path or ()]
     return None if path is None or True in inside[inside.index(False) if False in inside else 0 :] else path
+
+
+def enters_at(turn: Turn, robot: Robot) -> int | None:
+    """Return where on its path a robot comes where it may not drive, or drives on there; None: it does not.
+
+    One that is inside already is not asked to stay there: it plans anew, and so leaves by the shortest way.
+    """
+    layout, zones = turn.layout, tuple(_zones(turn, robot, "keep_out"))
+    shut = shut_cells(layout, zones)
+    for index, node in enumerate(robot.path[robot.passed + 1 :], robot.passed + 1):
+        if layout.cell(node) in shut or is_shut_spot(layout, zones, node):
+            return index
+    return None
+
+
+def leads_through(layout: Layout, nodes: Iterable[Node], zones: Collection[FloorZone]) -> bool:
+    """Tell whether a path leads through one of the zones."""
+    return any(is_in(layout, node, zone) for node in nodes for zone in zones)
 
 
 def speed_limit(turn: Turn, robot: Robot, nodes: tuple[Node, ...]) -> float | None:
@@ -123,7 +186,8 @@ def take_zones(turn: Turn, robot: Robot, index: int) -> None:
 
 def keep_zones(turn: Turn) -> None:
     """Give back what a robot has left, and let who stands in a free zone have it."""
-    known = {zone.key: zone for zones in turn.zones.values() for zone in zones if zone.rule == "one_at_a_time"}
+    all_zones = chain(turn.layout.zones, *turn.zones.values())
+    known = {zone.key: zone for zone in all_zones if zone.rule == "one_at_a_time"}
     for key, holder in list(turn.locks.items()):
         robot = turn.robots.get(holder)
         if key not in known or robot is None or not _stays_in(turn, robot, known[key]):

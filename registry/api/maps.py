@@ -88,6 +88,7 @@ def show_map(request: HttpRequest, slug: str) -> dict[str, Any]:
         "version": found.version,
         **_measures(grid),
         "places": services.list_places(site=slug),
+        "zones": services.list_zones(site=slug),
         "walls": services.get_walls(grid),
     }
 

@@ -7,27 +7,22 @@ with a map hears of a change as of a new map.
 from __future__ import annotations
 
 import math
-import re
-import unicodedata
 from dataclasses import dataclass
 
 from django.db import transaction
-from django.utils.text import slugify
 
 from registry.audit.record import note_act
 from registry.errors import RegistryError
 from registry.floorplan.plan import Grid
 from registry.live.fanout import publish
+from registry.maps.names import Naming
 from registry.maps.site_maps import find_map, get_map
 from registry.models import Place, Site
 from registry.sites.sites import find_site, list_places
 from registry.sites.views import PlaceView
-from vipo_device.protocol.texts import find_unfit, normal
 
 MOST_PLACES = 500
-MOST_NAME = 60
 _WALL = 100
-_ID = re.compile(r"[A-Za-z0-9_]{1,60}")
 _NO_ROOM = "There is a wall at {x:.2f}, {y:.2f}. Put the place where a robot can stand."
 _OFF = "The place is off the map at {x:.2f}, {y:.2f}. Put it on the floor."
 
@@ -70,10 +65,8 @@ def add_place(*, site: str, place: PlaceChange, place_id: str = "") -> PlaceView
     with transaction.atomic():
         row = Site.objects.select_for_update().get(pk=find_site(site).pk)
         keys = set(Place.objects.filter(site=row).values_list("key", flat=True))
-        if len(keys) >= MOST_PLACES:
-            text = f"A site has at most {MOST_PLACES} places. Remove one that nobody needs."
-            raise BadPlace(text, {"why": "many", "most": MOST_PLACES})
-        made = Place(site=row, key=_new_key(place_id, place.name or "", keys), kind=Place.Kind.POINT, x=0.0, y=0.0)
+        key = _naming().new_key(place_id, place.name or "", keys)
+        made = Place(site=row, key=key, kind=Place.Kind.POINT, x=0.0, y=0.0)
         _change(made, place, grid)
         made.save(force_insert=True)
         note_act(site_id=row.pk, code="place_added", facts={"place": made.name})
@@ -147,16 +140,13 @@ def _change(row: Place, place: PlaceChange, grid: Grid) -> None:
     _check_floor(row, grid)
 
 
+def _naming() -> Naming:
+    return Naming("place", MOST_PLACES, BadPlace, PlaceTaken)
+
+
 def _checked_name(name: str, row: Place) -> str:
-    name = normal(" ".join(name.split()))
-    if not 1 <= len(name) <= MOST_NAME or find_unfit(name, is_line=True):
-        text = f"A place's name has 1 to {MOST_NAME} characters that can be printed. Enter one."
-        raise BadPlace(text, {"why": "name", "most": MOST_NAME})
     others = Place.objects.filter(site_id=row.site_id).exclude(key=row.key).values_list("name", flat=True)
-    if name.casefold() in {other.casefold() for other in others}:
-        text = f"There is already a place {name!r} at this site. Choose another name."
-        raise PlaceTaken(text, {"why": "taken_name", "name": name})
-    return name
+    return _naming().checked_name(name, others)
 
 
 def _checked_kind(kind: str) -> str:
@@ -173,21 +163,3 @@ def _check_floor(row: Place, grid: Grid) -> None:
         raise BadPlace(_OFF.format(**args), {"why": "off", **args})
     if row.kind != Place.Kind.ROOM and grid.cells[cell[0] * grid.width + cell[1]] == _WALL:
         raise BadPlace(_NO_ROOM.format(**args), {"why": "wall", **args})
-
-
-def _new_key(wished: str, name: str, taken: set[str]) -> str:
-    """Return the id of a new place; whoever asks holds the site's row. Raises BadPlace, PlaceTaken."""
-    if wished in taken:
-        text = f"There is already a place with the id {wished!r} at this site."
-        raise PlaceTaken(text, {"why": "taken_id", "id": wished})
-    if wished and not _ID.fullmatch(wished):
-        raise BadPlace("A place's id has 1 to 60 of the letters a to z, digits and underscores.", {"why": "id"})
-    if wished:
-        return wished
-    plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
-    stem = slugify(plain)[:40].replace("-", "_") or "place"
-    return next(key for number in range(1, MOST_PLACES + 2) if (key := _numbered(stem, number)) not in taken)
-
-
-def _numbered(stem: str, number: int) -> str:
-    return stem if number == 1 else f"{stem}_{number}"

@@ -1,4 +1,4 @@
-"""Maps of sites with their places, and the maps that robots send."""
+"""Maps of sites with their places and zones, and the maps that robots send."""
 
 from __future__ import annotations
 
@@ -62,6 +62,32 @@ class Place(models.Model):
         """A place's key is its id in programs."""
 
         constraints = [models.UniqueConstraint(fields=["site", "key"], name="one_place_per_key")]
+
+    def __str__(self) -> str:
+        return self.name
+
+
+class SiteZone(models.Model):
+    """A named polygon on a site's map that concerns all its robots at any time; metres in the map frame."""
+
+    class Rule(models.TextChoices):
+        """What the zone asks of robots."""
+
+        KEEP_OUT = "keep_out"
+        SLOW = "slow"
+        ONE_AT_A_TIME = "one_at_a_time"
+
+    site = models.ForeignKey(Site, on_delete=models.CASCADE, related_name="zones")
+    key = models.CharField(max_length=64)
+    name = models.CharField(max_length=100)
+    rule = models.CharField(max_length=20, choices=Rule.choices)
+    points = models.JSONField()
+    speed_m_s = models.FloatField(null=True)
+
+    class Meta:
+        """A zone's key is its id at the site."""
+
+        constraints = [models.UniqueConstraint(fields=["site", "key"], name="one_zone_per_key")]
 
     def __str__(self) -> str:
         return self.name

@@ -14,10 +14,10 @@ from django.utils import timezone
 from django.utils.text import slugify
 
 from registry.errors import RegistryError
-from registry.models import Device, Membership, Place, Site, SiteMap, User
+from registry.models import Device, Membership, Place, Site, SiteMap, SiteZone, User
 from registry.people.access import NotAMember, access_of, list_memberships
 from registry.sites.namespaces import is_in_use
-from registry.sites.views import PlaceView, SiteView, StopView
+from registry.sites.views import PlaceView, SiteView, StopView, ZoneView
 from vipo_device.protocol.credentials import broker_hash, secret_hash
 from vipo_device.protocol.texts import find_unfit, normal
 
@@ -144,6 +144,14 @@ def list_places(*, site: str) -> tuple[PlaceView, ...]:
     rows = Place.objects.filter(site=find_site(site)).order_by("key")
     return tuple(
         PlaceView(p.key, p.name, p.kind, p.x, p.y, p.theta, (p.label[0], p.label[1]) if p.label else None) for p in rows
+    )
+
+
+def list_zones(*, site: str) -> tuple[ZoneView, ...]:
+    """Return the site's zones, by id; none where there is no such site."""
+    rows = SiteZone.objects.filter(site__slug=site).order_by("key")
+    return tuple(
+        ZoneView(z.key, z.name, z.rule, tuple((float(x), float(y)) for x, y in z.points), z.speed_m_s) for z in rows
     )
 
 

@@ -21,6 +21,20 @@ class PlaceView:
 
 
 @dataclass(frozen=True, slots=True)
+class ZoneView:
+    """A zone of a site: a polygon in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow.
+
+    `rule` is `keep_out`, `slow` or `one_at_a_time`.
+    """
+
+    id: str
+    name: str
+    rule: str
+    points: tuple[tuple[float, float], ...]
+    speed_m_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class StopView:
     """The latched stop of a site."""
 

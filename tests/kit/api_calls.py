@@ -53,6 +53,8 @@ BODIES: dict[str, dict[str, Any]] = {
     "restore_map": {"version": 1, "replaces": 1},
     "add_place": {"name": "Other", "kind": "point", "x": 1, "y": 1},
     "edit_place": {"name": "Table"},
+    "add_zone": {"name": "Aisle", "rule": "keep_out", "points": [[0, 0], [1, 0], [1, 1]]},
+    "edit_zone": {"name": "Gate"},
     "reserve_device": {"id": "mixer-9"},
     "create_program": {"name": "New"},
     "copy_version": {"name": "Copy"},
@@ -88,8 +90,10 @@ def make_one_of_each(slug: str) -> dict[str, str]:
         id=uuid4(), site=site, position=1, device=device, method="mix", by="Me", send_after=NOW, created_at=NOW
     )
     table = services.PlaceChange(name="Table", kind="point", x=1.5, y=1.5)
+    gate = services.ZoneChange(name="Gate", rule="keep_out", points=((1.0, 1.0), (2.0, 1.0), (2.0, 2.0)))
     made: dict[str, Any] = {
         "program": program,
+        "zone_id": services.add_zone(site=slug, zone=gate).id,
         "place_id": services.add_place(site=slug, place=table).id,
         "run": run.pk,
         "question": Question.objects.create(run=run, number=1, text="Go?", answer=ANSWER, asked_at=NOW).pk,

@@ -6,7 +6,7 @@ import json
 import sys
 from collections.abc import Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -133,7 +133,7 @@ def _site(given: object, path: Path, site_path: Path | None) -> tuple[dict[str, 
         floor = _floor(site, plain)
     except UnreadableSite as error:
         raise UnreadableFile(f"{where}: {error}") from error
-    return site, Surroundings(plain.devices, plain.places, floor, plain.library)
+    return site, replace(plain, floor=floor)
 
 
 def _with_absolute_grid(site: dict[str, Any], where: Path) -> dict[str, Any]:

@@ -29,6 +29,7 @@ from registry.api.sites import router as sites_router
 from registry.api.sparql import router as sparql_router
 from registry.api.things import router as things_router
 from registry.api.tokens import router as tokens_router
+from registry.api.zones import router as zones_router
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import BadMessage, parse_plain_json
 from vipo_site.http.making import name_place, note_place
@@ -125,6 +126,7 @@ api.add_router("", alerts_router)
 api.add_router("", onboarding_router)
 api.add_router("", maps_router)
 api.add_router("", places_router)
+api.add_router("", zones_router)
 api.add_router("", sparql_router)
 api.add_router("", things_router)
 api.add_router("", mtconnect_router)

@@ -35,6 +35,7 @@ MADE = {
     "use_robot_map": Place("show_map", ("slug",), {}),
     "restore_map": Place("show_map", ("slug",), {}),
     "add_place": Place("show_place", ("slug",), {"place_id": "id"}),
+    "add_zone": Place("show_zone", ("slug",), {"zone_id": "id"}),
     "make_invitation": Place("list_invitations", ("slug",), {}),
     "join_as_new": Place("show_site", (), {"slug": "site"}),
     "create_program": Place("show_program", (), {"program": "id"}),

@@ -16,7 +16,7 @@ from editor.language.expressions.nodes import Constant, Expression, Located, Pla
 from editor.language.expressions.ranges import Here
 from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
-from editor.language.site.surroundings import DeviceFacts
+from editor.language.site.surroundings import DeviceFacts, ZoneFacts
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Role
 from editor.language.tree.robots import robots_for
@@ -185,12 +185,13 @@ def _is_told_at_its_step(context: Context, role: Role, method: str) -> bool:
 
 
 def check_floor(context: Context, document: object) -> None:
-    """Check where robots are sent, and the zones of the document."""
-    zones = read_zones(document)
-    if context.surroundings.floor is None and not zones:
+    """Check where robots are sent, against the zones of the document and of the site's floor, and those themselves."""
+    zones, of_site = read_zones(document), context.surroundings.zones
+    if context.surroundings.floor is None and not zones and not of_site:
         return
     tree = context.tree
-    closed = [zone for zone in zones if zone.rule == "keep_out"]
+    everywhere: tuple[Zone | ZoneFacts, ...] = (*zones, *of_site)
+    closed = [zone for zone in everywhere if zone.rule == "keep_out"]
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         for node in tree.walked(block):
             if isinstance(node, n.LOADS):
@@ -204,7 +205,7 @@ def check_floor(context: Context, document: object) -> None:
 
 
 def _check_goal(
-    context: Context, node: n.Move | n.Pick | n.Drop, place: PlaceRef, field: str, closed: list[Zone]
+    context: Context, node: n.Move | n.Pick | n.Drop, place: PlaceRef, field: str, closed: list[Zone | ZoneFacts]
 ) -> None:
     """Check that the robot finds the machine's station, and that its goal is not kept free of robots."""
     goals = _goals(context, node.role, place)
@@ -221,7 +222,7 @@ def _check_goal(
             return
 
 
-def _check_route(context: Context, node: n.Move, closed: list[Zone]) -> None:
+def _check_route(context: Context, node: n.Move, closed: list[Zone | ZoneFacts]) -> None:
     """Check that any robot of the role can drive over the points of a way; the first that none can is told."""
     for number, point in enumerate(node.route[:MOST_ROUTE_POINTS], start=1):
         zone = next((zone for zone in closed if is_in(point, zone.points)), None)

@@ -6,11 +6,14 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
+from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings, ZoneFacts
 from vipo_device.protocol.description import description_from_json, description_to_json
 
 LIFECYCLES = ("pending", "approved", "retired")
 PLACE_KINDS = ("dock", "room", "point")
+ZONE_RULES = ("keep_out", "one_at_a_time", "slow")
+"""What zones of a site's floor ask; passages of doors belong to programs."""
+FEWEST_CORNERS = 3
 _STATE = frozenset({"lifecycle", "online", "readings", "standing_at"})
 
 
@@ -19,9 +22,11 @@ class UnreadableSite(ValueError):
 
 
 def surroundings_to_json(surroundings: Surroundings) -> dict[str, Any]:
-    """Return a site as plain JSON: `devices` (canonical descriptions, with how they are) and `places`."""
+    """Return a site as plain JSON: `devices` (canonical descriptions, with how they are), `places`, `zones` if any."""
     devices = [_device_to_json(facts) for _, facts in sorted(surroundings.devices.items())]
     body = {"devices": devices, "places": [_place_to_json(p) for _, p in sorted(surroundings.places.items())]}
+    if surroundings.zones:
+        body["zones"] = [zone_to_json(zone) for zone in surroundings.zones]
     if surroundings.library is not None:
         body["library"] = [_library_to_json(name, facts) for name, facts in sorted(surroundings.library.items())]
     return body
@@ -62,8 +67,10 @@ def surroundings_from_json(body: object, floor: FloorFacts | None = None) -> Sur
         raise UnreadableSite("A site must be a JSON object with “devices” and “places”.")
     devices = [_device_from_json(item) for item in _listed(body, "devices")]
     places = [_place_from_json(item) for item in _listed(body, "places")]
+    zones = tuple(sorted((zone_from_json(item) for item in _listed(body, "zones")), key=lambda zone: zone.id))
     library = dict(_library_from_json(item) for item in _listed(body, "library")) if "library" in body else None
-    return Surroundings({facts.description.id: facts for facts in devices}, {p.id: p for p in places}, floor, library)
+    by_id = {facts.description.id: facts for facts in devices}
+    return Surroundings(by_id, {p.id: p for p in places}, floor, library, zones)
 
 
 def _library_from_json(body: Mapping[str, Any]) -> tuple[str, LibraryFacts]:
@@ -109,3 +116,35 @@ def _place_from_json(body: Mapping[str, Any]) -> PlaceFacts:
         raise UnreadableSite(f"Place {name} needs an id, x and y in metres, and a kind: {', '.join(PLACE_KINDS)}.")
     x, y, theta = (float(n) for n in numbers if isinstance(n, int | float))
     return PlaceFacts(name, str(body.get("name", name)), body["kind"], x, y, theta)
+
+
+def zone_to_json(zone: ZoneFacts) -> dict[str, Any]:
+    """Return a zone of a site's floor as plain JSON; `speed_m_s` only where it has one."""
+    body = {"id": zone.id, "name": zone.name, "rule": zone.rule, "points": [list(point) for point in zone.points]}
+    return body if zone.speed_m_s is None else {**body, "speed_m_s": zone.speed_m_s}
+
+
+def zone_from_json(body: Mapping[str, Any]) -> ZoneFacts:
+    """Read a zone of a site's floor. Raises UnreadableSite."""
+    name, points, speed = body.get("id"), body.get("points"), body.get("speed_m_s")
+    corners = [_corner(point) for point in points] if isinstance(points, list) else []
+    good = isinstance(name, str) and name and len(corners) >= FEWEST_CORNERS and None not in corners
+    slow = body.get("rule") != "slow" or _is_finite(speed)
+    if not good or not slow or body.get("rule") not in ZONE_RULES:
+        raise UnreadableSite(
+            f"Zone {name} needs an id, a rule: {', '.join(ZONE_RULES)}, points: at least {FEWEST_CORNERS} [x, y] in"
+            " metres, and for slow a speed_m_s."
+        )
+    outline = tuple(corner for corner in corners if corner is not None)
+    speed_m_s = float(speed) if body["rule"] == "slow" and isinstance(speed, int | float) else None
+    return ZoneFacts(str(name), str(body.get("name", name)), body["rule"], outline, speed_m_s)
+
+
+def _corner(point: object) -> tuple[float, float] | None:
+    if not isinstance(point, list | tuple) or len(point) != 2 or not all(map(_is_finite, point)):
+        return None
+    return (float(point[0]), float(point[1]))
+
+
+def _is_finite(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)

@@ -8,6 +8,7 @@ from typing import Final, Literal, Protocol
 
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
 
+ZoneRule = Literal["keep_out", "one_at_a_time", "slow"]
 Lifecycle = Literal["pending", "approved", "retired"]
 
 
@@ -33,6 +34,17 @@ class PlaceFacts:
     x: float
     y: float
     theta: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class ZoneFacts:
+    """A zone of the site's floor: a polygon in metres that all robots keep out of, share, or go slowly in."""
+
+    id: str
+    name: str
+    rule: ZoneRule
+    points: tuple[tuple[float, float], ...]
+    speed_m_s: float | None = None
 
 
 class FloorFacts(Protocol):
@@ -104,6 +116,8 @@ class Surroundings:
     floor: FloorFacts | None = None
     library: Mapping[str, LibraryFacts] | None = None
     """The functions of the library by id; None: nobody knows them here."""
+    zones: tuple[ZoneFacts, ...] = ()
+    """What holds on the site's floor for every robot, by id: a program need not say it again."""
     crew: CrewFacts = field(default=NOBODY, compare=False, repr=False)
     """Whose readings a role's are, in the program that is looked at."""
 
@@ -115,7 +129,7 @@ def what_programs_see(surroundings: Surroundings) -> object:
         for facts in surroundings.devices.values()
         for d in (facts.description,)
     ]
-    return [*surroundings.devices], devices, surroundings.places
+    return [*surroundings.devices], devices, surroundings.places, surroundings.zones
 
 
 def standing_places(surroundings: Surroundings) -> dict[str, str]:

@@ -26,7 +26,7 @@ MOST_CORNERS = 200
 def read_zones(document: object) -> tuple[Zone, ...]:
     """Return the zones of a document that can be drawn, by id."""
     zones = mapping(mapping(document).get("zones"))
-    read = (_zone(str(name), mapping(zones[name])) for name in sorted(zones, key=str))
+    read = (read_zone(str(name), mapping(zones[name])) for name in sorted(zones, key=str))
     return tuple(zone for zone in read if zone is not None)
 
 
@@ -37,7 +37,8 @@ def zone_names(document: object) -> dict[str, str]:
     return {key: name if isinstance(name, str) and name else key for key, name in named.items()}
 
 
-def _zone(name: str, item: Mapping[str, object]) -> Zone | None:
+def read_zone(name: str, item: Mapping[str, object]) -> Zone | None:
+    """Return a zone by its id from what is said of it; None if that is no zone that can be drawn."""
     rule, given, speed = RULES.get(str(item.get("rule"))), item.get("points"), item.get("speed_m_s")
     listed = [read_point(point) for point in given] if isinstance(given, list | tuple) else []
     points = tuple(point for point in listed if point is not None)

@@ -2788,6 +2788,54 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/zones": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Add Zone
+         * @description Make a zone on a site's map. Robots heed it from then on, those under way, too.
+         */
+        post: operations["add_zone"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/zones/{zone_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Zone
+         * @description Show a zone of a site's map.
+         */
+        get: operations["show_zone"];
+        put?: never;
+        post?: never;
+        /**
+         * Remove Zone
+         * @description Take a zone away: robots drive there as anywhere else.
+         */
+        delete: operations["remove_zone"];
+        options?: never;
+        head?: never;
+        /**
+         * Edit Zone
+         * @description Change a zone: robots heed it as it is from then on, those under way, too.
+         */
+        patch: operations["edit_zone"];
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -3633,6 +3681,7 @@ export interface components {
                 number
             ][];
             width: number;
+            zones: components["schemas"]["SiteZoneShape"][];
         };
         /** @description A machine or place that a map does not suit, and whether it is so only with that map. */
         MapTroubleOfDevices: {
@@ -3782,6 +3831,19 @@ export interface components {
             days: number;
             name: string;
             scopes: ("read" | "operate" | "run" | "admin" | "broker")[];
+        };
+        /** @description A zone that is to be: corners in metres in the map frame; `speed_m_s` for `slow` alone; `id` made of its name. */
+        NewZone: {
+            /** @default  */
+            id: string;
+            name: string;
+            points: [
+                number,
+                number
+            ][];
+            /** @enum {string} */
+            rule: "keep_out" | "slow" | "one_at_a_time";
+            speed_m_s?: number | null;
         };
         /** @description What a link offers. */
         OfferShape: {
@@ -4517,6 +4579,18 @@ export interface components {
             slug: string;
             stop: components["schemas"]["Stop"];
         };
+        /** @description A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow. */
+        SiteZoneShape: {
+            id: string;
+            name: string;
+            points: [
+                number,
+                number
+            ][];
+            /** @enum {string} */
+            rule: "keep_out" | "slow" | "one_at_a_time";
+            speed_m_s: number | null;
+        };
         /** @description Metres. */
         SizeShape: {
             x: number;
@@ -4758,6 +4832,16 @@ export interface components {
             /** @default [] */
             mentions: number[];
             text: string;
+        };
+        /** @description What is to be another about a zone; what is left out stays. */
+        ZoneEdit: {
+            name?: string | null;
+            points?: [
+                number,
+                number
+            ][] | null;
+            rule?: ("keep_out" | "slow" | "one_at_a_time") | null;
+            speed_m_s?: number | null;
         };
         /** @description A named area of the map: a polygon in metres, and what it asks of robots. */
         ZoneShape: {
@@ -12045,6 +12129,185 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    add_zone: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewZone"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SiteZoneShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_zone: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                zone_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SiteZoneShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_zone: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                zone_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    edit_zone: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                zone_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ZoneEdit"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SiteZoneShape"];
+                };
             };
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];

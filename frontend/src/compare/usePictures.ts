@@ -8,6 +8,7 @@ import { wellFormed } from "@/program/document/wellFormed";
 import type { Scene } from "@/program/scene/scene";
 import type { SiteDevice, Surroundings } from "@/program/surroundings";
 import type { Translate } from "@/program/words/stepWords";
+import { floorMark } from "@/map/floor/floor";
 import { drawnScene, type Ghost, ghostsOf, type Shown, type Tile, tilesOf } from "./marks";
 
 interface Part {
@@ -41,7 +42,7 @@ function useSide(
   const document = useMemo(() => wellFormed(raw ?? EMPTY_DOCUMENT), [raw]);
   const { scene, surroundings, t } = useScene({
     site,
-    mapVersion: plan?.version,
+    floor: floorMark(plan),
     document,
     compiled,
     devices,

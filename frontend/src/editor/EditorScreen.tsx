@@ -12,6 +12,7 @@ import { isRobot, progressOf } from "@/map/devices/device";
 import { useEditorText, useScene } from "@/program/canvas/useScene";
 import { openKeymap } from "@/shell/keys/keymap";
 import { LoadProblem } from "@/shell/LoadProblem";
+import { floorMark } from "@/map/floor/floor";
 import classes from "./editor.module.css";
 import { EditorWorkspace } from "./EditorWorkspace";
 import type { Edit } from "./edits/edits";
@@ -152,7 +153,7 @@ function Loaded({ program, site, devices: live, shared, canEdit, user, openAnew 
   const plan = map.data ?? null;
   const parts = useScene({
     site: site.slug,
-    mapVersion: plan?.version,
+    floor: floorMark(plan),
     document,
     compiled,
     devices,

@@ -3,6 +3,7 @@ import { useMemo } from "react";
 import type { FloorPlan } from "@/map/floor/floor";
 import type { Insets } from "@/map/plane/projection";
 import type { RobotSource } from "@/map/robots/robots";
+import { floorMark } from "@/map/floor/floor";
 import type { NodeLooks } from "./canvas/buildNodes";
 import { MapControls } from "./canvas/MapControls";
 import { MapStage } from "./canvas/MapStage";
@@ -41,7 +42,7 @@ export function ProgramMap(props: ProgramMapProps) {
   const document = useMemo(() => wellFormed(props.document), [props.document]);
   const { scene, t, surroundings } = useScene({
     site: props.site,
-    mapVersion: plan?.version,
+    floor: floorMark(plan),
     document,
     compiled: props.compiled,
     devices,

@@ -8,6 +8,7 @@ import { useRoutes } from "@/program/canvas/useRoutes";
 import { keyOfPath } from "@/program/scene/stepPaths";
 import { spotOf } from "@/program/surroundings";
 import { valueText } from "@/program/words/stepWords";
+import { floorMark } from "@/map/floor/floor";
 import { useLanding } from "../canvas/landing";
 import { chipBoxes, createTask } from "../canvas/stepGesture";
 import { type OpenProgram, useOpenProgram } from "../state/context";
@@ -76,7 +77,7 @@ function useDraw(open: OpenProgram, found: readonly NextStep[]) {
     const ends = endsOf(next);
     return ends ? [keyOfPath(ends.from, ends.to)] : [];
   });
-  const routes = useRoutes(site.slug, plan?.version, keys);
+  const routes = useRoutes(site.slug, floorMark(plan), keys);
   const land = useLanding(open, routes);
   return (next: NextStep) => {
     const ends = endsOf(next);

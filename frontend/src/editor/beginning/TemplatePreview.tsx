@@ -14,6 +14,7 @@ import { EMPTY_DOCUMENT } from "@/program/document/document";
 import { routePoints } from "@/program/scene/scene";
 import { keyOfPath } from "@/program/scene/stepPaths";
 import { type Spot, spotOf } from "@/program/surroundings";
+import { floorMark } from "@/map/floor/floor";
 import { useOpenProgram } from "../state/context";
 import classes from "./beginning.module.css";
 import type { Bound } from "./templates";
@@ -93,7 +94,7 @@ function useLegs({ stops }: Bound, round: boolean): { spots: readonly Spot[]; le
     return next.map((to, index) => ({ from: spots[index] ?? to, to }));
   }, [spots, round]);
   const keys = useMemo(() => ends.map(({ from, to }) => keyOfPath(from, to)), [ends]);
-  const routes = useRoutes(site.slug, plan?.version, keys);
+  const routes = useRoutes(site.slug, floorMark(plan), keys);
   return { spots, legs: ends.map((each, index) => routePoints(each, routes(keys[index] ?? ""))) };
 }
 

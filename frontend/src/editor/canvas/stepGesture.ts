@@ -9,6 +9,7 @@ import { spotOnMachine, spotOnRoute } from "../state/placement";
 import { keyOfPath, type RouteLookup } from "@/program/scene/stepPaths";
 import { routePoints } from "@/program/scene/scene";
 import { deviceBox, spotOf, type SiteDevice, type Spot } from "@/program/surroundings";
+import { floorMark } from "@/map/floor/floor";
 import { createStep } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { createAtDevice, createOnFloor } from "../state/newStep";
@@ -72,7 +73,7 @@ function usePath(open: OpenProgram, gesture: Gesture): DrawnPath {
   const key = ends ? keyOfPath(ends.from, ends.to) : "";
   const routes = useRoutes(
     open.site.slug,
-    open.plan?.version,
+    floorMark(open.plan),
     useMemo(() => (key ? [key] : []), [key]),
   );
   return { ends, key, routes, preview: ends ? routePoints(ends, routes(key)) : null };

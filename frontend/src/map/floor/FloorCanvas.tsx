@@ -1,9 +1,12 @@
 /** The floor below everything else: one canvas that follows a viewport. */
 import { useCallback, useMemo } from "react";
+import { useTranslation } from "react-i18next";
 import type { FloorPlan } from "./floor";
 import { floorShapes, paintFloor, type FloorDetail } from "./floorPainter";
 import classes from "../map.module.css";
 import type { Palette } from "../plane/palette";
+import { zoneSign } from "./zonePainter";
+import { ruleWords, zoneWords } from "./zoneWords";
 import { useCanvas } from "../plane/useCanvas";
 import type { ViewportSource } from "../plane/viewport";
 
@@ -18,7 +21,13 @@ export function FloorCanvas({
   viewport: ViewportSource;
   detail?: FloorDetail;
 }) {
-  const shapes = useMemo(() => (plan ? floorShapes(plan) : null), [plan]);
+  const { t } = useTranslation();
+  const zones = plan?.zones;
+  const signs = useMemo(
+    () => (zones ?? []).map((zone) => zoneSign(zone, [zoneWords(zone, t), ruleWords(zone, t)])),
+    [zones, t],
+  );
+  const shapes = useMemo(() => (plan ? floorShapes(plan, signs) : null), [plan, signs]);
   const paint = useCallback(
     (canvas: CanvasRenderingContext2D, size: { width: number; height: number }, palette: Palette) =>
       paintFloor(canvas, size, palette, shapes, viewport.get(), detail),

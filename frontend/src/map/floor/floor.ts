@@ -12,6 +12,15 @@ export interface MapPlace {
   readonly label?: readonly [number, number] | null;
 }
 
+/** An area of the floor with a rule for all robots; metres, metres a second. */
+export interface MapZone {
+  readonly id: string;
+  readonly name: string;
+  readonly rule: "keep_out" | "slow" | "one_at_a_time";
+  readonly points: readonly Point[];
+  readonly speed_m_s: number | null;
+}
+
 /** One version of a site's map; `cells` row by row from the bottom row: 0 free, 100 wall, 255 unknown. */
 export interface FloorPlan {
   readonly version: number;
@@ -20,6 +29,7 @@ export interface FloorPlan {
   readonly resolution_m: number;
   readonly origin: { readonly x: number; readonly y: number };
   readonly places: readonly MapPlace[];
+  readonly zones?: readonly MapZone[];
   readonly cells: Uint8Array;
 }
 
@@ -108,4 +118,24 @@ export function cellAt(plan: FloorPlan, point: Point): number {
   const row = Math.floor((point[1] - plan.origin.y) / plan.resolution_m);
   if (column < 0 || row < 0 || column >= plan.width || row >= plan.height) return 255;
   return plan.cells[row * plan.width + column] ?? 255;
+}
+
+const marks = new WeakMap<FloorPlan, string>();
+
+/** Differs whenever robots may drive over another floor: another map, or other zones to keep out of. */
+export function floorMark(plan: FloorPlan | null | undefined): string | undefined {
+  if (!plan) return undefined;
+  const known = marks.get(plan);
+  if (known !== undefined) return known;
+  const closed = (plan.zones ?? []).filter(({ rule }) => rule === "keep_out").map(({ points }) => points);
+  const mark = String(plan.version) + (closed.length > 0 ? `-${hashOf(JSON.stringify(closed))}` : "");
+  marks.set(plan, mark);
+  return mark;
+}
+
+/** FNV-1a of 32 bits. */
+function hashOf(text: string): string {
+  let hash = 0x811c9dc5;
+  for (let at = 0; at < text.length; at += 1) hash = Math.imul(hash ^ text.charCodeAt(at), 0x01000193) >>> 0;
+  return hash.toString(36);
 }

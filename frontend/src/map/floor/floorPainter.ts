@@ -2,12 +2,14 @@
 import { cellBoxToPixels, knownBox, mergeCells, type FloorPlan } from "./floor";
 import type { Palette } from "../plane/palette";
 import { PIXELS_PER_METRE, toPixels, type Box, type Viewport } from "../plane/projection";
+import { paintZones, paintZoneTags, type ZoneSign } from "./zonePainter";
 
 export interface FloorShapes {
   readonly plan: FloorPlan;
   readonly free: Path2D;
   readonly walls: Path2D;
   readonly box: Box;
+  readonly zones: readonly ZoneSign[];
 }
 
 export interface FloorDetail {
@@ -22,7 +24,7 @@ const ROOM_LABEL = "500 11.5px 'Inter Variable', Inter, sans-serif";
 const RULER_LABEL = "10.5px 'JetBrains Mono', monospace";
 
 /** Merge the cells into shapes once for each map. */
-export function floorShapes(plan: FloorPlan): FloorShapes {
+export function floorShapes(plan: FloorPlan, zones: readonly ZoneSign[]): FloorShapes {
   return {
     plan,
     free: pathOf(
@@ -34,6 +36,7 @@ export function floorShapes(plan: FloorPlan): FloorShapes {
       mergeCells(plan, (cell) => cell === 100),
     ),
     box: knownBox(plan),
+    zones,
   };
 }
 
@@ -60,8 +63,10 @@ export function paintFloor(
   canvas.translate(viewport.x, viewport.y);
   canvas.scale(viewport.zoom, viewport.zoom);
   paintGround(canvas, palette, shapes, viewport.zoom, detail);
+  paintZones(canvas, palette, shapes.zones, viewport.zoom);
   paintWalls(canvas, palette, shapes, viewport.zoom);
   if (detail.labels) paintPlaces(canvas, palette, shapes.plan, viewport.zoom);
+  if (detail.labels) paintZoneTags(canvas, palette, shapes.zones, viewport.zoom);
   canvas.restore();
   if (detail.rulers) paintRulers(canvas, palette, shapes.box, viewport);
 }

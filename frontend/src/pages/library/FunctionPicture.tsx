@@ -4,13 +4,14 @@ import { useMemo } from "react";
 import { api } from "@/api/client";
 import { useDevices, useSiteMap } from "@/api/queries";
 import type { LibraryFunction, RouteAnswer } from "@/api/types";
+import { floorMark } from "@/map/floor/floor";
 import { StaticMap } from "@/map/StaticMap";
 import { devicesIn, type Drawn, focusOn, pathsIn } from "./picture";
 
-function useWays(slug: string, definition: Drawn) {
+function useWays(slug: string, floor: string | undefined, definition: Drawn) {
   const pairs = useMemo(() => pathsIn(definition), [definition]);
   return useQuery({
-    queryKey: ["paths", slug, pairs],
+    queryKey: ["paths", slug, floor, pairs],
     queryFn: pairs.length > 0 ? () => api.post<(RouteAnswer | null)[]>(`/sites/${slug}/routes`, { pairs }) : skipToken,
     staleTime: Infinity,
     retry: false,
@@ -26,7 +27,7 @@ export function StepsPicture(props: { slug: string; drawn: Drawn; label: string;
   const { slug, drawn, label, whole } = props;
   const map = useSiteMap(slug).data ?? null;
   const devices = useDevices(slug).data ?? [];
-  const answers = useWays(slug, drawn).data;
+  const answers = useWays(slug, floorMark(map), drawn).data;
   const paths = (answers ?? []).flatMap((answer) => (answer ? [answer.path] : []));
   const used = devicesIn(drawn);
   const shown = devices.filter((device) => used.includes(device.id));

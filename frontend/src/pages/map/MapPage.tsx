@@ -1,6 +1,6 @@
-/** The site's map, large, with its places, what there is to know about it and its ROS files. */
+/** The site's map, large, with its places and zones, what there is to know about it and its ROS files. */
 import { Button, Skeleton } from "@mantine/core";
-import { Check, MapPin, MapPinned, Move, type LucideIcon } from "lucide-react";
+import { Check, MapPin, MapPinned, Move, SquareDashed, type LucideIcon } from "lucide-react";
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
@@ -23,6 +23,9 @@ import { MapVersions } from "./MapVersions";
 import { PlaceHandles } from "./places/PlaceHandles";
 import { PlacesPanel } from "./places/PlacesPanel";
 import { usePlaces } from "./places/usePlaces";
+import { useZones } from "./zones/useZones";
+import { ZoneHandles } from "./zones/ZoneHandles";
+import { ZonesPanel } from "./zones/ZonesPanel";
 
 function Facts({ map }: { map: SiteMap }) {
   const { t } = useTranslation();
@@ -48,9 +51,10 @@ function Facts({ map }: { map: SiteMap }) {
 }
 
 /** What an admin is changing on the map. */
-type Mode = "machines" | "places";
+type Mode = "machines" | "places" | "zones";
 const MODES: readonly { mode: Mode; icon: LucideIcon; begin: string; end: string }[] = [
   { mode: "places", icon: MapPin, begin: "place.edit", end: "place.finish" },
+  { mode: "zones", icon: SquareDashed, begin: "zone.edit", end: "zone.finish" },
   { mode: "machines", icon: Move, begin: "placing.move", end: "placing.finish" },
 ];
 
@@ -63,6 +67,8 @@ function ModeButtons({ mode, change }: { mode: Mode | null; change: (mode: Mode 
       <Button
         key={each.mode}
         variant={isOn ? "filled" : "default"}
+        classNames={{ label: styles.actionLabel ?? "", section: styles.actionIcon ?? "" }}
+        title={t(isOn ? each.end : each.begin)}
         leftSection={<Icon size={16} aria-hidden="true" />}
         onClick={() => change(isOn ? null : each.mode)}
       >
@@ -83,6 +89,7 @@ function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | n
   const navigate = useNavigate();
   const [query] = useSearchParams();
   const places = usePlaces(site.slug, map);
+  const zones = useZones(site.slug, map);
   const asked = map.places.find((each) => each.id === query.get("place"));
   const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
   const movable = mode === "machines" ? devices.filter((device) => device.kind === "machine") : [];
@@ -94,25 +101,30 @@ function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | n
         <StaticMap
           plan={mode === "places" ? bare : map}
           devices={devices.filter(
-            (device) => !movable.includes(device) && !(mode === "places" && device.kind === "robot"),
+            (device) =>
+              !movable.includes(device) && !((mode === "places" || mode === "zones") && device.kind === "robot"),
           )}
           named
           selected={query.get("device")}
-          onSelect={mode === "places" ? undefined : open}
+          onSelect={mode === "places" || mode === "zones" ? undefined : open}
           label={t("pages.map.of", { site: site.name })}
         >
           {movable.map((device) => (
             <MovableMachine key={device.id} site={site} map={map} device={device} />
           ))}
           {mode === "places" ? <PlaceHandles slug={site.slug} map={map} places={places} /> : null}
+          {mode === "zones" ? <ZoneHandles slug={site.slug} map={map} zones={zones} /> : null}
           {asked && mode !== "places" ? <PlaceMark at={[asked.x, asked.y]} /> : null}
         </StaticMap>
       </Panel>
       <Panel className={styles.about}>
         {mode === "machines" ? <p id="placing-help">{t("placing.help")}</p> : null}
-        {mode === "places" ? null : <About map={map} />}
-        <PlacesPanel slug={site.slug} map={map} editing={mode === "places" ? places : null} />
-        {mode === "places" ? null : <MapVersions site={site} />}
+        {mode === "places" || mode === "zones" ? null : <About map={map} />}
+        {mode === "zones" ? null : (
+          <PlacesPanel slug={site.slug} map={map} editing={mode === "places" ? places : null} />
+        )}
+        {mode === "places" ? null : <ZonesPanel slug={site.slug} map={map} editing={mode === "zones" ? zones : null} />}
+        {mode === "places" || mode === "zones" ? null : <MapVersions site={site} />}
       </Panel>
     </div>
   );

@@ -9,19 +9,19 @@ type Kept<Answer> = Record<string, Answer>;
 /** Keep what the server has answered, with what was kept before. */
 export async function keepRoutes<Answer>(
   site: string,
-  mapVersion: number | undefined,
+  floor: string | undefined,
   answers: Kept<Answer>,
 ): Promise<void> {
   const cache = await open();
   if (!cache) return;
-  const all = Object.entries({ ...(await read<Answer>(cache, site, mapVersion)), ...answers }).slice(-MOST);
-  await cache.put(addressOf(site, mapVersion), new Response(JSON.stringify(Object.fromEntries(all))));
+  const all = Object.entries({ ...(await read<Answer>(cache, site, floor)), ...answers }).slice(-MOST);
+  await cache.put(addressOf(site, floor), new Response(JSON.stringify(Object.fromEntries(all))));
 }
 
 /** What was kept of the routes on a map; nothing where the browser keeps nothing. */
-export async function keptRoutes<Answer>(site: string, mapVersion: number | undefined): Promise<Kept<Answer>> {
+export async function keptRoutes<Answer>(site: string, floor: string | undefined): Promise<Kept<Answer>> {
   const cache = await open();
-  return cache ? read(cache, site, mapVersion) : {};
+  return cache ? read(cache, site, floor) : {};
 }
 
 async function open(): Promise<Cache | null> {
@@ -31,12 +31,12 @@ async function open(): Promise<Cache | null> {
   return known ? caches.open(ANSWERS) : null;
 }
 
-async function read<Answer>(cache: Cache, site: string, mapVersion: number | undefined): Promise<Kept<Answer>> {
-  const kept = await cache.match(addressOf(site, mapVersion));
+async function read<Answer>(cache: Cache, site: string, floor: string | undefined): Promise<Kept<Answer>> {
+  const kept = await cache.match(addressOf(site, floor));
   return kept ? ((await kept.json()) as Kept<Answer>) : {};
 }
 
 /** No address of the server's. */
-function addressOf(site: string, mapVersion: number | undefined): string {
-  return `/kept/routes/${encodeURIComponent(site)}/${mapVersion ?? ""}`;
+function addressOf(site: string, floor: string | undefined): string {
+  return `/kept/routes/${encodeURIComponent(site)}/${floor ?? ""}`;
 }

@@ -1,4 +1,4 @@
-/** Planned routes, asked for together, kept for as long as the map stays the same. */
+/** Planned routes, asked for together, kept for as long as the floor (`floorMark`) stays the same. */
 import { useEffect, useMemo, useSyncExternalStore } from "react";
 import { api, ApiProblem } from "@/api/client";
 import { endsOfWay, type RouteLookup } from "../scene/stepPaths";
@@ -15,22 +15,18 @@ const GATHER_MS = 30;
 const AGAIN_MS = 2000;
 
 /** A lookup that gets better: undefined for ways whose answer is still to come. */
-export function useRoutes(
-  site: string | undefined,
-  mapVersion: number | undefined,
-  keys: readonly string[],
-): RouteLookup {
+export function useRoutes(site: string | undefined, floor: string | undefined, keys: readonly string[]): RouteLookup {
   const round = useSyncExternalStore(subscribe, () => answered);
   const wanted = [...new Set(keys)].join("\n");
   useEffect(() => {
     if (!site || !wanted) return;
-    const timer = setTimeout(() => void askFor(site, mapVersion, wanted.split("\n")), GATHER_MS);
+    const timer = setTimeout(() => void askFor(site, floor, wanted.split("\n")), GATHER_MS);
     return () => clearTimeout(timer);
-  }, [site, mapVersion, wanted]);
+  }, [site, floor, wanted]);
   return useMemo<RouteLookup>(() => {
-    const prefix = prefixOf(site, mapVersion);
+    const prefix = prefixOf(site, floor);
     return (key) => (round >= 0 ? pathOf(known.get(prefix + key)) : undefined);
-  }, [site, mapVersion, round]);
+  }, [site, floor, round]);
 }
 
 function subscribe(listener: () => void): () => void {
@@ -43,17 +39,17 @@ function pathOf(answer: Answer | undefined): Path | null | undefined {
 }
 
 /** How long the way is and takes, once it is known. */
-export function knownRoute(site: string | undefined, mapVersion: number | undefined, key: string): Answer {
-  return known.get(prefixOf(site, mapVersion) + key) ?? null;
+export function knownRoute(site: string | undefined, floor: string | undefined, key: string): Answer {
+  return known.get(prefixOf(site, floor) + key) ?? null;
 }
 
-function prefixOf(site: string | undefined, mapVersion: number | undefined): string {
-  return `${site ?? ""}@${mapVersion ?? ""}:`;
+function prefixOf(site: string | undefined, floor: string | undefined): string {
+  return `${site ?? ""}@${floor ?? ""}:`;
 }
 
 /** Ask for the ways that are not known and not asked for; while the server does not answer, again and again. */
-export async function askFor(site: string, mapVersion: number | undefined, keys: readonly string[]): Promise<void> {
-  const prefix = prefixOf(site, mapVersion);
+export async function askFor(site: string, floor: string | undefined, keys: readonly string[]): Promise<void> {
+  const prefix = prefixOf(site, floor);
   const fresh = keys.filter((key) => !known.has(prefix + key) && !asked.has(prefix + key));
   if (fresh.length === 0) return;
   for (const key of fresh) asked.add(prefix + key);
@@ -61,11 +57,11 @@ export async function askFor(site: string, mapVersion: number | undefined, keys:
     const answers = await api.post<Answer[]>(`/sites/${site}/routes`, { pairs: fresh.map(endsOfWay) });
     const told = fresh.map((key, index) => [key, answers[index] ?? null] as const);
     learn(prefix, told);
-    void keepRoutes(site, mapVersion, Object.fromEntries(told)).catch(() => {});
+    void keepRoutes(site, floor, Object.fromEntries(told)).catch(() => {});
   } catch (error) {
     if (isPassing(error)) {
-      setTimeout(() => void askFor(site, mapVersion, fresh), AGAIN_MS);
-      const kept: Record<string, Answer> = await keptRoutes<Answer>(site, mapVersion).catch(() => ({}));
+      setTimeout(() => void askFor(site, floor, fresh), AGAIN_MS);
+      const kept: Record<string, Answer> = await keptRoutes<Answer>(site, floor).catch(() => ({}));
       learn(
         prefix,
         fresh.flatMap((key) => (key in kept ? [[key, kept[key] ?? null] as const] : [])),

@@ -22,7 +22,7 @@ const NO_PLACES: readonly MapPlace[] = [];
 
 export function useScene(input: {
   site: string | undefined;
-  mapVersion: number | undefined;
+  floor: string | undefined;
   document: ProgramDocument;
   compiled: Compiled | null | undefined;
   devices: readonly SiteDevice[];
@@ -37,7 +37,7 @@ export function useScene(input: {
     () => pathsOf(document, readTree(document), surroundings).map((way) => way.key),
     [document, surroundings],
   );
-  const routes = useRoutes(input.site, input.mapVersion, keys);
+  const routes = useRoutes(input.site, input.floor, keys);
   const scene = useMemo(
     () =>
       buildScene({

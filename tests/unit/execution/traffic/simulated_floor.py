@@ -52,7 +52,10 @@ class PretendFloor:
             self.halted.add(command.device)
         elif command.method == "resume":
             self.halted.discard(command.device)
-        elif command.method != "cancel":
+        elif command.method == "cancel":
+            pieces = self.queue.get(command.device, [])
+            pieces[:] = [piece for piece in pieces if piece[0] != command.arguments["command"]]
+        else:
             self.works.append((self.now + 2.0, command.id))
 
     def check_cells(self):

@@ -5,6 +5,7 @@ import { VipoIcon } from "@/design/VipoIcon";
 import { knownRoute } from "@/program/canvas/useRoutes";
 import { drawnRoute, plannedBends, pathsOf } from "@/program/scene/stepPaths";
 import { durationText } from "@/program/words/stepWords";
+import { floorMark } from "@/map/floor/floor";
 import { useOpenProgram } from "../../state/context";
 import classes from "../../panel.module.css";
 import { useStepEditor } from "./stepEditor";
@@ -13,7 +14,7 @@ export function RouteField() {
   const { t, document, scene, surroundings, site, plan, compiled } = useOpenProgram();
   const { id } = useStepEditor();
   const path = pathsOf(document, scene.tree, surroundings).find((each) => each.step === id);
-  const route = path ? knownRoute(site.slug, plan?.version, path.key) : null;
+  const route = path ? knownRoute(site.slug, floorMark(plan), path.key) : null;
   if (!path) return null;
   const length = route ? `${route.length_m.toFixed(1)}\u202fm` : "";
   const added = compiled?.added_moves.includes(id) || document.steps[id]?.kind === "pick_and_drop";

@@ -1,0 +1,35 @@
+/** A site's zones: made, changed and removed by its admins. */
+import { useMutation, useQueryClient } from "@tanstack/react-query";
+import { api } from "./client";
+import { staleWithSiteMap } from "./robotMaps";
+import type { MapZone } from "./types";
+
+export type ZoneRule = MapZone["rule"];
+export const ZONE_RULES: readonly ZoneRule[] = ["keep_out", "slow", "one_at_a_time"];
+
+export type ZoneFields = Partial<Omit<MapZone, "id" | "points">> & { points?: readonly (readonly [number, number])[] };
+
+export type ZoneChange =
+  { do: "add"; zone: ZoneFields } | { do: "edit"; id: string; fields: ZoneFields } | { do: "remove"; id: string };
+
+function send(slug: string, change: ZoneChange): Promise<MapZone | undefined> {
+  const path = `/sites/${slug}/zones`;
+  switch (change.do) {
+    case "add":
+      return api.post<MapZone>(path, change.zone);
+    case "edit":
+      return api.patch<MapZone>(`${path}/${encodeURIComponent(change.id)}`, change.fields);
+    case "remove":
+      return api.delete<undefined>(`${path}/${encodeURIComponent(change.id)}`);
+  }
+}
+
+/** Change a zone; whatever comes of it, the map's zones are fetched anew. */
+export function useChangeZone(slug: string) {
+  const queries = useQueryClient();
+  return useMutation({
+    mutationFn: (change: ZoneChange) => send(slug, change),
+    onSettled: () =>
+      Promise.all(staleWithSiteMap(slug).map((queryKey) => queries.invalidateQueries({ queryKey, exact: false }))),
+  });
+}

@@ -1,0 +1,70 @@
+/** A zone that an admin selects, moves as a whole by dragging or by the arrow keys, and changes at its corners. */
+import { useState, type KeyboardEvent, type PointerEvent } from "react";
+import { useTranslation } from "react-i18next";
+import type { MapZone, SiteMap } from "@/api/types";
+import { zoneWords } from "@/map/floor/zoneWords";
+import type { Point } from "@/map/plane/projection";
+import { pointed } from "../../devices/movable";
+import { nudge } from "../../devices/placement";
+import { pathOf, shifted, type Outline } from "./outline";
+import { useOutlineDraft } from "./useOutlineDraft";
+import { ZoneCorners } from "./ZoneCorners";
+import styles from "./zones.module.css";
+
+interface MovableZoneProps {
+  slug: string;
+  map: SiteMap;
+  zone: MapZone;
+  isSelected: boolean;
+  onSelect: () => void;
+}
+
+export function MovableZone({ slug, map, zone, isSelected, onSelect }: MovableZoneProps) {
+  const { t } = useTranslation();
+  const draft = useOutlineDraft(slug, zone);
+  const [grip, setGrip] = useState<{ at: Point; points: Outline } | null>(null);
+  const { points } = draft;
+  const press = (event: KeyboardEvent) => {
+    const by = nudge([0, 0], event.key, event.shiftKey);
+    if (by) draft.show(shifted(points, by, map));
+    else if (event.key === "Enter") draft.keep();
+    else if (event.key === "Escape") draft.show(null);
+    else return;
+    event.preventDefault();
+  };
+  const drag = (event: PointerEvent<SVGPathElement>) => {
+    if (!grip) return;
+    const [x, y] = pointed(event);
+    draft.show(shifted(grip.points, [x - grip.at[0], y - grip.at[1]], map));
+  };
+  const release = () => {
+    if (grip) draft.keep();
+    setGrip(null);
+  };
+  return (
+    <g>
+      <path
+        d={pathOf(points, true)}
+        className={styles.area}
+        role="button"
+        tabIndex={0}
+        aria-pressed={isSelected}
+        aria-label={zoneWords(zone, t)}
+        aria-describedby="zones-help"
+        onPointerDown={(event) => {
+          if (event.button !== 0) return;
+          onSelect();
+          event.currentTarget.setPointerCapture(event.pointerId);
+          setGrip({ at: pointed(event), points });
+        }}
+        onPointerMove={drag}
+        onPointerUp={release}
+        onPointerCancel={() => (setGrip(null), draft.show(null))}
+        onFocus={onSelect}
+        onKeyDown={press}
+        onBlur={() => draft.keep()}
+      />
+      {isSelected ? <ZoneCorners map={map} draft={draft} /> : null}
+    </g>
+  );
+}

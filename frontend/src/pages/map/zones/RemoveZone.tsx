@@ -1,0 +1,83 @@
+/** Asks before a zone goes, and names whom it concerns. */
+import { Button, Modal } from "@mantine/core";
+import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
+import { useDevices, usePrograms, useRuns } from "@/api/queries";
+import type { MapZone, SiteMap } from "@/api/types";
+import { useChangeZone } from "@/api/zones";
+import { useReturnFocus } from "@/design/useReturnFocus";
+import { problemText } from "@/shell/LoadProblem";
+import styles from "../places/places.module.css";
+import { usesOf } from "./uses";
+
+interface ZoneUsesProps {
+  slug: string;
+  map: SiteMap;
+  zone: MapZone;
+}
+
+export function ZoneUses({ slug, map, zone }: ZoneUsesProps) {
+  const { t } = useTranslation();
+  const [devices, programs, runs] = [useDevices(slug).data, usePrograms(slug).data, useRuns(slug).data];
+  if (!devices || !programs || !runs) return null;
+  const uses = usesOf(zone, { places: map.places, devices, programs, runs });
+  const inside = [...uses.places, ...uses.machines].map(({ name }) => name);
+  return (
+    <div className={styles.adding}>
+      <p className={styles.quiet}>
+        {inside.length > 0 ? t("zone.inside", { names: inside.join(", ") }) : t("zone.nothingInside")}
+      </p>
+      {uses.programs.length > 0 ? (
+        <div>
+          <p className={styles.quiet}>{t("zone.usedBy", { count: uses.programs.length })}</p>
+          <ul className={styles.uses}>
+            {uses.programs.map((program) => (
+              <li key={program.id}>
+                <Link to={`/programs/${program.id}`}>{program.name}</Link>
+              </li>
+            ))}
+          </ul>
+        </div>
+      ) : null}
+      {uses.runs.length > 0 ? (
+        <div>
+          <p className={styles.quiet}>{t("zone.runs", { count: uses.runs.length })}</p>
+          <ul className={styles.uses}>
+            {uses.runs.map((run) => (
+              <li key={run.id}>
+                <Link to={`/runs/${run.id}`}>{t("zone.run", { number: run.number, name: run.program.name })}</Link>
+              </li>
+            ))}
+          </ul>
+        </div>
+      ) : null}
+    </div>
+  );
+}
+
+export function RemoveZone({ slug, map, zone, onClose }: ZoneUsesProps & { onClose: () => void }) {
+  const { t } = useTranslation();
+  useReturnFocus();
+  const change = useChangeZone(slug);
+  return (
+    <Modal opened onClose={onClose} title={t("zone.removeAsk", { name: zone.name })} size={440}>
+      <div className={styles.form}>
+        <p>{t("zone.removeText")}</p>
+        <ZoneUses slug={slug} map={map} zone={zone} />
+        {change.error ? <p role="alert">{problemText(change.error, t("shell.problem.screen"))}</p> : null}
+        <div className={styles.decide}>
+          <Button variant="default" onClick={onClose} data-autofocus>
+            {t("keys.cancel")}
+          </Button>
+          <Button
+            color="red"
+            loading={change.isPending}
+            onClick={() => change.mutate({ do: "remove", id: zone.id }, { onSuccess: onClose })}
+          >
+            {t("zone.remove")}
+          </Button>
+        </div>
+      </div>
+    </Modal>
+  );
+}

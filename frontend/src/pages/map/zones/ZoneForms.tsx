@@ -1,0 +1,103 @@
+/** What a zone is called and asks: the one that is selected, and the one that is about to be. */
+import { Button, TextInput } from "@mantine/core";
+import { Trash2 } from "lucide-react";
+import { useEffect, useRef, useState, type FormEvent } from "react";
+import { useTranslation } from "react-i18next";
+import type { MapZone, SiteMap } from "@/api/types";
+import { useChangeZone, type ZoneFields, type ZoneRule } from "@/api/zones";
+import { formatNumber, withUnit } from "@/i18n/format";
+import styles from "../places/places.module.css";
+import { tellRefusal } from "../places/refusal";
+import { areaOf } from "./outline";
+import { RuleField } from "./RuleField";
+import { ZoneUses } from "./RemoveZone";
+import type { ZoneEditing } from "./useZones";
+
+interface ZoneFormProps {
+  slug: string;
+  map: SiteMap;
+  zone: MapZone;
+  remove: () => void;
+}
+
+export function ZoneForm({ slug, map, zone, remove }: ZoneFormProps) {
+  const { t } = useTranslation();
+  const change = useChangeZone(slug);
+  const edit = (fields: ZoneFields, refused?: () => void) =>
+    change.mutate({ do: "edit", id: zone.id, fields }, { onError: (error) => (refused?.(), tellRefusal(error, t)) });
+  return (
+    <div className={styles.form} role="group" aria-label={t("zone.about", { name: zone.name })}>
+      <NameField name={zone.name} keep={(name, refused) => edit({ name }, refused)} />
+      <RuleField
+        rule={zone.rule}
+        speed={zone.speed_m_s}
+        change={(rule, speed_m_s) => edit(speed_m_s === null ? { rule } : { rule, speed_m_s })}
+      />
+      <p className={styles.quiet}>{t("zone.area", { area: withUnit(formatNumber(areaOf(zone.points), 1), "m²") })}</p>
+      <ZoneUses slug={slug} map={map} zone={zone} />
+      <Button variant="default" color="red" leftSection={<Trash2 size={15} aria-hidden="true" />} onClick={remove}>
+        {t("zone.remove")}
+      </Button>
+    </div>
+  );
+}
+
+/** Kept when the field is left or Enter is pressed; Esc takes back what was typed. */
+function NameField({ name, keep }: { name: string; keep: (name: string, refused: () => void) => void }) {
+  const { t } = useTranslation();
+  const [value, setValue] = useState(name);
+  useEffect(() => setValue(name), [name]);
+  const settle = () => {
+    const next = value.trim();
+    if (next && next !== name) keep(next, () => setValue(name));
+    else setValue(name);
+  };
+  return (
+    <TextInput
+      label={t("zone.name")}
+      maxLength={60}
+      value={value}
+      onChange={(event) => setValue(event.currentTarget.value)}
+      onBlur={settle}
+      onKeyDown={(event) => {
+        if (event.key === "Enter") settle();
+        if (event.key === "Escape") setValue(name);
+      }}
+    />
+  );
+}
+
+export function NewZoneForm({ editing }: { editing: ZoneEditing }) {
+  const { t } = useTranslation();
+  const [name, setName] = useState("");
+  const [rule, setRule] = useState<ZoneRule>("keep_out");
+  const [speed, setSpeed] = useState<number | null>(null);
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(() => field.current?.focus(), []);
+  const submit = (event: FormEvent) => {
+    event.preventDefault();
+    if (name.trim()) editing.add({ name: name.trim(), rule, ...(speed === null ? {} : { speed_m_s: speed }) });
+  };
+  return (
+    <form onSubmit={submit} className={styles.form} aria-label={t("zone.new")}>
+      <TextInput
+        ref={field}
+        label={t("zone.name")}
+        placeholder={t("zone.example")}
+        maxLength={60}
+        value={name}
+        onChange={(event) => setName(event.currentTarget.value)}
+        onKeyDown={(event) => {
+          if (event.key === "Escape") editing.stop();
+        }}
+      />
+      <RuleField rule={rule} speed={speed} change={(next, pace) => (setRule(next), setSpeed(pace))} />
+      <p className={styles.quiet}>
+        {t("zone.area", { area: withUnit(formatNumber(areaOf(editing.drawn?.corners ?? []), 1), "m²") })}
+      </p>
+      <Button type="submit" disabled={!name.trim()} loading={editing.isSending}>
+        {t("zone.create")}
+      </Button>
+    </form>
+  );
+}

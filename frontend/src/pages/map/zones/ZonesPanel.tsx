@@ -1,0 +1,89 @@
+/** The zones of a map as a list; admins draw, change and remove them here. */
+import { Button } from "@mantine/core";
+import { SquareDashed, X } from "lucide-react";
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import type { MapZone, SiteMap } from "@/api/types";
+import { Chip } from "@/design/Chip";
+import { formatNumber, withUnit } from "@/i18n/format";
+import { ruleWords } from "@/map/floor/zoneWords";
+import styles from "../places/places.module.css";
+import own from "./zones.module.css";
+import { areaOf } from "./outline";
+import { RemoveZone } from "./RemoveZone";
+import type { ZoneEditing } from "./useZones";
+import { NewZoneForm, ZoneForm } from "./ZoneForms";
+
+interface ZonesPanelProps {
+  slug: string;
+  map: SiteMap;
+  /** Null for who only looks. */
+  editing: ZoneEditing | null;
+}
+
+export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
+  const { t } = useTranslation();
+  const [removing, setRemoving] = useState<MapZone | null>(null);
+  return (
+    <section aria-labelledby="zones">
+      <h2 id="zones">{t("zone.zones")}</h2>
+      {editing ? <Adding editing={editing} /> : null}
+      {map.zones.length === 0 ? <p className={styles.quiet}>{t("zone.none")}</p> : null}
+      <ul className={styles.list}>
+        {map.zones.map((zone) => (
+          <li key={zone.id}>
+            <Row zone={zone} editing={editing} />
+            {editing?.zone?.id === zone.id ? (
+              <ZoneForm slug={slug} map={map} zone={zone} remove={() => setRemoving(zone)} />
+            ) : null}
+          </li>
+        ))}
+      </ul>
+      {removing ? <RemoveZone slug={slug} map={map} zone={removing} onClose={() => setRemoving(null)} /> : null}
+    </section>
+  );
+}
+
+function Adding({ editing }: { editing: ZoneEditing }) {
+  const { t } = useTranslation();
+  const { drawn, begin, stop } = editing;
+  const Icon = drawn ? X : SquareDashed;
+  return (
+    <div className={styles.adding}>
+      <p id="zones-help" className={styles.quiet}>
+        {t(drawn && !drawn.closed ? "zone.drawHelp" : "zone.help")}
+      </p>
+      {drawn?.closed ? <NewZoneForm editing={editing} /> : null}
+      <Button
+        variant={drawn ? "default" : "light"}
+        leftSection={<Icon size={16} aria-hidden="true" />}
+        onClick={drawn ? stop : begin}
+      >
+        {t(drawn ? "zone.addStop" : "zone.add")}
+      </Button>
+    </div>
+  );
+}
+
+function Row({ zone, editing }: { zone: MapZone; editing: ZoneEditing | null }) {
+  const { t } = useTranslation();
+  const words = (
+    <>
+      <span>{zone.name}</span>
+      <Chip>{ruleWords(zone, t)}</Chip>
+      <code>{withUnit(formatNumber(areaOf(zone.points), 1), "m²")}</code>
+    </>
+  );
+  if (!editing) return <div className={`${styles.row} ${own.row}`}>{words}</div>;
+  const isOpen = editing.zone?.id === zone.id;
+  return (
+    <button
+      type="button"
+      className={`${styles.row} ${own.row}`}
+      aria-expanded={isOpen}
+      onClick={() => editing.select(isOpen ? null : zone.id)}
+    >
+      {words}
+    </button>
+  );
+}

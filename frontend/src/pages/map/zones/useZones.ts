@@ -1,0 +1,45 @@
+/** What an admin does with the zones of a map at the moment: which one is selected, what is drawn of a new one. */
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import type { SiteMap } from "@/api/types";
+import { useChangeZone, type ZoneFields } from "@/api/zones";
+import { tellRefusal } from "../places/refusal";
+import type { Outline } from "./outline";
+
+export type ZoneEditing = ReturnType<typeof useZones>;
+
+/** A new zone: its corners so far, and whether that is all of them. */
+export interface Drawn {
+  readonly corners: Outline;
+  readonly closed: boolean;
+}
+
+export function useZones(slug: string, map: SiteMap) {
+  const { t } = useTranslation();
+  const change = useChangeZone(slug);
+  const [selected, select] = useState<string | null>(null);
+  const [drawn, draw] = useState<Drawn | null>(null);
+  const begin = () => {
+    select(null);
+    draw({ corners: [], closed: false });
+  };
+  const add = (fields: ZoneFields) => {
+    if (!drawn?.closed) return;
+    const onSuccess = (zone: { id: string } | undefined) => {
+      draw(null);
+      select(zone?.id ?? null);
+    };
+    const zone = { ...fields, points: drawn.corners };
+    change.mutate({ do: "add", zone }, { onSuccess, onError: (error) => tellRefusal(error, t) });
+  };
+  return {
+    zone: map.zones.find((each) => each.id === selected) ?? null,
+    select,
+    drawn,
+    draw,
+    begin,
+    stop: () => draw(null),
+    add,
+    isSending: change.isPending,
+  };
+}

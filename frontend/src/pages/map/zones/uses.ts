@@ -1,0 +1,52 @@
+/** Whom a zone concerns: what stands in it, the programs that go there, and their runs under way; pure. */
+import type { Device, MapPlace, MapZone, Program, RunSummary } from "@/api/types";
+import { footprint } from "@/map/devices/device";
+import { PIXELS_PER_METRE, type Point } from "@/map/plane/projection";
+import { holds } from "./outline";
+
+/** Robots stand so far (m) beside a machine that they serve. */
+const BESIDE_M = 0.5;
+
+export interface ZoneUses {
+  readonly places: readonly MapPlace[];
+  readonly machines: readonly Device[];
+  readonly programs: readonly Program[];
+  readonly runs: readonly RunSummary[];
+}
+
+interface Known {
+  readonly places: readonly MapPlace[];
+  readonly devices: readonly Device[];
+  readonly programs: readonly Program[];
+  readonly runs: readonly RunSummary[];
+}
+
+export function usesOf({ points }: Pick<MapZone, "points">, known: Known): ZoneUses {
+  const places = known.places.filter(({ kind, x, y }) => kind !== "room" && holds(points, [x, y]));
+  const machines = known.devices.filter(
+    (device) => device.kind === "machine" && around(device).some((point) => holds(points, point)),
+  );
+  const names = new Set([...places, ...machines].map(({ id }) => id));
+  const programs = known.programs.filter((program) =>
+    [...program.places, ...program.devices].some((each) => names.has(each)),
+  );
+  const runs = known.runs.filter(
+    ({ status, program }) =>
+      (status === "running" || status === "paused") && programs.some(({ id }) => id === program.id),
+  );
+  return { places, machines, programs, runs };
+}
+
+/** A machine's middle, and where robots might stand on each side of it. */
+function around(device: Device): Point[] {
+  const { x, y } = device.location;
+  const { width, height } = footprint(device);
+  const [across, along] = [width / 2 / PIXELS_PER_METRE + BESIDE_M, height / 2 / PIXELS_PER_METRE + BESIDE_M];
+  return [
+    [x, y],
+    [x - across, y],
+    [x + across, y],
+    [x, y - along],
+    [x, y + along],
+  ];
+}

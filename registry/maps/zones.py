@@ -1,0 +1,179 @@
+"""The zones of a site: areas of its map that all robots heed at any time, as its admins draw them.
+
+A zone stands over the map and stays where it is when the map becomes another one. Whoever shows or checks anything
+with a map hears of a change as of a new map.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from django.db import transaction
+
+from registry.audit.record import note_act
+from registry.errors import RegistryError
+from registry.floorplan.plan import Grid
+from registry.floorplan.polygons import Outline, area_m2, crosses_itself
+from registry.live.fanout import publish
+from registry.maps.names import Naming
+from registry.maps.site_maps import find_map, get_map
+from registry.models import Site, SiteZone
+from registry.sites.sites import find_site, list_zones
+from registry.sites.views import ZoneView
+
+MOST_ZONES = 100
+FEWEST_CORNERS, MOST_CORNERS = 3, 100
+SMALLEST_M2 = 0.01
+SLOWEST_M_S, FASTEST_M_S = 0.05, 5.0
+
+
+class BadZone(RegistryError):
+    """A zone that cannot be so."""
+
+    code = "bad_zone"
+    status = 422
+
+
+class NoSuchZone(RegistryError):
+    """A zone that is not, or no longer, at the site."""
+
+    code = "no_such_zone"
+    status = 404
+
+
+class ZoneTaken(RegistryError):
+    """A name or id that another zone of the site has."""
+
+    code = "zone_taken"
+    status = 409
+
+
+@dataclass(frozen=True, slots=True)
+class ZoneChange:
+    """What is to be another about a zone; None leaves it. Metres in the map frame, metres a second."""
+
+    name: str | None = None
+    rule: str | None = None
+    points: Sequence[tuple[float, float]] | None = None
+    speed_m_s: float | None = None
+
+
+def add_zone(*, site: str, zone: ZoneChange, zone_id: str = "") -> ZoneView:
+    """Make a zone; its id is made of its name, if none is wished. Raises BadZone, ZoneTaken, NoMap, NotAMember."""
+    known = get_map(site=site)
+    with transaction.atomic():
+        row = Site.objects.select_for_update().get(pk=find_site(site).pk)
+        keys = set(SiteZone.objects.filter(site=row).values_list("key", flat=True))
+        key = _naming().new_key(zone_id, zone.name or "", keys)
+        made = SiteZone(site=row, key=key, rule=SiteZone.Rule.KEEP_OUT, points=[])
+        _change(made, zone, known.grid)
+        made.save(force_insert=True)
+        note_act(site_id=row.pk, code="zone_added", facts={"zone": made.name})
+        _tell(site, known.version)
+    return find_zone(site=site, zone_id=made.key)
+
+
+def change_zone(*, site: str, zone_id: str, zone: ZoneChange) -> ZoneView:
+    """Change what is named of a zone. Raises NoSuchZone, BadZone, ZoneTaken, NoMap, NotAMember."""
+    known = get_map(site=site)
+    with transaction.atomic():
+        Site.objects.select_for_update().get(pk=find_site(site).pk)
+        row = _lock(site, zone_id)
+        _change(row, zone, known.grid)
+        row.save()
+        note_act(site_id=row.site_id, code="zone_changed", facts={"zone": row.name})
+        _tell(site, known.version)
+    return find_zone(site=site, zone_id=zone_id)
+
+
+def remove_zone(*, site: str, zone_id: str) -> None:
+    """Take a zone away: robots drive there as anywhere. Raises NoSuchZone, NotAMember."""
+    with transaction.atomic():
+        row = _lock(site, zone_id)
+        note_act(site_id=row.site_id, code="zone_removed", facts={"zone": row.name})
+        row.delete()
+        known = find_map(site=site)
+        _tell(site, known.version if known else 0)
+
+
+def find_zone(*, site: str, zone_id: str) -> ZoneView:
+    """Return a zone of a site. Raises NoSuchZone, NotAMember."""
+    found = next((zone for zone in list_zones(site=site) if zone.id == zone_id), None)
+    if found is None:
+        raise _missing(zone_id)
+    return found
+
+
+def _naming() -> Naming:
+    return Naming("zone", MOST_ZONES, BadZone, ZoneTaken)
+
+
+def _lock(site: str, zone_id: str) -> SiteZone:
+    row = SiteZone.objects.select_for_update().filter(site=find_site(site), key=zone_id).first()
+    if row is None:
+        raise _missing(zone_id)
+    return row
+
+
+def _missing(zone_id: str) -> NoSuchZone:
+    return NoSuchZone(f"There is no zone {zone_id[:64]!r} at this site. Somebody may have removed it.")
+
+
+def _tell(site: str, version: int) -> None:
+    transaction.on_commit(lambda: publish(site, {"type": "map", "version": version}))
+
+
+def _change(row: SiteZone, zone: ZoneChange, grid: Grid) -> None:
+    """Write what is named into the row. Raises BadZone, ZoneTaken."""
+    if zone.name is not None or not row.name:
+        others = SiteZone.objects.filter(site_id=row.site_id).exclude(key=row.key).values_list("name", flat=True)
+        row.name = _naming().checked_name(zone.name or "", others)
+    if zone.rule is not None:
+        row.rule = _checked_rule(zone.rule)
+    if zone.points is not None or not row.points:
+        row.points = [list(point) for point in _checked_points(zone.points or (), grid)]
+    if zone.speed_m_s is not None:
+        row.speed_m_s = _checked_speed(zone.speed_m_s)
+    if row.rule != SiteZone.Rule.SLOW:
+        row.speed_m_s = None
+    elif row.speed_m_s is None:
+        raise BadZone("A zone where robots drive slowly says how fast they may be. Enter a speed.", {"why": "no_speed"})
+
+
+def _checked_rule(rule: str) -> str:
+    if rule not in SiteZone.Rule.values:
+        raise BadZone(f"A zone's rule is one of {', '.join(SiteZone.Rule.values)}; {rule[:20]!r} is none of them.")
+    return rule
+
+
+def _checked_points(points: Sequence[tuple[float, float]], grid: Grid) -> Outline:
+    """Return the corners to the centimetre. Raises BadZone."""
+    outline = tuple((round(x, 2), round(y, 2)) for x, y in points)
+    if not FEWEST_CORNERS <= len(outline) <= MOST_CORNERS:
+        text = f"A zone has {FEWEST_CORNERS} to {MOST_CORNERS} corners. Draw it with that many."
+        raise BadZone(text, {"why": "corners", "fewest": FEWEST_CORNERS, "most": MOST_CORNERS})
+    if off := next((point for point in outline if not _is_on_map(grid, point)), None):
+        args = {"x": off[0], "y": off[1]}
+        text = "The zone has a corner off the map at {x:.2f}, {y:.2f}. Put it on the map.".format(**args)
+        raise BadZone(text, {"why": "off", **args})
+    if crosses_itself(outline):
+        raise BadZone("The outline of the zone crosses itself. Move its corners apart.", {"why": "crossing"})
+    if area_m2(outline) < SMALLEST_M2:
+        raise BadZone("The zone is smaller than 10 cm by 10 cm. Make it larger.", {"why": "small"})
+    return outline
+
+
+def _is_on_map(grid: Grid, point: tuple[float, float]) -> bool:
+    """Tell whether a corner lies on the map or its edge, to the centimetre."""
+    right = grid.origin_x_m + grid.width * grid.resolution_m
+    top = grid.origin_y_m + grid.height * grid.resolution_m
+    spare = 0.005 + 1e-9
+    return grid.origin_x_m - spare <= point[0] <= right + spare and grid.origin_y_m - spare <= point[1] <= top + spare
+
+
+def _checked_speed(speed_m_s: float) -> float:
+    if not SLOWEST_M_S <= speed_m_s <= FASTEST_M_S:
+        text = f"Robots drive {SLOWEST_M_S:g} to {FASTEST_M_S:g} m/s in a slow zone. Enter such a speed."
+        raise BadZone(text, {"why": "speed", "least": SLOWEST_M_S, "most": FASTEST_M_S})
+    return round(speed_m_s, 3)

@@ -1,0 +1,79 @@
+"""Rehearsals heed the zones of the site's floor, as runs do."""
+
+import json
+from dataclasses import replace
+
+import pytest
+
+from editor.language.expressions.nodes import PlaceRef
+from editor.language.plan.instructions import End, Instruction, Move, Plan, RoleBinding
+from editor.language.site.surroundings import ZoneFacts
+from execution.machine.places import lies_in
+from execution.rehearsals.child_process import scene_from_json, scene_to_json
+from execution.rehearsals.program_file import rehearse_program
+from execution.rehearsals.rehearsal import Conditions, rehearse
+from tests.kit import demo_floor
+from vipo_device.protocol.description import Pose, description_to_json
+
+PLAN = Plan(
+    (Instruction(Move("robot", PlaceRef(device="itemInventory01")), "s"), Instruction(End())),
+    {"robot": RoleBinding("robot", "robot01", ("move",))},
+)
+
+
+def driven(driver, *zones):
+    """Rehearse the way to the Item Inventory; return where the robot was, and the result."""
+    scene, places = demo_floor.scene(), demo_floor.places()
+    result = rehearse(PLAN, scene, places=places, zones=zones, conditions=Conditions(driver))
+    return [(x, y) for x, y, _ in result["frames"]["robots"]["robot01"]], result
+
+
+@pytest.mark.parametrize("driver", ["kinematic", "physics"])
+def test_a_rehearsal_goes_round_a_zone_of_the_site_over_its_usual_way(driver):
+    usual, _ = driven(driver)
+    x, y = usual[len(usual) // 2]
+    outline = ((x - 0.4, y - 0.4), (x + 0.4, y - 0.4), (x + 0.4, y + 0.4), (x - 0.4, y + 0.4))
+    track, result = driven(driver, ZoneFacts("z", "Spill", "keep_out", outline))
+    assert (result["ok"], result["errors"]) == (True, [])
+    assert any(lies_in(point, outline) for point in usual)
+    assert not any(lies_in(point, outline) for point in track)
+
+
+def test_a_slow_zone_of_the_site_makes_a_rehearsal_last_longer():
+    hall = ((0.0, -14.0), (30.0, -14.0), (30.0, 0.0), (0.0, 0.0))
+    usual, slow = driven("kinematic")[1], driven("kinematic", ZoneFacts("z", "Hall", "slow", hall, 0.2))[1]
+    assert slow["robots"]["robot01"]["distance_m"] == usual["robots"]["robot01"]["distance_m"]
+    assert slow["duration_s"] > 2 * usual["duration_s"]
+
+
+def test_a_goal_in_a_zone_to_keep_out_of_fails_the_rehearsal():
+    everywhere = ((0.0, -6.0), (6.0, -6.0), (6.0, 0.0), (0.0, 0.0))
+    _, result = driven("kinematic", ZoneFacts("z", "Goods in", "keep_out", everywhere))
+    assert result["ok"] is False
+    assert result["errors"][0]["message"].startswith("There is no way for")
+
+
+def test_a_job_carries_its_zones_and_one_from_before_has_none():
+    zones = (
+        ZoneFacts("a", "Aisle", "keep_out", ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0))),
+        ZoneFacts("b", "Door", "slow", ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0)), 0.3),
+    )
+    body = json.loads(json.dumps(scene_to_json(demo_floor.scene(), demo_floor.places(), zones)))
+    assert scene_from_json(body)[2] == zones
+    del body["zones"]
+    assert scene_from_json(body)[2] == ()
+
+
+def test_a_program_file_is_rehearsed_with_the_zones_of_its_own_site():
+    """A hall that is not the demo's: 12 m of empty floor with a shelf at one end, and a wall of a zone across it."""
+    box = [[5.0, -6.0], [6.0, -6.0], [6.0, 1.5], [5.0, 1.5]]
+    cart = next(device for device in demo_floor.devices() if device.kind == "robot")
+    robot = description_to_json(replace(cart, id="cart", name="Cart", pose=Pose(0.0, 0.0)))
+    places = [{"id": "far", "name": "Far end", "kind": "point", "x": 12.0, "y": 0.0}]
+    site = {"devices": [robot], "places": places}
+    drawn = {"format": 2, "steps": {"m": {"kind": "move", "place": ["program", "body", "V"],
+                                          "params": {"robot": "any", "to": {"place": "far"}}}}}  # fmt: skip
+    plain = rehearse_program(drawn, site, 1, "kinematic")
+    zoned = rehearse_program(drawn, {**site, "zones": [{"id": "w", "rule": "keep_out", "points": box}]}, 1, "kinematic")
+    assert (plain["ok"], zoned["ok"]) == (True, True)
+    assert zoned["robots"]["cart"]["distance_m"] > plain["robots"]["cart"]["distance_m"] + 2
