@@ -5,8 +5,10 @@ from __future__ import annotations
 import hashlib
 import time
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
+from uuid import UUID
 
 from editor.errors import NoSuchProgram
 from editor.language.reading.well_formed import well_formed_function
@@ -134,15 +136,23 @@ def _without_pose(description: Description) -> Description:
 
 
 def _store_uses(program: Program, sources: Iterable[str]) -> None:
-    """Store which library functions the program holds."""
-    wanted = set(sources)
+    """Store which library functions the program holds, of whatever site."""
+    wanted = _ids(sources)
     known = {str(pk) for pk in program.library_uses.values_list("function_id", flat=True)}
     if wanted == known:
         return
     program.library_uses.exclude(function_id__in=[w for w in wanted if w in known]).delete()
-    ids = [str(pk) for pk in LibraryFunction.objects.filter(site=program.site).values_list("pk", flat=True)]
-    added = [LibraryUse(function_id=pk, program=program) for pk in ids if pk in wanted - known]
-    LibraryUse.objects.bulk_create(added, ignore_conflicts=True)
+    there = LibraryFunction.objects.filter(pk__in=wanted - known).values_list("pk", flat=True)
+    LibraryUse.objects.bulk_create([LibraryUse(function_id=pk, program=program) for pk in there], ignore_conflicts=True)
+
+
+def _ids(sources: Iterable[str]) -> set[str]:
+    """Return those of the texts that can be ids, in the form in which ids are written: a document holds any text."""
+    found = set()
+    for source in sources:
+        with suppress(ValueError):
+            found.add(str(UUID(source)))
+    return found
 
 
 class DeviceWatch:
