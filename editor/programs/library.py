@@ -11,7 +11,7 @@ from django.db.models import Count, Q, QuerySet
 
 from editor.documents.shared_document import empty_document, migrate_document
 from editor.documents.store import get_document
-from editor.errors import BadRequest, NoSuchProgram
+from editor.errors import BadRequest, NameTaken, NoSuchProgram
 from editor.language.document.format_migrations import FORMAT
 from editor.language.reading.well_formed import well_formed, well_formed_function
 from editor.models import LibraryFunction, LibraryVersion, Program
@@ -58,9 +58,9 @@ def _parent_of(step: Mapping[str, Any]) -> str | None:
 def save_function(
     *, site: str, program_id: UUID | str, function: str, name: str, description: str, user: Any
 ) -> LibraryView:
-    """Save a program's function into its site's library; under a name that is there, as its next version.
+    """Save a program's function into its site's library; under a name of one's own, as its next version.
 
-    Raises NoSuchProgram, BadRequest.
+    Raises NoSuchProgram, BadRequest, NameTaken.
     """
     name = " ".join(name.split())
     if not 1 <= len(name) <= MOST_NAME or len(description) > MOST_DESCRIPTION:
@@ -73,6 +73,7 @@ def save_function(
     with transaction.atomic():
         row, _ = LibraryFunction.objects.get_or_create(site_id=program.site_id, name=name)
         row = LibraryFunction.objects.select_for_update().get(pk=row.pk)
+        _require_own(row, site, user)
         row.last_version += 1
         row.description = description or row.description
         row.save()
@@ -81,6 +82,19 @@ def save_function(
         )
     registry.publish(site, {"type": "library"})
     return get_function(function_id=row.pk)
+
+
+def _require_own(row: LibraryFunction, site: str, user: Any) -> None:
+    """Raise NameTaken unless somebody may go on with a function: whoever made its first version, and the admins."""
+    first = row.versions.order_by("number").first()
+    if user is None or first is None or first.author_id == user.pk:
+        return
+    access = registry.find_access(user, site)
+    if access is None or not access.allows("admin"):
+        raise NameTaken(
+            f"The library of this site has a function “{row.name}” of somebody else. Save yours under another name.",
+            {"why": "library", "name": row.name},
+        )
 
 
 def print_function(definition: Mapping[str, Any], site: str) -> str:
