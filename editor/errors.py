@@ -72,3 +72,10 @@ class NameTaken(EditorError):
 
     code = "name_taken"
     status = 409
+
+
+class NotYours(EditorError):
+    """A function of the library is somebody else's: its author and the admins of its site change it."""
+
+    code = "not_yours"
+    status = 409

@@ -5,7 +5,7 @@ from editor.documents.store import Change, get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram, NotApproved
 from editor.programs.checking import build_surroundings
 from editor.programs.drawn_script import DrawnScript
-from editor.programs.library import get_function, save_function, search_library
+from editor.programs.library import Said, change_function, get_function, save_function, search_library
 from editor.programs.one_line import ExpressionView, print_expression, read_expression
 from editor.programs.programs import (
     create_program,
@@ -43,10 +43,12 @@ __all__ = [
     "NotApproved",
     "Permit",
     "ProgramView",
+    "Said",
     "VersionView",
     "WholeVersionView",
     "admit_start",
     "build_surroundings",
+    "change_function",
     "compile_version",
     "compile_version_to_json",
     "copy_version",

@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 from uuid import UUID
 
+from django.db.models import Q
+
 from editor.errors import NoSuchProgram
 from editor.language.reading.well_formed import well_formed_function
 from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
@@ -35,8 +37,14 @@ def build_surroundings(*, site: str) -> Surroundings:
 
 
 def _library(site: str) -> dict[str, LibraryFacts]:
-    """Return the functions of the site's library with what each version is given."""
-    rows = LibraryVersion.objects.filter(function__site__slug=site).values_list(
+    """Return the functions that the site sees, with what each version is given.
+
+    They are those that its members see, and of other sites those for everyone that its programs hold. What a single
+    person sees says nothing to the others.
+    """
+    own = Q(site__slug=site) & ~Q(visibility="me")
+    held = Q(visibility="everyone", pk__in=LibraryUse.objects.filter(program__site__slug=site).values("function"))
+    rows = LibraryVersion.objects.filter(function__in=LibraryFunction.objects.filter(own | held)).values_list(
         "function_id", "function__name", "number", "definition__function__parameters"
     )
     names: dict[str, str] = {}
