@@ -18,7 +18,7 @@ def name_authors(apps: Any, schema_editor: Any) -> None:
 
 class Migration(migrations.Migration):
     dependencies = [
-        ("editor", "0007_reviews"),
+        ("editor", "0008_comments"),
         migrations.swappable_dependency(settings.AUTH_USER_MODEL),
     ]
 

@@ -4,7 +4,7 @@ import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { useEffect, useState } from "react";
 import { api } from "@/api/client";
 import type { LibraryFunction } from "@/api/types";
-import { VISIBILITIES, type Visibility } from "@/pages/library/visibilityChoices";
+import { VISIBILITIES, type Visibility } from "@/program/visibility";
 import { useOpenProgram } from "../state/context";
 import { say, useUi } from "../state/ui";
 import classes from "./dialogs.module.css";

@@ -1,16 +1,19 @@
 /** Who sees a function: chosen by its author and the admins of its site, told to everybody else. */
 import { NativeSelect } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
+import { Globe, Lock, type LucideIcon, Users } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { LibraryFunction } from "@/api/types";
-import { VISIBILITIES, VISIBILITY_SIGNS, type Visibility } from "./visibilityChoices";
+import { VISIBILITIES, type Visibility } from "@/program/visibility";
 import styles from "./library.module.css";
+
+const SIGNS: Readonly<Record<Visibility, LucideIcon>> = { me: Lock, site: Users, everyone: Globe };
 
 export function VisibilitySign({ item }: { item: LibraryFunction }) {
   const { t } = useTranslation();
-  const Sign = VISIBILITY_SIGNS[item.visibility];
+  const Sign = SIGNS[item.visibility];
   const words = t(`pages.library.visibility.${item.visibility}`);
   return (
     <span className={styles.sharing} title={words}>
