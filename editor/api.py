@@ -9,7 +9,7 @@ import base64
 import binascii
 from collections.abc import Mapping
 from datetime import datetime
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 from uuid import UUID
 
 from django.http import HttpRequest, HttpResponse
@@ -39,7 +39,6 @@ from editor.shapes import (
     ProgramShape,
 )
 from editor.versions.routes import router as versions_router
-from registry import services as registry
 from registry.services import require
 from registry.shapes import Asked, Line, PartAsked, Repaired, refuses, signed_in, tell_rest
 from vipo_device.protocol.messages import BadMessage, parse_plain_json
@@ -75,6 +74,9 @@ class ProgramsAsked(PartAsked):
     q: Line = Field("", max_length=200)
 
 
+Visibility = Literal["me", "site", "everyone"]
+
+
 class LibraryAsked(PartAsked):
     """Which functions are asked for: those whose name or description has all words of `q`, of one site if named."""
 
@@ -108,10 +110,18 @@ class FunctionToSave(Asked):
     function: Line = Field(max_length=100)
     name: Line = Field(max_length=200)
     description: str = Field("", max_length=500)
+    visibility: Visibility | None = Field(None, description="Who sees it; as it was, if left out: the site at first.")
+
+
+class FunctionChange(Asked):
+    """What of a library function shall be otherwise; what is left out stays."""
+
+    visibility: Visibility | None = None
+    description: str | None = Field(None, max_length=500)
 
 
 class LibraryShape(Schema):
-    """A library function at one of its versions."""
+    """A library function at one of its versions; `mine` is whether who asks may change it."""
 
     id: UUID
     site: str
@@ -124,6 +134,8 @@ class LibraryShape(Schema):
     updated_at: datetime
     script: str
     definition: Definition
+    visibility: Visibility
+    mine: bool
 
 
 @router.get("/sites/{slug}/programs", response=list[ProgramShape])
@@ -270,46 +282,48 @@ def wait_until_stored(request: HttpRequest, program: UUID, body: Seen) -> Status
 
 @router.get("/library", response=list[LibraryShape])
 def search_library(request: HttpRequest, response: HttpResponse, asked: Query[LibraryAsked]) -> list[LibraryView]:
-    """Search the functions of one site, or of all sites of which the asker is a member, by name.
+    """Search the functions that the asker sees by name and description: those of one site, or all.
 
     The header `Link` names the next part.
     """
-    mine: Any = request.user
     if asked.site:
-        require(mine, asked.site, "viewer")
-    sites = [asked.site] if asked.site else [each.slug for each in registry.list_sites(user=mine)]
-    found = services.search_library(sites=sites, query=asked.q, part=asked.part())
+        require(request.user, asked.site, "viewer")
+    found = services.search_library(user=signed_in(request), site=asked.site, query=asked.q, part=asked.part())
     return tell_rest(request, response, found)
 
 
 @router.post("/sites/{slug}/library", response={201: LibraryShape})
 def save_function(request: HttpRequest, slug: str, body: FunctionToSave) -> Status[LibraryView]:
-    """Save a program's function into the library."""
+    """Save a program's function into the library; under a name of the asker's own, as its next version."""
     require(request.user, slug, "author")
-    return Status(
-        201,
-        services.save_function(
-            site=slug,
-            program_id=body.program,
-            function=body.function,
-            name=body.name,
-            description=body.description,
-            user=request.user,
-        ),
+    saved = services.save_function(
+        site=slug,
+        program_id=body.program,
+        function=body.function,
+        said=services.Said(body.name, body.description, body.visibility),
+        user=request.user,
     )
+    return Status(201, saved)
 
 
 @router.get("/library/{function}", response=LibraryShape)
 def show_function(request: HttpRequest, function: UUID) -> LibraryView:
     """Show the newest version of a library function."""
-    found = services.get_function(function_id=function)
-    require_here(request.user, found.site, "viewer")
-    return found
+    return services.get_function(function_id=function, user=signed_in(request))
+
+
+@router.patch("/library/{function}", response=LibraryShape)
+def change_function(request: HttpRequest, function: UUID, body: FunctionChange) -> LibraryView:
+    """Change who sees a library function, or what is said of it; its author does so, or an admin of its site."""
+    user = signed_in(request)
+    found = services.get_function(function_id=function, user=user)
+    require_here(user, found.site, "author")
+    return services.change_function(
+        function_id=function, user=user, visibility=body.visibility, description=body.description
+    )
 
 
 @router.get("/library/{function}/versions/{number}", response=LibraryShape)
 def show_function_version(request: HttpRequest, function: UUID, number: int) -> LibraryView:
     """Show a library function as it was saved under a number."""
-    found = services.get_function(function_id=function)
-    require_here(request.user, found.site, "viewer")
-    return services.get_function(function_id=function, version=number)
+    return services.get_function(function_id=function, user=signed_in(request), version=number)

@@ -65,3 +65,17 @@ class MayNotReview(EditorError):
 
     code = "may_not_review"
     status = 409
+
+
+class NameTaken(EditorError):
+    """A name of the site's library belongs to somebody else's function, which only they and admins go on with."""
+
+    code = "name_taken"
+    status = 409
+
+
+class NotYours(EditorError):
+    """A function of the library is somebody else's: its author and the admins of its site change it."""
+
+    code = "not_yours"
+    status = 409

@@ -105,11 +105,23 @@ class Version(models.Model):
 
 
 class LibraryFunction(models.Model):
-    """A function that a site's programs may bring in; its content is in its versions."""
+    """A function that programs may bring in; its content is in its versions.
+
+    `author` made its first version, and is empty where they are gone. Who sees it may bring it in.
+    """
+
+    class Visibility(models.TextChoices):
+        """Who sees a function: its author, its site's members, everybody who is signed in."""
+
+        ME = "me"
+        SITE = "site"
+        EVERYONE = "everyone"
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
     site = models.ForeignKey("registry.Site", on_delete=models.CASCADE, related_name="library")
     name = models.CharField(max_length=120)
+    author = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
+    visibility = models.CharField(max_length=10, default="site", choices=Visibility.choices)
     description = models.CharField(max_length=500, blank=True)
     last_version = models.PositiveIntegerField(default=0)
     updated_at = models.DateTimeField(auto_now=True)
@@ -118,6 +130,7 @@ class LibraryFunction(models.Model):
         """A name stands for one function at a site; saving under it again makes a new version."""
 
         constraints = [models.UniqueConstraint(fields=["site", "name"], name="one_library_function_per_name")]
+        indexes = [models.Index(fields=["visibility", "name"])]
 
 
 class LibraryVersion(models.Model):

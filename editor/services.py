@@ -6,7 +6,7 @@ from editor.errors import BadRequest, EditorError, NoSuchProgram, NotApproved
 from editor.programs.checking import build_surroundings, find_zones
 from editor.programs.drawn_script import DrawnScript
 from editor.programs.floor_use import ProgramTrouble, list_program_troubles
-from editor.programs.library import get_function, save_function, search_library
+from editor.programs.library import Said, change_function, get_function, save_function, search_library
 from editor.programs.one_line import ExpressionView, print_expression, read_expression
 from editor.programs.programs import (
     create_program,
@@ -45,10 +45,12 @@ __all__ = [
     "Permit",
     "ProgramTrouble",
     "ProgramView",
+    "Said",
     "VersionView",
     "WholeVersionView",
     "admit_start",
     "build_surroundings",
+    "change_function",
     "compile_version",
     "compile_version_to_json",
     "copy_version",

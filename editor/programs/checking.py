@@ -5,8 +5,12 @@ from __future__ import annotations
 import hashlib
 import time
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, cast
+from uuid import UUID
+
+from django.db.models import Q
 
 from editor.errors import NoSuchProgram
 from editor.language.reading.well_formed import well_formed_function
@@ -48,8 +52,14 @@ def find_zones(*, site: str) -> tuple[ZoneFacts, ...]:
 
 
 def _library(site: str) -> dict[str, LibraryFacts]:
-    """Return the functions of the site's library with what each version is given."""
-    rows = LibraryVersion.objects.filter(function__site__slug=site).values_list(
+    """Return the functions that the site sees, with what each version is given.
+
+    They are those that its members see, and of other sites those for everyone that its programs hold. What a single
+    person sees says nothing to the others.
+    """
+    own = Q(site__slug=site) & ~Q(visibility="me")
+    held = Q(visibility="everyone", pk__in=LibraryUse.objects.filter(program__site__slug=site).values("function"))
+    rows = LibraryVersion.objects.filter(function__in=LibraryFunction.objects.filter(own | held)).values_list(
         "function_id", "function__name", "number", "definition__function__parameters"
     )
     names: dict[str, str] = {}
@@ -151,15 +161,23 @@ def _without_pose(description: Description) -> Description:
 
 
 def _store_uses(program: Program, sources: Iterable[str]) -> None:
-    """Store which library functions the program holds."""
-    wanted = set(sources)
+    """Store which library functions the program holds, of whatever site."""
+    wanted = _ids(sources)
     known = {str(pk) for pk in program.library_uses.values_list("function_id", flat=True)}
     if wanted == known:
         return
     program.library_uses.exclude(function_id__in=[w for w in wanted if w in known]).delete()
-    ids = [str(pk) for pk in LibraryFunction.objects.filter(site=program.site).values_list("pk", flat=True)]
-    added = [LibraryUse(function_id=pk, program=program) for pk in ids if pk in wanted - known]
-    LibraryUse.objects.bulk_create(added, ignore_conflicts=True)
+    there = LibraryFunction.objects.filter(pk__in=wanted - known).values_list("pk", flat=True)
+    LibraryUse.objects.bulk_create([LibraryUse(function_id=pk, program=program) for pk in there], ignore_conflicts=True)
+
+
+def _ids(sources: Iterable[str]) -> set[str]:
+    """Return those of the texts that can be ids, in the form in which ids are written: a document holds any text."""
+    found = set()
+    for source in sources:
+        with suppress(ValueError):
+            found.add(str(UUID(source)))
+    return found
 
 
 class DeviceWatch:

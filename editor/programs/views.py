@@ -68,7 +68,10 @@ class WholeVersionView(VersionView):
 
 @dataclass(frozen=True, slots=True)
 class LibraryView:
-    """A library function, with one of its versions; `definition` is {function, functions, steps}."""
+    """A library function, with one of its versions; `definition` is {function, functions, steps}.
+
+    `visibility` says who sees it: me (its author), site, everyone. `mine` is whether who asked may change it.
+    """
 
     id: UUID
     site: str
@@ -81,6 +84,8 @@ class LibraryView:
     updated_at: datetime
     script: str
     definition: Mapping[str, Any]
+    visibility: str
+    mine: bool
 
 
 def view_author(user: Any) -> AuthorView | None:

@@ -95,7 +95,7 @@ DEEDS = (
         "author",
         "run",
         """delete_program rename_program draw_script pin_version name_version copy_version look_at_restoring
-        restore_version make_changes save_function create_program put_document put_script""",
+        restore_version make_changes save_function change_function create_program put_document put_script""",
     ),
     _deed(
         "equip",

@@ -306,6 +306,7 @@ def test_a_function_is_made_saved_found_by_another_person_and_used(sign_in: Sign
     expect(author.get_by_text("Nothing to fix")).to_be_visible()
     author.get_by_role("button", name="Save to the library").click()
     author.get_by_label("What it does").fill("Brings a box to paint and on to the oven")
+    author.get_by_role("dialog").get_by_label("Who sees it").select_option("Everybody at the site")
     author.get_by_role("dialog").get_by_role("button", name="Save", exact=True).click()
     expect(author.get_by_text("bringAndCure is in the library as version 1")).to_be_visible()
     make_program(admin, "Where a function is used")
@@ -320,6 +321,16 @@ def test_a_function_is_made_saved_found_by_another_person_and_used(sign_in: Sign
         route.continue_()
     expect(admin.get_by_text("Nothing to fix")).to_be_visible()
     assert "        self.bring_and_cure()" in script_lines(admin)
+    library = author.url.partition("/programs/")[0] + "/sites/painting-factory/library"
+    author.goto(library)
+    author.get_by_role("link", name="bringAndCure").click()
+    sees = author.get_by_role("complementary", name="bringAndCure").get_by_label("Who sees it")
+    expect(sees).to_have_value("site")
+    sees.select_option("Only its author")
+    expect(author.get_by_role("listitem").get_by_role("img", name="Only its author")).to_be_visible()
+    admin.goto(library)
+    admin.get_by_label("Search by name or what it does").fill("bringAndCure")
+    expect(admin.get_by_text("Nothing fits this search")).to_be_visible()
 
 
 def test_the_paint_order_is_sound_and_rehearses(sign_in: SignIn) -> None:

@@ -46,6 +46,7 @@ BODIES: dict[str, dict[str, Any]] = {
     "withdraw_topic": {"topic": "a"},
     "wait_until_stored": {"seen": ""},
     "save_function": {"program": "{program}", "function": "f", "name": "F"},
+    "change_function": {"visibility": "everyone"},
     "use_robot_map": {"device": "{device}", "version": 1, "replaces": 1},
     "set_review_rule": {"approvals": 0, "least_role": "author"},
     "give_verdict": {"version": 1, "verdict": "approved"},
@@ -82,7 +83,7 @@ def make_one_of_each(slug: str) -> dict[str, str]:
     program = editor.create_program(site=slug, name="Mix", document=drawn).id
     editor.pin_version(program_id=program, user=None, message="")
     function = editor.save_function(
-        site=slug, program_id=program, function="f", name="Greet", description="", user=None
+        site=slug, program_id=program, function="f", said=editor.Said("Greet"), user=None
     ).id
     content = {"document": editor.get_document(program_id=program), "compiled": editor.get_compiled(program_id=program)}
     run = Run.objects.create(site=site, number=1, program=program, program_name="Mix", created_at=NOW, **content)

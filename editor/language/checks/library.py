@@ -23,8 +23,9 @@ def check_library(context: Context, document: object) -> None:
     for name, source, version in _sources(document):
         function = by_id.get(name)
         step = None if function is None else _where(context.tree, function)
-        if function is not None and step:
-            _check_version(context, function, step, (source, version), library.get(source))
+        facts = library.get(source)  # of what this site does not see nothing is said: it may be there or gone
+        if function is not None and step and facts is not None:
+            _check_version(context, function, step, (source, version), facts)
 
 
 def _sources(document: object) -> Iterator[tuple[str, str, int]]:
@@ -46,11 +47,11 @@ def _where(tree: Tree, function: Function) -> str:
 
 
 def _check_version(
-    context: Context, function: Function, step: str, source: tuple[str, int], facts: LibraryFacts | None
+    context: Context, function: Function, step: str, source: tuple[str, int], facts: LibraryFacts
 ) -> None:
     library, version = source
     name: TextArguments = {"function": function.name or function.method, "version": version}
-    if facts is None or version not in facts.versions:
+    if version not in facts.versions:
         context.report_step(step, "version_gone", "source", name)
         return
     newest = max(facts.versions)

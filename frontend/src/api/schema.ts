@@ -133,7 +133,7 @@ export interface paths {
         };
         /**
          * Search Library
-         * @description Search the functions of one site, or of all sites of which the asker is a member, by name.
+         * @description Search the functions that the asker sees by name and description: those of one site, or all.
          *
          *     The header `Link` names the next part.
          */
@@ -163,7 +163,11 @@ export interface paths {
         delete?: never;
         options?: never;
         head?: never;
-        patch?: never;
+        /**
+         * Change Function
+         * @description Change who sees a library function, or what is said of it; its author does so, or an admin of its site.
+         */
+        patch: operations["change_function"];
         trace?: never;
     };
     "/api/library/{function}/versions/{number}": {
@@ -2035,7 +2039,7 @@ export interface paths {
         put?: never;
         /**
          * Save Function
-         * @description Save a program's function into the library.
+         * @description Save a program's function into the library; under a name of the asker's own, as its next version.
          */
         post: operations["save_function"];
         delete?: never;
@@ -3485,6 +3489,11 @@ export interface components {
                 ][];
             };
         };
+        /** @description What of a library function shall be otherwise; what is left out stays. */
+        FunctionChange: {
+            description?: string | null;
+            visibility?: ("me" | "site" | "everyone") | null;
+        };
         /** @description A function; its body is the steps whose parent is its id. */
         FunctionShape: {
             name: string;
@@ -3500,6 +3509,8 @@ export interface components {
             name: string;
             /** Format: uuid */
             program: string;
+            /** @description Who sees it; as it was, if left out: the site at first. */
+            visibility?: ("me" | "site" | "everyone") | null;
         };
         /** @description A site's invitations, the newest first; `can_mail` says whether the server may send them by e-mail. */
         InvitationList: {
@@ -3553,13 +3564,14 @@ export interface components {
             /** @default  */
             site: string;
         };
-        /** @description A library function at one of its versions. */
+        /** @description A library function at one of its versions; `mine` is whether who asks may change it. */
         LibraryShape: {
             author: components["schemas"]["Author"] | null;
             definition: components["schemas"]["DefinitionShape"];
             description: string;
             /** Format: uuid */
             id: string;
+            mine: boolean;
             name: string;
             parameters: components["schemas"]["ParameterDefinition"][];
             script: string;
@@ -3568,6 +3580,8 @@ export interface components {
             updated_at: string;
             used_in: number;
             version: number;
+            /** @enum {string} */
+            visibility: "me" | "site" | "everyone";
         };
         /** @description Where a function was copied from. */
         LibrarySource: {
@@ -5331,6 +5345,53 @@ export interface operations {
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_function: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                function: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FunctionChange"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibraryShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

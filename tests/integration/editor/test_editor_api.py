@@ -159,3 +159,25 @@ def test_the_library_is_for_members_and_filled_by_authors(web: Web) -> None:
     with web.client("author") as client:
         gone = client.post("/sites/hall/library", json={**body, "function": "no-such"})
     assert gone.status_code == 422
+
+
+def test_only_its_author_and_admins_save_the_next_version_of_a_function(web: Web) -> None:
+    program = web.new_program("Two with one name")
+    with node_clients(web, program) as clients:
+        clients.open("ada")
+        clients.tell("function", name="ada", id="f1", label="Ours")
+        clients.tell("saved", name="ada")
+    body = {"program": program, "function": "f1", "name": "Ours"}
+    with web.client("admin") as admin, web.client("author") as author:
+        first = admin.post("/sites/hall/library", json=body)
+        refused = author.post("/sites/hall/library", json=body)
+        own = author.post("/sites/hall/library", json={**body, "name": "Ours too"})
+        again = author.post("/sites/hall/library", json={**body, "name": "Ours too"})
+        by_admin = admin.post("/sites/hall/library", json={**body, "name": "Ours too"})
+        left = author.get(f"/library/{first.json()['id']}").json()
+    assert (refused.status_code, refused.json()["code"]) == (409, "name_taken")
+    assert refused.json()["detail"] == (
+        "The library of this site has a function “Ours” of somebody else. Save yours under another name."
+    )
+    assert left["version"] == 1
+    assert [answer.json()["version"] for answer in (own, again, by_admin)] == [1, 2, 3]

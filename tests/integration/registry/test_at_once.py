@@ -18,6 +18,8 @@ from django.db import connection
 from django.test import Client
 from pytest_django import DjangoDbBlocker
 
+from editor import services as editor
+from editor.models import LibraryFunction
 from registry import services
 from registry.models import (
     ApiToken,
@@ -31,6 +33,7 @@ from registry.models import (
     TopicClaim,
 )
 from tests.kit.databases import on_database
+from tests.kit.programs import document
 from tests.kit.sign_in import add_person, find_person, post_json, signed_in
 from tests.kit.sites import MIXER, approve, describe, make_hall, may_come_in
 from tests.kit.waiting import wait_for
@@ -375,3 +378,20 @@ def test_who_may_make_one_more_site_makes_one(url: str) -> None:
     made = told(answers).index(201)
     assert told(answers)[1 - made] == (403, "site_quota_reached")
     assert list(Site.objects.exclude(slug="hall").values_list("name", flat=True)) == ["AB"[made]]
+
+
+def test_of_two_who_publish_one_name_at_once_one_is_told_to_take_another(url: str) -> None:
+    services.set_member(site="hall", email=add_person("second").email, role="author")
+    drawn = document({}, functions={"f": {"name": "Greet", "parameters": []}})
+    body = {"program": str(editor.create_program(site="hall", name="Source", document=drawn).id), "function": "f"}
+    first, second = signed_in("author"), signed_in("second")
+    answers = press_together(
+        url,
+        "LOCK TABLE editor_libraryfunction IN EXCLUSIVE MODE",
+        lambda: post_json(first, f"{SITE}/library", {**body, "name": "Greet"}),
+        lambda: post_json(second, f"{SITE}/library", {**body, "name": "Greet"}),
+    )
+    winner = ["author", "second"][[answer.status_code for answer in answers].index(201)]  # the lock lets both go on
+    assert sorted(told(answers), key=str) == [(409, "name_taken"), 201]
+    function = LibraryFunction.objects.get()
+    assert (function.author, function.last_version) == (find_person(winner), 1)

@@ -56,7 +56,7 @@ def make_functions(site: str) -> None:
     drawn = document({}, functions={"f": {"name": "Greet", "parameters": []}})
     program = editor.create_program(site=site, name="Source", document=drawn).id
     for number in range(COUNT):
-        editor.save_function(site=site, program_id=program, function="f", name=f"F{number}", description="", user=None)
+        editor.save_function(site=site, program_id=program, function="f", said=editor.Said(f"F{number}"), user=None)
 
 
 def make_alerts() -> None:

@@ -68,6 +68,7 @@ function Search({ asked, onDone }: { asked: string | null; onDone: () => void })
           <li key={entry.id}>
             <button type="button" className={classes.function} onClick={() => void choose(entry)}>
               <strong>{`${entry.name} v${entry.version}`}</strong>
+              {entry.site === open.site.slug ? null : <span>{t("library.of_site", { site: entry.site })}</span>}
               <span>{entry.description || entry.parameters.map((each) => each.name).join(", ")}</span>
             </button>
           </li>

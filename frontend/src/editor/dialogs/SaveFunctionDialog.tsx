@@ -1,9 +1,10 @@
 /** A function of this program saved to the site's library, for other programs and people. */
-import { Button, Modal, Textarea, TextInput } from "@mantine/core";
+import { Button, Modal, NativeSelect, Textarea, TextInput } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { useEffect, useState } from "react";
 import { api } from "@/api/client";
 import type { LibraryFunction } from "@/api/types";
+import { VISIBILITIES, type Visibility } from "@/program/visibility";
 import { useOpenProgram } from "../state/context";
 import { say, useUi } from "../state/ui";
 import classes from "./dialogs.module.css";
@@ -26,7 +27,8 @@ function Form({ functionId, onDone }: { functionId: string; onDone: () => void }
   const [name, setName] = useState(known);
   const [description, setDescription] = useState("");
   useEffect(() => setName(known), [known]);
-  const save = useSave(functionId, { name, description }, onDone);
+  const [visibility, setVisibility] = useState<Visibility | "">("");
+  const save = useSave(functionId, { name, description, visibility }, onDone);
   return (
     <form
       className={classes.content}
@@ -47,6 +49,15 @@ function Form({ functionId, onDone }: { functionId: string; onDone: () => void }
         value={description}
         onChange={(event) => setDescription(event.currentTarget.value)}
       />
+      <NativeSelect
+        label={t("save.visible_to")}
+        value={visibility}
+        data={["" as const, ...VISIBILITIES].map((value) => ({
+          value,
+          label: t(`save.visibility.${value || "as_was"}`),
+        }))}
+        onChange={(event) => setVisibility(event.currentTarget.value as Visibility | "")}
+      />
       {save.error ? (
         <p className={classes.problem} role="alert">
           {save.error.message}
@@ -64,7 +75,13 @@ function Form({ functionId, onDone }: { functionId: string; onDone: () => void }
   );
 }
 
-function useSave(functionId: string, said: { name: string; description: string }, onDone: () => void) {
+interface Said {
+  name: string;
+  description: string;
+  visibility: Visibility | "";
+}
+
+function useSave(functionId: string, said: Said, onDone: () => void) {
   const { t, program, shared, site } = useOpenProgram();
   const queries = useQueryClient();
   return useMutation({
@@ -75,6 +92,7 @@ function useSave(functionId: string, said: { name: string; description: string }
         function: functionId,
         name: said.name.trim(),
         description: said.description.trim(),
+        visibility: said.visibility || null,
       });
     },
     onSuccess: (saved) => {

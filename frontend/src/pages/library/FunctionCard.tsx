@@ -7,6 +7,7 @@ import { Chip, type Tone } from "@/design/Chip";
 import { unitSign } from "@/i18n/units";
 import { nameOf } from "../people";
 import { FunctionPicture } from "./FunctionPicture";
+import { VisibilitySign } from "./Sharing";
 import styles from "./library.module.css";
 
 const TONES: Readonly<Record<string, Tone>> = {
@@ -34,7 +35,7 @@ export function FunctionCard({ slug, item, chosen }: { slug: string; item: Libra
   return (
     <li className={styles.card} data-chosen={chosen || undefined}>
       <div className={styles.picture}>
-        <FunctionPicture slug={slug} item={item} />
+        <FunctionPicture item={item} />
       </div>
       <div className={styles.cardText}>
         <div className={styles.cardHead}>
@@ -42,6 +43,7 @@ export function FunctionCard({ slug, item, chosen }: { slug: string; item: Libra
             {item.name}
           </Link>
           <Chip mono>{t("pages.library.version", { version: item.version })}</Chip>
+          <VisibilitySign item={item} />
         </div>
         <div className={styles.parameters}>
           {item.parameters.map((parameter) => (
@@ -54,7 +56,7 @@ export function FunctionCard({ slug, item, chosen }: { slug: string; item: Libra
         <p>{item.description}</p>
         <div className={styles.cardFoot}>
           <Avatar name={author || "VIPO"} size={20} />
-          <span>{author}</span>
+          <span>{item.site === slug ? author : [author, item.site].filter(Boolean).join(", ")}</span>
           <span className={styles.used}>
             <Workflow size={14} aria-hidden="true" />
             {t("pages.library.programs", { count: item.used_in })}

@@ -14,6 +14,7 @@ import { nameOf } from "../people";
 import { useNow } from "@/design/useNow";
 import { FunctionPicture } from "./FunctionPicture";
 import { ParameterType } from "./FunctionCard";
+import { Sharing } from "./Sharing";
 import styles from "./library.module.css";
 
 function Parameters({ item }: { item: LibraryFunction }) {
@@ -74,15 +75,16 @@ function UseInProgram({ slug, item }: { slug: string; item: LibraryFunction }) {
   );
 }
 
-function Body({ slug, item }: { slug: string; item: LibraryFunction }) {
+function Body({ item }: { item: LibraryFunction }) {
   const { t } = useTranslation();
   return (
     <div className={styles.body}>
       {item.description ? <p>{item.description}</p> : null}
       <Panel className={styles.bigPicture}>
-        <FunctionPicture slug={slug} item={item} />
+        <FunctionPicture item={item} />
       </Panel>
       <Parameters item={item} />
+      <Sharing item={item} />
       {item.script ? (
         <section aria-labelledby="script">
           <h3 id="script" className={styles.section}>
@@ -114,6 +116,7 @@ export function FunctionDetail({ slug, item }: { slug: string; item: LibraryFunc
             {[
               t("pages.library.version", { version: shown.version }),
               nameOf(shown.author),
+              shown.site === slug ? "" : shown.site,
               t("pages.library.updated", { ago: formatAgo(shown.updated_at, now) }),
             ]
               .filter(Boolean)
@@ -125,7 +128,7 @@ export function FunctionDetail({ slug, item }: { slug: string; item: LibraryFunc
         </Link>
       </header>
       {full.isLoadingError ? <LoadProblem error={full.error} again={() => void full.refetch()} /> : null}
-      <Body slug={slug} item={shown} />
+      <Body item={shown} />
       <UseInProgram slug={slug} item={shown} />
     </aside>
   );

@@ -1,11 +1,14 @@
 /** Steps where they happen: their machines and paths on the site's map. */
 import { skipToken, useQuery } from "@tanstack/react-query";
+import { Globe } from "lucide-react";
 import { useMemo } from "react";
+import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
-import { useDevices, useSiteMap } from "@/api/queries";
+import { useDevices, useSiteMap, useSites } from "@/api/queries";
 import type { LibraryFunction, RouteAnswer } from "@/api/types";
 import { floorMark } from "@/map/floor/floor";
 import { StaticMap } from "@/map/StaticMap";
+import styles from "./library.module.css";
 import { devicesIn, type Drawn, focusOn, pathsIn } from "./picture";
 
 function useWays(slug: string, floor: string | undefined, definition: Drawn) {
@@ -18,8 +21,19 @@ function useWays(slug: string, floor: string | undefined, definition: Drawn) {
   });
 }
 
-export function FunctionPicture({ slug, item }: { slug: string; item: LibraryFunction }) {
-  return <StepsPicture slug={slug} drawn={item.definition} label={item.name} />;
+/** A function on the map of the site that it comes from; people who are no members there have no map to see. */
+export function FunctionPicture({ item }: { item: LibraryFunction }) {
+  const { t } = useTranslation();
+  const sites = useSites().data;
+  if (!sites) return null;
+  if (sites.some((site) => site.slug === item.site))
+    return <StepsPicture slug={item.site} drawn={item.definition} label={item.name} />;
+  return (
+    <div className={styles.noMap}>
+      <Globe size={20} aria-hidden="true" />
+      <span>{t("pages.library.noMap")}</span>
+    </div>
+  );
 }
 
 /** `whole` shows all of the map instead of the part where the steps are. */

@@ -9,8 +9,9 @@ import pytest
 from editor.documents.shared_document import empty_document
 from editor.language import compile_document
 from editor.language.site.surroundings import LibraryFacts
-from editor.models import LibraryFunction, LibraryVersion
+from editor.models import LibraryFunction, LibraryUse, LibraryVersion
 from editor.programs.checking import DeviceWatch, build_surroundings, fingerprint_of
+from editor.services import create_program, get_compiled
 from registry import services as registry
 from registry.models import Site
 
@@ -65,6 +66,20 @@ def test_a_newer_version_is_told_and_changes_what_programs_were_checked_against(
     assert codes(function, 2) == ["signature_changed"]
     assert codes(function, 9) == ["version_gone"]
     assert fingerprint_of(build_surroundings(site="hall")) != before
+
+
+def test_a_program_may_hold_a_function_of_another_site_without_a_word(function: LibraryFunction) -> None:
+    add_version(function, 1)
+    registry.create_site(name="Works", slug="works")
+    program = create_program(site="works", name="Borrows", user=None, document=document(function, 1))
+    assert get_compiled(program_id=program.id)["diagnostics"] == []
+    assert [use.program_id for use in function.uses.all()] == [program.id]
+
+
+def test_a_source_that_is_no_id_is_no_use(function: LibraryFunction) -> None:
+    program = create_program(site="hall", name="Odd", user=None, document=document(LibraryFunction(pk="odd"), 1))
+    get_compiled(program_id=program.id)
+    assert not LibraryUse.objects.exists()
 
 
 def test_open_programs_are_looked_at_again_when_the_library_changes() -> None:
