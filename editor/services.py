@@ -5,6 +5,7 @@ from editor.documents.store import Change, get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram, NotApproved
 from editor.programs.checking import build_surroundings, find_zones
 from editor.programs.drawn_script import DrawnScript
+from editor.programs.floor_use import ProgramTrouble, list_program_troubles
 from editor.programs.library import get_function, save_function, search_library
 from editor.programs.one_line import ExpressionView, print_expression, read_expression
 from editor.programs.programs import (
@@ -42,6 +43,7 @@ __all__ = [
     "NoSuchProgram",
     "NotApproved",
     "Permit",
+    "ProgramTrouble",
     "ProgramView",
     "VersionView",
     "WholeVersionView",
@@ -60,6 +62,7 @@ __all__ = [
     "get_function",
     "get_program",
     "get_version",
+    "list_program_troubles",
     "list_programs",
     "list_versions",
     "mend_program",

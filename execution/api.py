@@ -1,4 +1,4 @@
-"""Execution over HTTP: runs, rehearsals, calls, questions, the stop, routes for drawing, changes of a site's map."""
+"""Execution over HTTP: runs, rehearsals, calls, questions, the stop, routes for drawing."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from ninja.responses import Status
 
 from execution import services
 from execution.errors import NotFound, NoWay
+from execution.floor.map_routes import router as map_router
 from execution.operations.routes import router as operations_router
 from execution.rehearsals.shapes import RehearsalShape, RehearsalSummaryShape, StartRehearsal
 from execution.rehearsals.views import rehearsal_to_json, whole_rehearsal_to_json
@@ -26,16 +27,13 @@ from execution.shapes import (
     AskRoutes,
     CallMethod,
     CallShape,
-    ChangedMap,
     QuestionShape,
-    RestoreMap,
     RouteShape,
     RunEventShape,
     RunsAsked,
     RunShape,
     RunSummaryShape,
     StartRun,
-    UseRobotMap,
 )
 from execution.views import (
     armed_to_json,
@@ -46,12 +44,12 @@ from execution.views import (
     run_to_json,
     whole_run_to_json,
 )
-from registry import services as registry
 from registry.services import NotAMember, require
 from registry.shapes import LOCATION, Stop, link_to_next, signed_in
 from vipo_device.descriptions.thing_description import DEVICE_URN
 
 router = Router(tags=["execution"])
+router.add_router("", map_router)
 router.add_router("", operations_router)
 router.add_router("", retention_router)
 ABSENT = {
@@ -330,29 +328,3 @@ def plan_routes(request: HttpRequest, site: str, body: AskRoutes) -> list[dict[s
     _require(request, site, "viewer")
     routes = services.plan_routes(site=site, pairs=[(pair.start, pair.to) for pair in body.pairs])
     return [route_to_json(route) if route else None for route in routes]
-
-
-@router.post("/sites/{slug}/map/from-device", response={201: ChangedMap})
-def use_robot_map(request: HttpRequest, slug: str, body: UseRobotMap) -> dict[str, Any]:
-    """Make a robot's map the site's, as a new version; places and devices stay. Refused while anything is under way."""
-    user = signed_in(request)
-    require(user, slug, "admin")
-    changed = services.change_map(
-        site=slug,
-        change=lambda: registry.use_robot_map(
-            site=slug, device_id=body.device, version=body.version, replaces=body.replaces, by=user
-        ),
-    )
-    return {"version": changed.version}
-
-
-@router.post("/sites/{slug}/map/restore", response={201: ChangedMap})
-def restore_map(request: HttpRequest, slug: str, body: RestoreMap) -> dict[str, Any]:
-    """Use an older version of the site's map again, as a new version. Refused while anything is under way."""
-    user = signed_in(request)
-    require(user, slug, "admin")
-    changed = services.change_map(
-        site=slug,
-        change=lambda: registry.restore_map(site=slug, version=body.version, replaces=body.replaces, by=user),
-    )
-    return {"version": changed.version}

@@ -271,6 +271,37 @@ class RestoreMap(Asked):
     replaces: MapVersion
 
 
+class MapTroubleOfDevices(Schema):
+    """A machine or place that a map does not suit, and whether it is so only with that map."""
+
+    id: str
+    name: str
+    kind: Literal["machine", "place"]
+    why: Literal["outside", "walled", "unreachable"]
+    is_new: bool
+
+
+class MapTroubleOfPrograms(Schema):
+    """A program with steps that would be off the map, or with points in walls to which robots drive."""
+
+    id: str
+    name: str
+    steps_outside: int
+    points_walled: int
+
+
+class BroughtMapDifference(Schema):
+    """What changes when a map replaces the site's version `replaces` (0: none), in square metres, and for whom."""
+
+    replaces: int
+    floor_gained_m2: float
+    floor_lost_m2: float
+    walls_gained_m2: float
+    walls_lost_m2: float
+    troubles: list[MapTroubleOfDevices]
+    programs: list[MapTroubleOfPrograms]
+
+
 class ChangedMap(Schema):
     """The version that holds now."""
 

@@ -21,7 +21,7 @@ CELLS, PGM = "application/octet-stream", "image/x-portable-graymap"
 
 
 class MapVersionShape(Schema):
-    """One version of a site's map; `source` is `upload`, `demo`, `robot:<id>`, `version:<number>` or empty."""
+    """One version of a site's map; `source` is `upload`, `picture`, `edit`, `demo`, `robot:…`, `version:…` or empty."""
 
     version: int
     width: int
@@ -30,6 +30,16 @@ class MapVersionShape(Schema):
     source: str
     by: str
     at: str
+
+
+class OldMapShape(Schema):
+    """A version of a site's map without its cells."""
+
+    version: int
+    width: int
+    height: int
+    resolution_m: float
+    origin: Origin
 
 
 class RobotMapShape(Schema):
@@ -94,10 +104,10 @@ def _measures(grid: Grid) -> dict[str, Any]:
 
 @router.get("/sites/{slug}/map/cells", openapi_extra=sends(CELLS))
 def show_cells(request: HttpRequest, slug: str) -> HttpResponse:
-    """Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown."""
+    """Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown. The ETag is the version's."""
     require(signed_in(request), slug, "viewer")
     found = services.get_map(site=slug)
-    return _cells(request, f'"{slug}-{found.version}"', found.grid)
+    return _cells(request, services.map_tag(site=slug, version=found.version), found.grid)
 
 
 def _cells(request: HttpRequest, tag: str, grid: Grid) -> HttpResponse:
@@ -139,6 +149,22 @@ def list_map_versions(request: HttpRequest, slug: str) -> list[dict[str, Any]]:
     """List the versions of a site's map, the one that holds first; the newest 50 are kept."""
     require(signed_in(request), slug, "viewer")
     return [{**asdict(view), "at": view.at.isoformat()} for view in services.list_map_versions(site=slug)]
+
+
+@router.get("/sites/{slug}/map/versions/{int:version}", response=OldMapShape)
+def show_map_version(request: HttpRequest, slug: str, version: int) -> dict[str, Any]:
+    """Show a version of a site's map that is kept, without its cells."""
+    require(signed_in(request), slug, "viewer")
+    found = services.get_map_version(site=slug, version=version)
+    return {"version": found.version, **_measures(found.grid)}
+
+
+@router.get("/sites/{slug}/map/versions/{int:version}/cells", openapi_extra=sends(CELLS))
+def show_version_cells(request: HttpRequest, slug: str, version: int) -> HttpResponse:
+    """Send the cells of a version that is kept: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown."""
+    require(signed_in(request), slug, "viewer")
+    found = services.get_map_version(site=slug, version=version)
+    return _cells(request, services.map_tag(site=slug, version=version), found.grid)
 
 
 @router.get("/sites/{slug}/devices/{device_id}/map", response=RobotMapShape)

@@ -10,7 +10,6 @@ from ninja.files import UploadedFile
 
 from registry import services
 from registry.api.authentication import session_only
-from registry.floorplan.map_server import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap
 from registry.people.access import require
 from registry.shapes import (
     SiteShape,
@@ -31,25 +30,16 @@ def list_sites(request: HttpRequest) -> list[dict[str, Any]]:
 def upload_site(
     request: HttpRequest,
     name: Form[str],
-    yaml: File[UploadedFile],
+    yaml: File[UploadedFile | None] = None,
     image: File[UploadedFile | None] = None,
+    archive: File[UploadedFile | None] = None,
 ) -> dict[str, Any]:
-    """Make a site from a ROS map; the asker becomes its admin."""
+    """Make a site, from a ROS map (two files, or one .zip of both) or without a map; the asker becomes its admin."""
     user = signed_in(request)
-    site = services.create_site_from_map(
-        name=name,
-        yaml=_read_upload(yaml, MAX_YAML_BYTES, "The .yaml file"),
-        image=_read_upload(image, MAX_IMAGE_BYTES, "The map's image") if image else None,
-        admin=user,
-    )
+    files = services.MapFiles(yaml, image, archive)
+    site = services.create_site_from_map(name=name, files=files, admin=user)
     require(user, site.slug, "admin")  # noted: an answer that is given again is given to members of the new site
     return site_to_json(site)
-
-
-def _read_upload(file: UploadedFile, most: int, what: str) -> bytes:
-    if (file.size or 0) > most:
-        raise BadMap(f"{what} has {file.size} bytes; {most} is the most. Choose the map's own files.")
-    return bytes(file.read())
 
 
 @router.get("/sites/{slug}", response=SiteShape)

@@ -327,14 +327,19 @@ def write_pgm(grid: Grid) -> bytes:
 
 
 def write_yaml(grid: Grid, image: str) -> bytes:
-    """Return the header that belongs to the PGM of that file name."""
+    """Return the header that belongs to the PGM of that file name; read again it says the same to the last bit."""
     lines = (
         f"image: {image}",
         "mode: trinary",
-        f"resolution: {grid.resolution_m:g}",
-        f"origin: [{grid.origin_x_m:.6g}, {grid.origin_y_m:.6g}, 0]",
+        f"resolution: {_plain(grid.resolution_m)}",
+        f"origin: [{_plain(grid.origin_x_m)}, {_plain(grid.origin_y_m)}, 0]",
         "negate: 0",
         "occupied_thresh: 0.65",
         "free_thresh: 0.196",
     )
     return ("\n".join(lines) + "\n").encode()
+
+
+def _plain(value: float) -> str:
+    """Return the shortest decimal that means this very number, without an exponent, which not every reader takes."""
+    return np.format_float_positional(value, trim="0")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from math import cos, hypot, pi, sin
+from typing import Literal
 from zlib import crc32
 
 import numpy as np
@@ -41,6 +42,13 @@ class Grid:
         column = int((x_m - self.origin_x_m) // self.resolution_m)
         row = int((y_m - self.origin_y_m) // self.resolution_m)
         return (row, column) if 0 <= row < self.height and 0 <= column < self.width else None
+
+    def standing(self, point: tuple[float, float]) -> Literal["floor", "wall", "outside"]:
+        """Tell what is at a point in metres; unknown cells count as floor, on which somebody may draw."""
+        cell = self.cell_of(*point)
+        if cell is None:
+            return "outside"
+        return "wall" if self.cells[cell[0] * self.width + cell[1]] == OCCUPIED else "floor"
 
     def centre_of(self, row: int, column: int) -> tuple[float, float]:
         """Return the middle of a cell in metres."""

@@ -12,38 +12,25 @@ from datetime import datetime
 from django.db import models, transaction
 
 from registry.audit.record import note_act
-from registry.bounds.places import Claim, Places
 from registry.devices.queries import list_devices
 from registry.devices.views import effective_description
 from registry.errors import RegistryError
 from registry.floorplan.comparison import MapDifference, NamedPoint, compare_maps
-from registry.floorplan.map_server import check_size, read_map
+from registry.floorplan.map_server import check_size
 from registry.floorplan.plan import Box, FloorPlan, Grid, wall_boxes
 from registry.live.fanout import publish
 from registry.maps.kept_work import KeptWork
 from registry.maps.robot_maps import get_robot_map
 from registry.models import Device, Site, SiteMap, User
-from registry.sites.quota import lock_site_quota, require_site_quota
-from registry.sites.sites import create_site, find_site, get_site, list_places
-from registry.sites.views import SiteView
+from registry.sites.sites import find_site, list_places
 from vipo_device.protocol.description import Description
 
 MOST_VERSIONS = 50
 MOST_KEPT_CELLS = 20_000_000
 """Of each kind of work; a floor takes about twenty bytes for each cell, the others one."""
-READING_PATIENCE_S = 5.0
 _grids: KeptWork[Grid] = KeptWork(MOST_KEPT_CELLS)
 _walls: KeptWork[tuple[Box, ...]] = KeptWork(MOST_KEPT_CELLS)
 _floors: KeptWork[FloorPlan] = KeptWork(MOST_KEPT_CELLS)
-reading_places = Places(in_all=2, of_site=2, of_person=1, most_waiting=1)
-"""Maps that are read at once."""
-
-
-class TooManyUploads(RegistryError):
-    """This process reads as many maps as it may, in all or of this person."""
-
-    code = "too_many_uploads"
-    status = 429
 
 
 class NoMap(RegistryError):
@@ -71,7 +58,7 @@ class MapView:
 
 @dataclass(frozen=True, slots=True)
 class MapVersionView:
-    """One version of a site's map; `source` is `upload`, `demo`, `robot:<id>`, `version:<number>` or empty."""
+    """One version of a site's map; `source` is `upload`, `picture`, `edit`, `demo`, `robot:…`, `version:…` or empty."""
 
     version: int
     width: int
@@ -105,11 +92,16 @@ def compare_robot_map(*, site: str, device_id: str) -> tuple[int, int, MapDiffer
     Raises NoSuchDevice, NoRobotMap.
     """
     view = get_robot_map(site=site, device_id=device_id)
+    return (view.facts.version, *compare_with_site(site=site, grid=view.grid))
+
+
+def compare_with_site(*, site: str, grid: Grid) -> tuple[int, MapDifference]:
+    """Return the site's version (0: it has no map) and what changes from it to a grid. Raises NotAMember."""
     present = find_map(site=site)
     devices = [device.canonical for device in list_devices(site=site, lifecycle="approved")]
     places = [NamedPoint(p.id, p.name, p.x, p.y) for p in list_places(site=site)]
-    difference = compare_maps(present.grid if present else None, view.grid, devices, places)
-    return view.facts.version, present.version if present else 0, difference
+    difference = compare_maps(present.grid if present else None, grid, devices, places)
+    return present.version if present else 0, difference
 
 
 def find_map(*, site: str) -> MapView | None:
@@ -134,35 +126,17 @@ def use_robot_map(*, site: str, device_id: str, version: int, replaces: int, by:
 
 def restore_map(*, site: str, version: int, replaces: int, by: User) -> MapView:
     """Use an older version of the site's map again, as a new version. Raises NoMap, MapChanged."""
-    row = SiteMap.objects.filter(site=find_site(site), version=version).first()
+    found = get_map_version(site=site, version=version)
+    return save_map(site=site, grid=found.grid, source=f"version:{version}", by=by, replaces=replaces)
+
+
+def get_map_version(*, site: str, version: int) -> MapView:
+    """Return a version of a site's map that is kept. Raises NoMap."""
+    rows = SiteMap.objects.filter(site=find_site(site), version=version)
+    row = rows.values_list("pk", "created_at").first()
     if row is None:
         raise NoMap(f"Version {version} of this site's map is not kept. Choose one of the list.")
-    grid = Grid(row.width, row.height, row.resolution_m, row.origin_x_m, row.origin_y_m, row.cells)
-    return save_map(site=site, grid=grid, source=f"version:{version}", by=by, replaces=replaces)
-
-
-def create_site_from_map(*, name: str, yaml: bytes, image: bytes | None, admin: User) -> SiteView:
-    """Make a site from a ROS map; nothing is made when the map cannot be read.
-
-    Raises BadMap, BadName, MayNotCreateSites, SiteQuotaReached, TooManyUploads.
-    """
-    require_site_quota(admin)
-    grid = _read_in_turn(yaml, image, Claim(admin.pk))
-    with transaction.atomic():
-        lock_site_quota(admin)
-        view = create_site(name=name, admin=admin)
-        save_map(site=view.slug, grid=grid, source="upload", by=admin)
-    return get_site(site=view.slug, role=view.role)
-
-
-def _read_in_turn(yaml: bytes, image: bytes | None, claim: Claim) -> Grid:
-    """Read a map, two at once in this process and one of a person. Raises BadMap, TooManyUploads."""
-    if not reading_places.take(claim, patience_s=READING_PATIENCE_S):
-        raise TooManyUploads("Other maps are being read, yours or others'. Try again in a moment.")
-    try:
-        return read_map(yaml, image)
-    finally:
-        reading_places.give_back(claim)
+    return MapView(site, version, _grid(*row))
 
 
 def save_map(
@@ -197,12 +171,17 @@ def save_map(
     return MapView(site, saved.version, grid)
 
 
+def map_tag(*, site: str, version: int) -> str:
+    """Return the ETag of a version of a site's map."""
+    return f'"{site}-{version}"'
+
+
 def get_map(*, site: str) -> MapView:
     """Return the site's newest map. Raises NoMap."""
     row = find_site(site)
     latest = SiteMap.objects.filter(site=row).order_by("-version").values_list("pk", "version", "created_at").first()
     if latest is None:
-        raise NoMap("This site has no map yet. Upload a ROS map (.yaml with its image).")
+        raise NoMap("This site has no map yet. Upload one, or take one from a robot.")
     return MapView(site, latest[1], _grid(latest[0], latest[2]))
 
 

@@ -107,7 +107,7 @@ def make_one_of_each(slug: str) -> dict[str, str]:
     }
     made |= _make_comment(program)
     named = {"device_id": device, "device": device, "thing": device, "slug": slug, "site": slug, "number": "1"}
-    named |= {"name": "jobStatus", "action": "mix", "session": "0"}
+    named |= {"version": "1", "name": "jobStatus", "action": "mix", "session": "0"}
     named |= _make_guest(site)
     return {**named, **{name: str(key) for name, key in made.items()}}
 
@@ -165,6 +165,9 @@ def ask(client: Client, method: str, path: str, name: str, ids: dict[str, str]) 
         return client.post(path, "ASK {}", content_type="application/sparql-query")
     if name == "upload_site":
         return client.post(path, {"name": "New", "yaml": SimpleUploadedFile("map.yaml", b"image: a.pgm")})
+    if name in ("upload_map", "look_at_map"):
+        files = {"yaml": SimpleUploadedFile("map.yaml", b"image: a.pgm")}
+        return client.post(path, files, headers={"If-Match": f'"{ids["slug"]}-1"'})
     if method == "get":
         return client.get(path)
     sent = {

@@ -31,6 +31,7 @@ MADE = {
     "upload_site": Place("show_site", (), {"slug": "slug"}),
     "create_token": Place("show_token", ("slug",), {"token_id": "id"}),
     "reserve_device": Place("show_device", ("slug",), {"device_id": "id"}),
+    "upload_map": Place("show_map", ("slug",), {}),
     "use_robot_map": Place("show_map", ("slug",), {}),
     "restore_map": Place("show_map", ("slug",), {}),
     "add_place": Place("show_place", ("slug",), {"place_id": "id"}),

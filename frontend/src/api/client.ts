@@ -133,7 +133,8 @@ export const api = {
   patch: <T = void>(path: string, body: unknown) => sendJson<T>("PATCH", path, body),
   replace,
   delete: <T = void>(path: string) => sendJson<T>("DELETE", path),
-  upload: async <T>(path: string, form: FormData) => receive<T>(await send("POST", path, form)),
+  upload: async <T>(path: string, form: FormData, headers: Readonly<Record<string, string>> = {}) =>
+    receive<T>(await send("POST", path, form, headers)),
   text: async (path: string) => (await send("GET", path)).text(),
   bytes: async (path: string) => new Uint8Array(await (await send("GET", path)).arrayBuffer()),
 };

@@ -1071,7 +1071,7 @@ export interface paths {
         put?: never;
         /**
          * Upload Site
-         * @description Make a site from a ROS map; the asker becomes its admin.
+         * @description Make a site, from a ROS map (two files, or one .zip of both) or without a map; the asker becomes its admin.
          */
         post: operations["upload_site"];
         delete?: never;
@@ -2113,7 +2113,7 @@ export interface paths {
         };
         /**
          * Show Cells
-         * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown.
+         * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown. The ETag is the version's.
          */
         get: operations["show_cells"];
         put?: never;
@@ -2144,6 +2144,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/map/look": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Look At Map
+         * @description Show what would change at the site if a map became its own: floor, machines, places and programs.
+         */
+        post: operations["look_at_map"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/map/restore": {
         parameters: {
             query?: never;
@@ -2164,6 +2184,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/map/upload": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Upload Map
+         * @description Make a ROS map (two files, or one .zip of both) the site's, as a new version; places and devices stay.
+         *
+         *     Refused while anything is under way, and where another map than the named one holds by now.
+         */
+        post: operations["upload_map"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/map/versions": {
         parameters: {
             query?: never;
@@ -2176,6 +2218,46 @@ export interface paths {
          * @description List the versions of a site's map, the one that holds first; the newest 50 are kept.
          */
         get: operations["list_map_versions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/map/versions/{version}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Map Version
+         * @description Show a version of a site's map that is kept, without its cells.
+         */
+        get: operations["show_map_version"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/map/versions/{version}/cells": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Version Cells
+         * @description Send the cells of a version that is kept: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown.
+         */
+        get: operations["show_version_cells"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2990,6 +3072,16 @@ export interface components {
             topics: string;
             username: string;
         };
+        /** @description What changes when a map replaces the site's version `replaces` (0: none), in square metres, and for whom. */
+        BroughtMapDifference: {
+            floor_gained_m2: number;
+            floor_lost_m2: number;
+            programs: components["schemas"]["MapTroubleOfPrograms"][];
+            replaces: number;
+            troubles: components["schemas"]["MapTroubleOfDevices"][];
+            walls_gained_m2: number;
+            walls_lost_m2: number;
+        };
         /** @description A method of a device, and its arguments by name. */
         CallMethod: {
             /** @default {} */
@@ -3592,6 +3684,23 @@ export interface components {
             zones: components["schemas"]["SiteZoneShape"][];
         };
         /** @description A machine or place that a map does not suit, and whether it is so only with that map. */
+        MapTroubleOfDevices: {
+            id: string;
+            is_new: boolean;
+            /** @enum {string} */
+            kind: "machine" | "place";
+            name: string;
+            /** @enum {string} */
+            why: "outside" | "walled" | "unreachable";
+        };
+        /** @description A program with steps that would be off the map, or with points in walls to which robots drive. */
+        MapTroubleOfPrograms: {
+            id: string;
+            name: string;
+            points_walled: number;
+            steps_outside: number;
+        };
+        /** @description A machine or place that a map does not suit, and whether it is so only with that map. */
         MapTroubleShape: {
             id: string;
             is_new: boolean;
@@ -3600,7 +3709,7 @@ export interface components {
             /** @enum {string} */
             why: "outside" | "walled" | "unreachable";
         };
-        /** @description One version of a site's map; `source` is `upload`, `demo`, `robot:<id>`, `version:<number>` or empty. */
+        /** @description One version of a site's map; `source` is `upload`, `picture`, `edit`, `demo`, `robot:…`, `version:…` or empty. */
         MapVersionShape: {
             at: string;
             by: string;
@@ -3745,6 +3854,14 @@ export interface components {
             role: "viewer" | "commenter" | "operator" | "author" | "admin";
             site: string;
             site_name: string;
+        };
+        /** @description A version of a site's map without its cells. */
+        OldMapShape: {
+            height: number;
+            origin: components["schemas"]["Origin"];
+            resolution_m: number;
+            version: number;
+            width: number;
         };
         /** @description An operator with what it is applied to. */
         Operation: {
@@ -7611,10 +7728,10 @@ export interface operations {
         requestBody: {
             content: {
                 "multipart/form-data": {
+                    archive?: string | null;
                     image?: string | null;
                     name: string;
-                    /** Format: binary */
-                    yaml: string;
+                    yaml?: string | null;
                 };
             };
         };
@@ -10109,6 +10226,57 @@ export interface operations {
             };
         };
     };
+    look_at_map: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": {
+                    archive?: string | null;
+                    image?: string | null;
+                    yaml?: string | null;
+                };
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BroughtMapDifference"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     restore_map: {
         parameters: {
             query?: never;
@@ -10158,6 +10326,70 @@ export interface operations {
             };
         };
     };
+    upload_map: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The ETag of the cells of the map that it replaces. */
+                "If-Match"?: string;
+                /** @description `*` where the site has no map yet. */
+                "If-None-Match"?: string;
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": {
+                    archive?: string | null;
+                    image?: string | null;
+                    /**
+                     * @default upload
+                     * @enum {string}
+                     */
+                    source?: "upload" | "picture" | "edit";
+                    yaml?: string | null;
+                };
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChangedMap"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            412: components["responses"]["Refused412"];
+            422: components["responses"]["Refused422"];
+            428: components["responses"]["Refused428"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_map_versions: {
         parameters: {
             query?: never;
@@ -10176,6 +10408,86 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["MapVersionShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_map_version: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                version: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OldMapShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_version_cells: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                version: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": string;
                 };
             };
             400: components["responses"]["Refused400"];

@@ -24,6 +24,8 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/library/:id?", "pages/library/LibraryPage"],
   ["/sites/:slug/runs", "pages/runs/RunsPage"],
   ["/sites/:slug/map", "pages/map/MapPage"],
+  ["/sites/:slug/map/new", "pages/site/NewMapPage"],
+  ["/sites/:slug/map/edit", "pages/mapEdit/MapEditPage"],
   ["/sites/:slug/people", "pages/settings/PeoplePage"],
   ["/sites/:slug/tokens", "pages/tokens/TokensPage"],
   ["/sites/:slug/operations", "pages/operations/OperationsPage"],

@@ -6,6 +6,11 @@ import type { Site } from "@/api/types";
 
 const KEPT_AS = "vipo.site";
 
+/** Let the side bar be about a site from now on. */
+export function keepSite(slug: string): void {
+  localStorage.setItem(KEPT_AS, slug);
+}
+
 export function useCurrentSite(): { slug: string | undefined; site: Site | undefined; sites: Site[] } {
   const named = useParams().slug;
   const sites = useSites().data ?? [];
@@ -13,7 +18,7 @@ export function useCurrentSite(): { slug: string | undefined; site: Site | undef
   const slug = named ?? (sites.find((each) => each.slug === kept) ?? sites[0])?.slug;
   const site = useSite(slug).data ?? sites.find((each) => each.slug === slug);
   useEffect(() => {
-    if (slug) localStorage.setItem(KEPT_AS, slug);
+    if (slug) keepSite(slug);
   }, [slug]);
   return { slug, site, sites };
 }

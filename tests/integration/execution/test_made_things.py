@@ -11,6 +11,7 @@ from django.test import Client
 
 from editor import services as editor
 from registry import services as registry
+from registry.floorplan.map_server import write_pgm, write_yaml
 from tests.kit import demo_floor
 from tests.kit.api_rights import OPERATIONS
 from tests.kit.programs import SITE, TASK, document
@@ -44,6 +45,7 @@ def make_each(client: Client) -> dict[str, Any]:
     function = {"program": str(source), "function": "f", "name": "Greet"}
     invitation = post_json(client, f"{AT_SITE}/invitations", {"role": "viewer"})
     code = invitation.json()["link"].rpartition("#")[2]
+    grid = demo_floor.grid()
     person = {"code": code, "name": "Nora Lind", "email": "nora@vipo.example", "password": "a-horse-in-the-rain-9"}
     threads = f"/api/programs/{task}/threads"
     thread = post_json(client, threads, {"text": "Why wait?", "anchor": {"kind": "program"}})
@@ -63,6 +65,14 @@ def make_each(client: Client) -> dict[str, Any]:
             client,
             f"{AT_SITE}/zones",
             {"name": "Aisle", "rule": "keep_out", "points": [[7.0, -8.0], [8.0, -8.0], [8.0, -7.0]]},
+        ),
+        "upload_map": client.post(
+            f"{AT_SITE}/map/upload",
+            {
+                "yaml": SimpleUploadedFile("m.yaml", write_yaml(grid, "m.pgm")),
+                "image": SimpleUploadedFile("m.pgm", write_pgm(grid)),
+            },
+            headers={"If-Match": f'"{SITE}-3"'},
         ),
         "add_place": post_json(client, f"{AT_SITE}/places", {"name": "Bench", "kind": "point", "x": 7.0, "y": -8.0}),
         "create_program": post_json(client, f"{AT_SITE}/programs", {"name": "New"}),

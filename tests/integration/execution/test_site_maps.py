@@ -1,9 +1,11 @@
 """A site's map is changed by what a robot has sent, and back: only at rest, in versions, and programs go on."""
 
+import gzip
 import json
 from datetime import UTC, datetime, timedelta
 
 import pytest
+from django.core.files.uploadedfile import SimpleUploadedFile
 
 from editor import services as editor
 from editor.language.expressions.nodes import PlaceRef
@@ -11,6 +13,7 @@ from editor.language.plan.instructions import End, Instruction, Move, Plan
 from execution import services
 from execution.models import Command, FloorState, Run
 from registry import services as registry
+from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.floorplan.plan import Grid
 from registry.live import fanout
 from registry.models import Device, SiteMap
@@ -221,3 +224,85 @@ def test_the_body_of_a_change_is_checked(factory):
     for body in ({}, {"device": 3}, {"device": "x" * 65, "version": 1, "replaces": 0}):
         assert post_json(client, f"/api/sites/{SITE}/map/from-device", body).status_code == 422
     assert json.loads(use(client).content)["code"] == "no_robot_map"
+
+
+def packed(grid):
+    """Return a grid as the two files of a map, as a form sends them."""
+    return {
+        "yaml": SimpleUploadedFile("m.yaml", write_yaml(grid, "m.pgm")),
+        "image": SimpleUploadedFile("m.pgm", write_pgm(grid)),
+    }
+
+
+def bring(client, grid, tag=f'"{SITE}-1"', source="edit", path="map/upload"):
+    headers = {"If-Match": tag} if tag else {}
+    return client.post(f"/api/sites/{SITE}/{path}", {"source": source, **packed(grid)}, headers=headers)
+
+
+def test_a_map_that_somebody_has_changed_becomes_the_sites_and_is_exact_to_the_cell(factory):
+    client = sign_in_member("admin", SITE)
+    assert client.get(f"/api/sites/{SITE}/map/cells")["ETag"] == f'"{SITE}-1"'
+    changed = walled(7, -8, 7.5, -7.5)
+    assert bring(client, changed).json() == {"version": 2}
+    assert registry.get_map(site=SITE).grid == changed
+    newest = client.get(f"/api/sites/{SITE}/map/versions").json()[0]
+    assert (newest["source"], newest["by"]) == ("edit", "Admin Person")
+
+
+def test_of_two_who_change_the_map_the_second_is_told_and_nothing_is_lost(factory):
+    client = sign_in_member("admin", SITE)
+    theirs = walled(7, -8, 7.5, -7.5)
+    assert bring(client, theirs).status_code == 201
+    second = bring(client, widened())
+    assert (second.status_code, second.json()["code"]) == (412, "map_overtaken")
+    assert registry.get_map(site=SITE).grid == theirs
+    assert bring(client, widened(), tag=f'"{SITE}-2"').json() == {"version": 3}
+
+
+def test_who_changes_the_map_must_say_which(factory):
+    client = sign_in_member("admin", SITE)
+    missing = bring(client, widened(), tag="")
+    assert (missing.status_code, missing.json()["code"]) == (428, "map_tag_needed")
+    none = client.post(f"/api/sites/{SITE}/map/upload", packed(widened()), headers={"If-None-Match": "*"})
+    assert (none.status_code, SiteMap.objects.count()) == (412, 1)
+
+
+def test_a_site_without_a_map_gets_its_first(factory):
+    client = sign_in_member("admin", SITE)
+    SiteMap.objects.all().delete()
+    first = client.post(f"/api/sites/{SITE}/map/upload", packed(PLAN), headers={"If-None-Match": "*"})
+    assert (first.status_code, registry.get_map(site=SITE).grid) == (201, PLAN)
+
+
+def test_the_map_is_not_changed_by_hand_under_a_run(factory):
+    client = sign_in_member("admin", SITE)
+    factory.start(CARRY)
+    refused = bring(client, widened())
+    assert (refused.status_code, refused.json()["args"]["runs"]) == (409, "1")
+    assert SiteMap.objects.count() == 1
+
+
+def test_before_a_map_is_saved_it_is_said_which_places_and_programs_it_troubles(factory):
+    client = sign_in_member("admin", SITE)
+    registry.add_place(site=SITE, place=registry.PlaceChange(name="Table", kind="point", x=7.2, y=-7.8))
+    step = {"kind": "move", "pos": [7.2, -7.8], "params": {"role": "robot", "to": {"point": [7.2, -7.8]}}}
+    steps = {"s1": {**step, "place": ["program", "body", "0V"]}}
+    program = editor.create_program(site=SITE, name="Goes there", document={**TASK, "steps": steps})
+    told = bring(client, walled(7, -8, 7.5, -7.5), tag="", path="map/look").json()
+    assert (told["replaces"], told["walls_gained_m2"] > 0) == (1, True)
+    assert [(each["id"], each["why"]) for each in told["troubles"] if each["is_new"]] == [("table", "walled")]
+    assert told["programs"] == [{"id": str(program.id), "name": "Goes there", "steps_outside": 0, "points_walled": 1}]
+    assert registry.get_map(site=SITE).version == 1
+    same = bring(client, PLAN, tag="", path="map/look").json()
+    assert (same["programs"], [each for each in same["troubles"] if each["is_new"]]) == ([], [])
+
+
+def test_an_earlier_version_can_be_looked_at(factory):
+    client = sign_in_member("admin", SITE)
+    assert bring(client, walled(7, -8, 7.5, -7.5)).status_code == 201
+    old = f"/api/sites/{SITE}/map/versions/1"
+    shown = client.get(old).json()
+    assert (shown["version"], shown["width"], shown["origin"]["x"]) == (1, PLAN.width, PLAN.origin_x_m)
+    assert gzip.decompress(client.get(f"{old}/cells").content) == PLAN.cells
+    missing = client.get(f"/api/sites/{SITE}/map/versions/9")
+    assert (missing.status_code, missing.json()["code"]) == (404, "no_map")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib
+import io
+import zipfile
 from typing import Any
 
 import pytest
@@ -12,7 +14,7 @@ from django.test import Client
 
 from registry import services
 from registry.bounds.places import Claim
-from registry.maps import site_maps
+from registry.maps import uploads
 from registry.models import Site, User
 from tests.kit.command_line import run_vipo
 from tests.kit.sign_in import find_person, signed_in
@@ -84,12 +86,26 @@ def test_who_was_admin_of_a_site_keeps_the_right(hall: str) -> None:
 
 
 def test_one_map_of_a_person_is_read_at_a_time(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(site_maps, "READING_PATIENCE_S", 0.0)
+    monkeypatch.setattr(uploads, "READING_PATIENCE_S", 0.0)
     for name in ("stranger", "author"):
         services.set_site_quota(email=f"{name}@vipo.example", sites=1)
     claim = Claim(find_person("stranger").pk)
-    assert site_maps.reading_places.take(claim)
+    assert uploads.reading_places.take(claim)
     refused, other = upload(signed_in("stranger")), upload(signed_in("author"))
-    site_maps.reading_places.give_back(claim)
+    uploads.reading_places.give_back(claim)
     assert (refused.status_code, refused.json()["code"], refused["Retry-After"]) == (429, "too_many_uploads", "5")
     assert (other.status_code, upload(signed_in("stranger")).status_code) == (201, 201)
+
+
+def test_a_site_may_begin_without_a_map_and_from_an_archive(hall: str) -> None:
+    services.set_site_quota(email="stranger@vipo.example", sites=2)
+    client = signed_in("stranger")
+    empty = client.post("/api/sites", {"name": "Bare"}).json()
+    assert (empty["slug"], empty["role"], empty["has_map"]) == ("bare", "admin", False)
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.writestr("m/shed.yaml", YAML)
+        archive.writestr("m/a.pgm", IMAGE)
+    sent = {"name": "Shed", "archive": SimpleUploadedFile("shed.zip", packed.getvalue())}
+    assert client.post("/api/sites", sent).json()["has_map"] is True
+    assert services.get_map(site="shed").grid.cells == bytes([255, 0, 0, 100])

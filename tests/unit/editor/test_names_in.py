@@ -1,7 +1,8 @@
-"""Which devices and places a document names."""
+"""Which devices, places and points of the floor a document names."""
 
 from __future__ import annotations
 
+from editor.programs.floor_use import goal_points, step_points
 from editor.programs.summary import Named, names_in
 
 
@@ -28,3 +29,26 @@ def test_what_is_no_list_where_one_belongs_harms_nothing() -> None:
     assert names_in({"steps": {"a": {"params": {"property": "text", "device": ["x"]}}}}) == Named(
         frozenset(), frozenset()
     )
+
+
+ON_THE_FLOOR = {
+    "steps": {
+        "a": {"kind": "move", "place": ["program", "body", "0V"], "pos": [1, 2], "params": {"to": {"point": [3, 4]}}},
+        "b": {"kind": "wait", "place": ["program", "body", "1V"], "pos": "nowhere", "params": {}},
+        "c": {"kind": "comment", "place": None, "pos": [9, 9], "params": {"text": "on the margin"}},
+        "d": {
+            "kind": "pick_and_drop",
+            "place": ["program", "body", "2V"],
+            "pos": [5.5, 6],
+            "params": {"source": {"device": "m"}, "target": {"point": [7, 8]}, "via": [[0, 0], {"point": [1]}]},
+        },
+    }
+}
+
+
+def test_steps_stand_where_they_are_drawn_and_comments_do_not_count() -> None:
+    assert list(step_points(ON_THE_FLOOR)) == [(1.0, 2.0), (5.5, 6.0)]
+
+
+def test_goals_are_the_points_that_steps_name() -> None:
+    assert list(goal_points(ON_THE_FLOOR)) == [(3.0, 4.0), (7.0, 8.0)]

@@ -14,6 +14,7 @@ import { BeginCard } from "./BeginCard";
 import { LiveNow } from "./LiveNow";
 import { RecentRuns } from "./RecentRuns";
 import { SiteCards } from "./SiteCards";
+import { StartCard } from "./StartCard";
 import styles from "./home.module.css";
 import { mayEdit, NewProgramButton } from "../programs/NewProgram";
 import { ProgramTable } from "../programs/ProgramTable";
@@ -83,7 +84,7 @@ export function HomePage() {
       {site ? (
         <div className={styles.home}>
           <div className={styles.row}>
-            <BeginCard site={site} />
+            <StartCard site={site} otherwise={<BeginCard site={site} />} />
             <LiveNow slug={site.slug} />
           </div>
           <h2 className={styles.heading}>{t("pages.home.sites")}</h2>

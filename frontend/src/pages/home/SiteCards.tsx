@@ -25,6 +25,7 @@ function SiteCard({ site }: { site: Site }) {
   const devices = useDevices(site.slug).data ?? [];
   const programs = usePrograms(site.slug).data?.length ?? 0;
   const running = (useRuns(site.slug).data ?? []).some(isOpen);
+  const isBare = !site.has_map && site.role === "admin";
   const facts = [
     t("pages.home.machines", { count: site.machines }),
     t("pages.home.robots", { count: site.robots }),
@@ -44,8 +45,13 @@ function SiteCard({ site }: { site: Site }) {
           {facts.join(", ")}. {site.pending > 0 ? t("pages.home.pending", { count: site.pending }) : null}
         </p>
         <div className={styles.siteActions}>
-          <Button component={Link} to={`/sites/${site.slug}/map`} variant="default" size="xs">
-            {t("pages.home.openMap")}
+          <Button
+            component={Link}
+            to={`/sites/${site.slug}/map${isBare ? "/new" : ""}`}
+            variant={isBare ? "filled" : "default"}
+            size="xs"
+          >
+            {t(isBare ? "mapEdit.upload" : "pages.home.openMap")}
           </Button>
           <Button component={Link} to={`/sites/${site.slug}/devices`} variant="default" size="xs">
             {t(site.pending > 0 ? "pages.home.review" : "shell.nav.devices")}

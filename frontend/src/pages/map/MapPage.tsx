@@ -5,7 +5,7 @@ import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { missing } from "@/api/failed";
-import { useDevices, useMe, useSite, useSiteMap } from "@/api/queries";
+import { useDevices, useSite, useSiteMap } from "@/api/queries";
 import type { Site, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { EmptyState } from "@/design/EmptyState";
@@ -16,6 +16,7 @@ import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { type Point, toPixels } from "@/map/plane/projection";
 import { MovableMachine } from "../devices/MovableMachine";
+import { EditMapButton } from "./EditMapButton";
 import { MapDownloads } from "./MapDownloads";
 import styles from "./MapPage.module.css";
 import { MapVersions } from "./MapVersions";
@@ -144,8 +145,8 @@ export function MapPage() {
   const { slug = "" } = useParams();
   const site = useSite(slug);
   const map = useSiteMap(site.data?.has_map ? slug : undefined);
-  const me = useMe();
-  const [mode, setMode] = useState<Mode | null>(null);
+  const [query] = useSearchParams();
+  const [mode, setMode] = useState<Mode | null>(query.has("places") ? "places" : null);
   const problem = missing(site, map);
   return (
     <PageShell
@@ -155,6 +156,7 @@ export function MapPage() {
         map.data ? (
           <>
             {site.data?.role === "admin" ? <ModeButtons mode={mode} change={setMode} /> : null}
+            {site.data?.role === "admin" ? <EditMapButton slug={slug} /> : null}
             <MapDownloads fileOf={(form) => `/api/sites/${slug}/map.${form}`} />
           </>
         ) : null
@@ -166,9 +168,9 @@ export function MapPage() {
       {site.data?.has_map === false ? (
         <Panel>
           <EmptyState icon={<MapPinned size={20} />} title={t("pages.map.none")} text={t("pages.map.noneText")}>
-            {me.data?.may_create_sites ? (
-              <Button component={Link} to="/sites/new">
-                {t("pages.newSite.upload")}
+            {site.data.role === "admin" ? (
+              <Button component={Link} to={`/sites/${slug}/map/new`}>
+                {t("mapEdit.upload")}
               </Button>
             ) : null}
           </EmptyState>

@@ -3,6 +3,7 @@ import { Button, Modal } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
 import { useDevices } from "@/api/queries";
 import { useChangeMap, useMapVersions } from "@/api/robotMaps";
 import type { MapVersion, Site } from "@/api/types";
@@ -10,6 +11,8 @@ import { problemText } from "@/shell/LoadProblem";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatMoment } from "@/i18n/format";
 import styles from "../devices/robotMap/robotmap.module.css";
+import maps from "./MapPage.module.css";
+import { OldMap } from "./OldMap";
 
 function useSourceWords(slug: string) {
   const { t } = useTranslation();
@@ -21,22 +24,41 @@ function useSourceWords(slug: string) {
   };
 }
 
-function Version({ version, words, choose }: { version: MapVersion; words: string; choose: (() => void) | null }) {
+interface VersionProps {
+  version: MapVersion;
+  words: string;
+  look: (() => void) | null;
+  choose: (() => void) | null;
+}
+
+function Version({ version, words, look, choose }: VersionProps) {
   const { t } = useTranslation();
   const by = version.by ? `${version.by}, ` : "";
   return (
     <li>
       <span>{t("robotMap.version", { version: version.version, words })}</span>
-      {choose ? (
-        <Button
-          size="xs"
-          variant="default"
-          aria-label={t("robotMap.backTo", { version: version.version })}
-          onClick={choose}
-        >
-          {t("robotMap.back")}
-        </Button>
-      ) : null}
+      <span className={maps.versionActions}>
+        {look ? (
+          <Button
+            size="xs"
+            variant="subtle"
+            aria-label={t("mapEdit.lookAt", { version: version.version })}
+            onClick={look}
+          >
+            {t("mapEdit.look")}
+          </Button>
+        ) : null}
+        {choose ? (
+          <Button
+            size="xs"
+            variant="default"
+            aria-label={t("robotMap.backTo", { version: version.version })}
+            onClick={choose}
+          >
+            {t("robotMap.back")}
+          </Button>
+        ) : null}
+      </span>
       <small>
         {by}
         {formatMoment(version.at)}
@@ -91,6 +113,7 @@ export function MapVersions({ site }: { site: Site }) {
   const versions = useMapVersions(site.slug, true).data ?? [];
   const words = useSourceWords(site.slug);
   const [asked, setAsked] = useState<MapVersion | null>(null);
+  const [seen, setSeen] = useState<MapVersion | null>(null);
   const current = versions[0];
   if (!current) return null;
   return (
@@ -102,10 +125,17 @@ export function MapVersions({ site }: { site: Site }) {
             key={version.version}
             version={version}
             words={words(version)}
+            look={version === current ? null : () => setSeen(version)}
             choose={site.role === "admin" && version !== current ? () => setAsked(version) : null}
           />
         ))}
       </ul>
+      {site.role === "admin" ? (
+        <Button component={Link} to={`/sites/${site.slug}/map/new`} variant="default" size="xs">
+          {t("mapEdit.upload")}
+        </Button>
+      ) : null}
+      {seen ? <OldMap site={site} version={seen.version} onClose={() => setSeen(null)} /> : null}
       {asked ? <AskBack site={site} version={asked} current={current.version} onClose={() => setAsked(null)} /> : null}
     </section>
   );

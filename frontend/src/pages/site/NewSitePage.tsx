@@ -1,102 +1,38 @@
-/** A new site out of a ROS map: the .yaml and its image. */
+/** A new site: out of a map, or empty. */
 import { Button, TextInput } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { Building2, Check, FileUp } from "lucide-react";
-import { useState, type DragEvent, type FormEvent } from "react";
+import { Building2 } from "lucide-react";
+import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
 import { problemText } from "@/shell/LoadProblem";
+import { keepSite } from "@/shell/currentSite";
 import { PageShell } from "@/shell/PageShell";
 import { api, ApiProblem } from "@/api/client";
 import { keys, useMe } from "@/api/queries";
 import type { Site } from "@/api/types";
 import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
-import { nameFrom, sortFiles, type MapFiles } from "./files";
-import { Preview } from "./Preview";
+import { nameFrom } from "./files";
+import { MapChoiceFields, MapChoicePreview } from "./MapChoiceParts";
 import styles from "./newsite.module.css";
+import { useMapChoice } from "./useMapChoice";
 
 function useCreateSite() {
   const queries = useQueryClient();
   const navigate = useNavigate();
   return useMutation({
-    mutationFn: ({ name, files }: { name: string; files: MapFiles }) => {
-      const form = new FormData();
+    mutationFn: ({ name, form }: { name: string; form: FormData }) => {
       form.set("name", name);
-      if (files.yaml) form.set("yaml", files.yaml);
-      if (files.image) form.set("image", files.image);
       return api.upload<Site>("/sites", form);
     },
     onSuccess: async (site) => {
       await queries.invalidateQueries({ queryKey: keys.sites });
       await queries.invalidateQueries({ queryKey: keys.me });
-      await navigate(`/sites/${site.slug}/map`);
+      keepSite(site.slug);
+      await navigate(site.has_map ? `/sites/${site.slug}/map` : "/");
     },
   });
-}
-
-interface DropZoneProps {
-  files: MapFiles;
-  problem: string | null;
-  choose: (files: readonly File[]) => void;
-}
-
-function DropZone({ files, problem, choose }: DropZoneProps) {
-  const { t } = useTranslation();
-  const [over, setOver] = useState(false);
-  const drop = (event: DragEvent) => {
-    event.preventDefault();
-    setOver(false);
-    choose([...event.dataTransfer.files]);
-  };
-  const parts = [
-    ["yaml", files.yaml],
-    ["image", files.image],
-  ] as const;
-  return (
-    <div>
-      <label
-        className={styles.zone}
-        data-over={over || undefined}
-        data-problem={problem ? true : undefined}
-        onDragOver={(event) => {
-          event.preventDefault();
-          setOver(true);
-        }}
-        onDragLeave={() => setOver(false)}
-        onDrop={drop}
-      >
-        <FileUp size={22} aria-hidden="true" />
-        <b>{t("pages.newSite.choose")}</b>
-        <span>{t("pages.newSite.chooseText")}</span>
-        <input
-          type="file"
-          multiple
-          accept=".yaml,.yml,.pgm,.png"
-          className="visually-hidden"
-          aria-describedby={problem ? "map-problem" : undefined}
-          // The same file chosen again, after it was mended, must count as a choice too.
-          onClick={(event) => {
-            event.currentTarget.value = "";
-          }}
-          onChange={(event) => choose([...(event.target.files ?? [])])}
-        />
-      </label>
-      <ul className={styles.parts}>
-        {parts.map(([part, file]) => (
-          <li key={part} data-there={file ? true : undefined}>
-            {file ? <Check size={15} aria-hidden="true" /> : <span className={styles.dot} />}
-            {file ? file.name : t(`pages.newSite.missing.${part}`)}
-          </li>
-        ))}
-      </ul>
-      {problem ? (
-        <p id="map-problem" className={styles.problem} role="alert">
-          {problem}
-        </p>
-      ) : null}
-    </div>
-  );
 }
 
 function NoRight() {
@@ -119,19 +55,20 @@ export function NewSitePage() {
 function NewSite() {
   const { t } = useTranslation();
   const [name, setName] = useState("");
-  const [files, setFiles] = useState<MapFiles>({ yaml: null, image: null });
+  const choice = useMapChoice();
   const create = useCreateSite();
   const problem = create.isError ? problemText(create.error, t("shell.problem.screen")) : null;
   const aboutName = create.error instanceof ApiProblem && /name|site/.test(create.error.code);
   const choose = (chosen: readonly File[]) => {
-    const sorted = sortFiles(files, chosen);
-    setFiles(sorted);
-    if (!name && sorted.yaml) setName(nameFrom(sorted.yaml.name));
+    const { yaml, archive, image } = choice.choose(chosen);
+    const named = yaml ?? archive ?? image;
+    if (!name && named) setName(nameFrom(named.name));
     create.reset();
   };
+  const make = (form: FormData) => create.mutate({ name: name.trim(), form });
   const submit = (event: FormEvent) => {
     event.preventDefault();
-    create.mutate({ name: name.trim(), files });
+    make(choice.makeForm());
   };
   return (
     <div className={styles.page}>
@@ -141,7 +78,7 @@ function NewSite() {
             <h2>{t("pages.newSite.title")}</h2>
             <p>{t("pages.newSite.text")}</p>
           </div>
-          <DropZone files={files} problem={aboutName ? null : problem} choose={choose} />
+          <MapChoiceFields choice={choice} problem={aboutName ? null : problem} choose={choose} />
           <TextInput
             label={t("pages.newSite.name")}
             placeholder={t("pages.newSite.namePlaceholder")}
@@ -150,14 +87,15 @@ function NewSite() {
             error={aboutName ? problem : null}
             onChange={(event) => setName(event.target.value)}
           />
-          <Button type="submit" size="md" disabled={!files.yaml || !name.trim()} loading={create.isPending}>
+          <Button type="submit" size="md" disabled={!choice.isReady || !name.trim()} loading={create.isPending}>
             {t("pages.newSite.create")}
+          </Button>
+          <Button variant="subtle" disabled={!name.trim() || create.isPending} onClick={() => make(new FormData())}>
+            {t("mapEdit.withoutMap")}
           </Button>
         </form>
       </Panel>
-      <Panel className={styles.side}>
-        {files.image ? <Preview file={files.image} /> : <p>{t("pages.newSite.previewHere")}</p>}
-      </Panel>
+      <MapChoicePreview choice={choice} />
     </div>
   );
 }

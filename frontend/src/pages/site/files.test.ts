@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
-import { nameFrom, sortFiles } from "./files";
+import { kindOf, nameFrom, NO_FILES, sortFiles } from "./files";
 
 const file = (name: string) => new File([], name);
-const NONE = { yaml: null, image: null };
+const NONE = NO_FILES;
 
 test("header and image are told apart by their names", () => {
   const { yaml, image } = sortFiles(NONE, [file("hall.PGM"), file("hall.yml")]);
@@ -16,10 +16,25 @@ test("files chosen later join those that are there", () => {
 });
 
 test("files of other kinds are left out", () => {
-  expect(sortFiles(NONE, [file("notes.txt"), file("yaml"), file("map.yaml.zip")])).toEqual(NONE);
+  expect(sortFiles(NONE, [file("notes.txt"), file("yaml"), file("map.yaml.txt")])).toEqual(NONE);
 });
 
 test("a name comes out of the header's file name", () => {
   expect(nameFrom("packing_hall.yaml")).toBe("Packing hall");
   expect(nameFrom("second-floor.v2.yml")).toBe("Second floor v2");
+});
+
+test("an archive stands for both files, and two files for an archive", () => {
+  const packed = sortFiles({ ...NONE, yaml: file("a.yaml") }, [file("hall.zip")]);
+  expect([packed.yaml, packed.image, packed.archive?.name]).toEqual([null, null, "hall.zip"]);
+  expect(sortFiles(packed, [file("notes.txt")])).toEqual(packed);
+  expect(sortFiles(packed, [file("b.yaml")]).archive).toBeNull();
+});
+
+test("an image without a header is a picture of a plan, but for a PGM", () => {
+  expect(kindOf(sortFiles(NONE, [file("plan.JPG")]))).toBe("picture");
+  expect(kindOf(sortFiles(NONE, [file("hall.pgm")]))).toBe("none");
+  expect(kindOf(sortFiles(NONE, [file("hall.png"), file("hall.yaml")]))).toBe("map");
+  expect(kindOf(sortFiles(NONE, [file("hall.zip")]))).toBe("map");
+  expect(kindOf(NONE)).toBe("none");
 });

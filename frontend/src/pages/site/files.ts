@@ -1,17 +1,28 @@
-/** Which of the chosen files is the map's header and which its image. Pure. */
+/** Which of the chosen files is the map's header and which its image; or an archive of both, or a picture. Pure. */
 export interface MapFiles {
   readonly yaml: File | null;
   readonly image: File | null;
+  readonly archive: File | null;
 }
 
-/** Put newly chosen files beside those that are there; files of other kinds are left out. */
+export const NO_FILES: MapFiles = { yaml: null, image: null, archive: null };
+
+/** Put newly chosen files beside those that are there; an archive stands for all; other kinds are left out. */
 export function sortFiles(known: MapFiles, chosen: readonly File[]): MapFiles {
   let { yaml, image } = known;
   for (const file of chosen) {
+    if (/\.zip$/i.test(file.name)) return { ...NO_FILES, archive: file };
     if (/\.ya?ml$/i.test(file.name)) yaml = file;
-    else if (/\.(pgm|png|bmp|jpe?g)$/i.test(file.name)) image = file;
+    else if (/\.(pgm|png|bmp|jpe?g|webp)$/i.test(file.name)) image = file;
   }
-  return { yaml, image };
+  const isNew = yaml !== known.yaml || image !== known.image;
+  return { yaml, image, archive: isNew ? null : known.archive };
+}
+
+/** What the chosen files are: a ROS map, a picture of a plan, or not enough yet. */
+export function kindOf({ yaml, image, archive }: MapFiles): "map" | "picture" | "none" {
+  if (archive ?? yaml) return "map";
+  return image && !/\.pgm$/i.test(image.name) ? "picture" : "none";
 }
 
 /** A name for the site out of the header's file name: `packing_hall.yaml` becomes `Packing hall`. */

@@ -1,0 +1,49 @@
+/** Another map for a site: what it would change, and making it the site's. */
+import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
+import { api } from "./client";
+import { staleWithSiteMap } from "./robotMaps";
+import type { components } from "./schema";
+
+export type BroughtMapDifference = components["schemas"]["BroughtMapDifference"];
+type MapVersionInfo = components["schemas"]["OldMapShape"];
+export type MapSource = "upload" | "picture" | "edit";
+
+interface Brought {
+  form: FormData;
+  source: MapSource;
+  /** The version of the site's map that it replaces, 0: the site has none. */
+  replaces: number;
+}
+
+/** Make a map the site's; refused with 412 where another one holds by now. */
+export function useBringMap(slug: string) {
+  const queries = useQueryClient();
+  return useMutation({
+    mutationFn: ({ form, source, replaces }: Brought) => {
+      form.set("source", source);
+      const known: Record<string, string> = replaces
+        ? { "If-Match": `"${slug}-${String(replaces)}"` }
+        : { "If-None-Match": "*" };
+      return api.upload<{ version: number }>(`/sites/${slug}/map/upload`, form, known);
+    },
+    onSettled: () => {
+      for (const queryKey of staleWithSiteMap(slug)) void queries.invalidateQueries({ queryKey });
+    },
+  });
+}
+
+/** An earlier version of a site's map, without its places, which stand over all versions. */
+export const useOldMap = (slug: string, version: number) =>
+  useQuery({
+    queryKey: ["old-map", slug, version],
+    queryFn: async () => {
+      const path = `/sites/${slug}/map/versions/${String(version)}`;
+      const [info, cells] = await Promise.all([api.get<MapVersionInfo>(path), api.bytes(`${path}/cells`)]);
+      return { ...info, cells, places: [] };
+    },
+    staleTime: Infinity,
+  });
+
+/** What a map would change; asked for each time anew. */
+export const useLookAtMap = (slug: string) =>
+  useMutation({ mutationFn: (form: FormData) => api.upload<BroughtMapDifference>(`/sites/${slug}/map/look`, form) });

@@ -1,0 +1,36 @@
+/** An earlier version of a site's map, to look at. */
+import { Modal, Skeleton } from "@mantine/core";
+import { useTranslation } from "react-i18next";
+import { useDevices } from "@/api/queries";
+import { useOldMap } from "@/api/siteMaps";
+import type { Site } from "@/api/types";
+import { useReturnFocus } from "@/design/useReturnFocus";
+import { StaticMap } from "@/map/StaticMap";
+import { LoadProblem } from "@/shell/LoadProblem";
+import styles from "./MapPage.module.css";
+
+interface OldMapProps {
+  site: Site;
+  version: number;
+  onClose: () => void;
+}
+
+export function OldMap({ site, version, onClose }: OldMapProps) {
+  const { t } = useTranslation();
+  useReturnFocus();
+  const { data, error, refetch } = useOldMap(site.slug, version);
+  const devices = (useDevices(site.slug).data ?? []).filter(({ kind }) => kind === "machine");
+  return (
+    <Modal opened onClose={onClose} title={t("mapEdit.lookTitle", { version })} size={1040}>
+      <div className={styles.old}>
+        {data ? (
+          <StaticMap plan={data} devices={devices} label={t("mapEdit.lookTitle", { version })} />
+        ) : error ? (
+          <LoadProblem error={error} again={() => void refetch()} />
+        ) : (
+          <Skeleton height="100%" radius="md" />
+        )}
+      </div>
+    </Modal>
+  );
+}

@@ -1,0 +1,111 @@
+/** The map that is being changed: floor, machines and places over it, and the stroke in hand. */
+import { useEffect, useMemo, useRef } from "react";
+import { useTranslation } from "react-i18next";
+import type { Device, SiteMap } from "@/api/types";
+import { formatPoint } from "@/i18n/format";
+import { DeviceGlyph } from "@/map/devices/DeviceToken";
+import { FloorCanvas } from "@/map/floor/FloorCanvas";
+import { planBox } from "@/map/floor/floor";
+import type { CellMap } from "@/map/floor/rosFiles";
+import { toPixels, type Point } from "@/map/plane/projection";
+import { useSize } from "@/map/plane/useSize";
+import styles from "./mapEdit.module.css";
+import { StrokeShape } from "./StrokeShape";
+import { ToolRail } from "./ToolRail";
+import type { Settings } from "./tools";
+import { useMapView } from "./useMapView";
+import { useStroke } from "./useStroke";
+
+interface SurfaceProps {
+  site: SiteMap;
+  map: CellMap;
+  devices: readonly Device[];
+  settings: Settings;
+  choose: (tool: Settings["tool"]) => void;
+  finish: (stroke: readonly Point[]) => void;
+  measured: readonly Point[];
+}
+
+export function EditSurface({ site, map, devices, settings, choose, finish, measured }: SurfaceProps) {
+  const { t } = useTranslation();
+  const [pane, { width, height }] = useSize<HTMLDivElement>();
+  const plan = useMemo(() => ({ ...map, version: site.version, places: site.places }), [map, site]);
+  const view = useMapView(plan, width, height);
+  const { stroke, cursor, press, pointer } = useStroke({ map, view, settings, finish });
+  const surface = useRef<SVGSVGElement>(null);
+  const wheel = useRef(view.zoomAt);
+  useEffect(() => {
+    wheel.current = view.zoomAt;
+  });
+  useEffect(() => {
+    const element = surface.current;
+    const turn = (event: WheelEvent) => {
+      event.preventDefault();
+      const box = element?.getBoundingClientRect();
+      wheel.current(Math.exp(-event.deltaY / 400), event.clientX - (box?.left ?? 0), event.clientY - (box?.top ?? 0));
+    };
+    element?.addEventListener("wheel", turn, { passive: false });
+    return () => element?.removeEventListener("wheel", turn);
+  }, []);
+  const { x, y, zoom } = view.view;
+  const shown = stroke.length > 0 ? stroke : settings.tool === "measure" ? measured : [];
+  return (
+    <div ref={pane} className={styles.pane}>
+      <FloorCanvas plan={plan} viewport={view.cell} />
+      <svg
+        ref={surface}
+        className={styles.surface}
+        data-tool={settings.tool}
+        role="application"
+        tabIndex={0}
+        aria-label={t("mapEdit.surface", { tool: t(`mapEdit.tool.${settings.tool}`) })}
+        aria-describedby="map-edit-keys"
+        onKeyDown={press}
+        {...pointer}
+      >
+        <g transform={`translate(${String(x)} ${String(y)}) scale(${String(zoom)})`}>
+          <Frame map={plan} />
+          {devices.map((device) => {
+            const at = toPixels([device.location.x, device.location.y]);
+            return (
+              <g key={device.id} transform={`translate(${String(at.x)} ${String(at.y)})`} className={styles.device}>
+                <DeviceGlyph device={device} plain />
+              </g>
+            );
+          })}
+          {site.places.map((place) => (
+            <circle key={place.id} {...centre([place.x, place.y])} r={7 / zoom} className={styles.place} />
+          ))}
+          <StrokeShape stroke={shown} settings={settings} zoom={zoom} />
+          {cursor ? <CrossHair at={cursor} zoom={zoom} /> : null}
+        </g>
+      </svg>
+      <ToolRail tool={settings.tool} choose={choose} view={view} />
+      <p className="visually-hidden" id="map-edit-keys">
+        {t("mapEdit.keys")}
+      </p>
+      <p className={styles.where} aria-live="polite">
+        {cursor ? formatPoint(...cursor) : ""}
+      </p>
+    </div>
+  );
+}
+
+function centre(point: Point) {
+  const { x, y } = toPixels(point);
+  return { cx: x, cy: y };
+}
+
+function Frame({ map }: { map: Parameters<typeof planBox>[0] }) {
+  const { left, top, right, bottom } = planBox(map);
+  return <rect className={styles.frame} x={left} y={top} width={right - left} height={bottom - top} />;
+}
+
+function CrossHair({ at, zoom }: { at: Point; zoom: number }) {
+  const { x, y } = toPixels(at);
+  return (
+    <g transform={`translate(${String(x)} ${String(y)}) scale(${String(1 / zoom)})`} className={styles.cross}>
+      <path d="M-14 0H-3M3 0H14M0 -14V-3M0 3V14" />
+    </g>
+  );
+}

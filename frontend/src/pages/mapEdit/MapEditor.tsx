@@ -1,0 +1,111 @@
+/** Changing a site's map by hand: tools, undo and redo until it is saved as a new version. */
+import { Button } from "@mantine/core";
+import { notifications } from "@mantine/notifications";
+import { Check, Redo2, Undo2 } from "lucide-react";
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import { Link, useNavigate } from "react-router-dom";
+import { useDevices } from "@/api/queries";
+import type { Site, SiteMap } from "@/api/types";
+import { Chip } from "@/design/Chip";
+import { IconButton } from "@/design/IconButton";
+import { Panel } from "@/design/Panel";
+import type { Point } from "@/map/plane/projection";
+import { PageShell } from "@/shell/PageShell";
+import { EditSurface } from "./EditSurface";
+import { begin, change, redo, undo, type Edits } from "./history";
+import { LeaveGuard } from "./LeaveGuard";
+import styles from "./mapEdit.module.css";
+import { SaveDialog } from "./SaveDialog";
+import { ToolPanel } from "./ToolPanel";
+import { applyStroke, FIRST_SETTINGS } from "./tools";
+import { useEditKeys } from "./useEditKeys";
+
+export function MapEditor({ site, newest }: { site: Site; newest: SiteMap }) {
+  const { t } = useTranslation();
+  const navigate = useNavigate();
+  const [base] = useState(newest);
+  const [edits, setEdits] = useState<Edits>(() => begin(base));
+  const [settings, set] = useState(FIRST_SETTINGS);
+  const [measured, setMeasured] = useState<readonly Point[]>([]);
+  const [stage, setStage] = useState<"drawing" | "saving" | "saved">("drawing");
+  const devices = (useDevices(site.slug).data ?? []).filter(({ lifecycle }) => lifecycle === "approved");
+  const isChanged = edits.now !== base;
+  const finish = (stroke: readonly Point[]) => {
+    if (settings.tool === "measure") setMeasured(stroke);
+    else setEdits((last) => change(last, applyStroke(last.now, settings, stroke)));
+  };
+  const choose = (tool: typeof settings.tool) => set({ ...settings, tool });
+  useEditKeys({ choose, undo: () => setEdits(undo), redo: () => setEdits(redo), isOff: stage !== "drawing" });
+  const saved = (version: number) => {
+    setStage("saved");
+    notifications.show({ message: t("mapEdit.saved", { version }) });
+    // the guard lets go with the next render
+    window.setTimeout(() => void navigate(`/sites/${site.slug}/map`));
+  };
+  return (
+    <PageShell
+      title={t("mapEdit.title")}
+      chips={<Chip>{t(isChanged ? "mapEdit.unsaved" : "pages.map.version", { version: base.version })}</Chip>}
+      actions={
+        <>
+          <IconButton label={t("mapEdit.undo")} disabled={edits.past.length === 0} onClick={() => setEdits(undo)}>
+            <Undo2 size={17} aria-hidden="true" />
+          </IconButton>
+          <IconButton label={t("mapEdit.redo")} disabled={edits.future.length === 0} onClick={() => setEdits(redo)}>
+            <Redo2 size={17} aria-hidden="true" />
+          </IconButton>
+          <Button variant="default" component={Link} to={`/sites/${site.slug}/map`}>
+            {t("mapEdit.close")}
+          </Button>
+          <Button
+            leftSection={<Check size={16} aria-hidden="true" />}
+            disabled={!isChanged}
+            onClick={() => setStage("saving")}
+          >
+            {t("mapEdit.saveAs")}
+          </Button>
+        </>
+      }
+    >
+      <div className={styles.page}>
+        <Panel className={styles.map}>
+          <EditSurface
+            site={newest}
+            map={edits.now}
+            devices={devices}
+            settings={settings}
+            choose={choose}
+            finish={finish}
+            measured={measured}
+          />
+        </Panel>
+        <Panel className={styles.about}>
+          {newest.version !== base.version && stage !== "saved" ? (
+            <p role="status" className={styles.overtaken}>
+              {t("mapEdit.overtaken", { version: newest.version })}
+            </p>
+          ) : null}
+          <ToolPanel
+            map={edits.now}
+            settings={settings}
+            set={set}
+            change={(map) => setEdits((last) => change(last, map))}
+            measured={measured}
+          />
+        </Panel>
+      </div>
+      {stage === "saving" ? (
+        <SaveDialog
+          slug={site.slug}
+          map={edits.now}
+          base={base.version}
+          newest={newest.version}
+          onSaved={saved}
+          onClose={() => setStage("drawing")}
+        />
+      ) : null}
+      <LeaveGuard isOn={isChanged && stage !== "saved"} />
+    </PageShell>
+  );
+}

@@ -1,0 +1,112 @@
+/** Before a changed map is saved: what it changes, and which machines, places and programs it troubles. */
+import { Button, Modal, Skeleton } from "@mantine/core";
+import { TriangleAlert } from "lucide-react";
+import { useEffect } from "react";
+import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
+import { ApiProblem } from "@/api/client";
+import { useBringMap, useLookAtMap, type BroughtMapDifference } from "@/api/siteMaps";
+import { useReturnFocus } from "@/design/useReturnFocus";
+import { formatNumber, withUnit } from "@/i18n/format";
+import { rosForm, type CellMap } from "@/map/floor/rosFiles";
+import { problemText } from "@/shell/LoadProblem";
+import styles from "./mapEdit.module.css";
+
+const AMOUNTS = [
+  ["wallsGained", "walls_gained_m2"],
+  ["wallsLost", "walls_lost_m2"],
+  ["floorGained", "floor_gained_m2"],
+  ["floorLost", "floor_lost_m2"],
+] as const;
+
+interface SaveProps {
+  slug: string;
+  map: CellMap;
+  /** The version that was changed, and the one that the site has by now. */
+  base: number;
+  newest: number;
+  onSaved: (version: number) => void;
+  onClose: () => void;
+}
+
+export function SaveDialog({ slug, map, base, newest, onSaved, onClose }: SaveProps) {
+  const { t } = useTranslation();
+  useReturnFocus();
+  const { mutate: lookAt, ...look } = useLookAtMap(slug);
+  const bring = useBringMap(slug);
+  useEffect(() => lookAt(rosForm(map)), [lookAt, map]);
+  const isOvertaken = newest > base || (bring.error instanceof ApiProblem && bring.error.status === 412);
+  const save = () =>
+    bring.mutate(
+      { form: rosForm(map), source: "edit", replaces: newest },
+      { onSuccess: ({ version }) => onSaved(version) },
+    );
+  const problem = look.error ?? (isOvertaken ? null : bring.error);
+  return (
+    <Modal opened onClose={onClose} title={t("mapEdit.ask")} size={560}>
+      <div className={styles.dialog}>
+        {look.data ? <Difference slug={slug} difference={look.data} /> : null}
+        {look.isPending ? <Skeleton height={120} radius="md" /> : null}
+        {isOvertaken ? (
+          <p role="alert" className={styles.overtaken}>
+            <TriangleAlert size={16} aria-hidden="true" /> {t("mapEdit.overtaken", { version: newest })}
+          </p>
+        ) : null}
+        {problem ? (
+          <p role="alert" className={styles.problem}>
+            {problemText(problem, t("shell.problem.screen"))}
+          </p>
+        ) : null}
+        <p className={styles.quiet}>{t("mapEdit.kept")}</p>
+        <div className={styles.decide}>
+          <Button variant="default" onClick={onClose} data-autofocus>
+            {t("keys.cancel")}
+          </Button>
+          <Button loading={bring.isPending} disabled={!look.data} onClick={save}>
+            {t(isOvertaken ? "mapEdit.saveOver" : "mapEdit.save")}
+          </Button>
+        </div>
+      </div>
+    </Modal>
+  );
+}
+
+function Difference({ slug, difference }: { slug: string; difference: BroughtMapDifference }) {
+  const { t } = useTranslation();
+  const troubles = difference.troubles.filter((trouble) => trouble.is_new);
+  const isFine = troubles.length + difference.programs.length === 0;
+  return (
+    <>
+      <dl className={styles.amounts}>
+        {AMOUNTS.map(([name, field]) => (
+          <div key={name}>
+            <dt>{t(`robotMap.change.${name}`)}</dt>
+            <dd>{withUnit(formatNumber(difference[field], 1), "m²")}</dd>
+          </div>
+        ))}
+      </dl>
+      {isFine ? <p>{t("mapEdit.fine")}</p> : <h3 className={styles.warn}>{t("mapEdit.troubled")}</h3>}
+      <ul className={styles.troubles}>
+        {troubles.map((trouble) => (
+          <li key={`${trouble.kind} ${trouble.id}`}>
+            <b>{trouble.name}</b> {t(`robotMap.trouble.${trouble.kind}.${trouble.why}`)}
+          </li>
+        ))}
+        {difference.programs.map((program) => (
+          <li key={program.id}>
+            <Link to={`/programs/${program.id}`} target="_blank">
+              {program.name}
+            </Link>{" "}
+            {program.steps_outside ? t("mapEdit.stepsOutside", { count: program.steps_outside }) : null}{" "}
+            {program.points_walled ? t("mapEdit.pointsWalled", { count: program.points_walled }) : null}
+          </li>
+        ))}
+      </ul>
+      {isFine ? null : (
+        <Link to={`/sites/${slug}/programs`} target="_blank" className={styles.quiet}>
+          {t("mapEdit.programs")}
+        </Link>
+      )}
+    </>
+  );
+}
