@@ -17,6 +17,7 @@ from execution.floor_protocol import AskingRun, to_floor, to_machine, to_run
 from execution.machine import machine
 from execution.machine import messages as r
 from execution.machine.needs import Facts, clock_fact, needs_of, position_facts
+from execution.machine.turn import Watch
 from execution.rehearsals.course import Course, has_known_end
 from execution.rehearsals.recorder import Recorder
 from execution.traffic import floor
@@ -61,17 +62,19 @@ def rehearse(
     places: Iterable[PlaceFacts] = (),
     conditions: Conditions | None = None,
     follow: Follow | None = None,
+    watch: Watch | None = None,
 ) -> dict[str, Any]:
     """Carry the plan out in a world made from the scene; returns the result (`RehearsalResultShape`).
 
     The scene's seed decides all chance. What goes wrong is in `errors`; a program that does not end is stopped after
-    `conditions.limit_s` of virtual time, or when `follow` says that its time is over.
+    `conditions.limit_s` of virtual time, or when `follow` says that its time is over. `watch` is told of each
+    instruction that the run carries out.
     """
     conditions = conditions or Conditions()
     world = make_world(scene=scene, driver=conditions.driver)
     try:
         layout = make_layout(scene.grid, scene.devices, places)
-        return _Rehearsal(plan, layout, world, conditions.limit_s, follow).run(conditions.parameters)
+        return _Rehearsal(plan, layout, world, conditions.limit_s, follow, watch).run(conditions.parameters)
     finally:
         world.close()
 
@@ -79,7 +82,10 @@ def rehearse(
 class _Rehearsal:
     """One rehearsal under way."""
 
-    def __init__(self, plan: Plan, layout: Layout, world: World, limit_s: float, follow: Follow | None) -> None:
+    def __init__(
+        self, plan: Plan, layout: Layout, world: World, limit_s: float, follow: Follow | None, watch: Watch | None
+    ) -> None:
+        self.watch = watch
         self.plan, self.layout, self.world, self.limit_s = plan, layout, world, limit_s
         self.recorder = Recorder(layout, world.readings())
         self.needs = needs_of(plan)
@@ -102,7 +108,7 @@ class _Rehearsal:
         facts: Facts = {(d, n): v for d, values in self.world.readings().items() for n, v in values.items()}
         facts |= self._stations() | self._surroundings()
         self._report_poses()
-        self.state, actions = machine.start(self.plan, parameters, facts)
+        self.state, actions = machine.start(self.plan, parameters, facts, watch=self.watch)
         self._do_run(actions)
         self._settle()
         self.recorder.look(0.0, 0.0, self.world.robots(), self.world.busy())
@@ -182,7 +188,7 @@ class _Rehearsal:
         while self.run_events and self.finished is None:
             events, self.run_events = self.run_events, []
             for event in events:
-                self.state, actions = machine.step(self.plan, self.state, event)
+                self.state, actions = machine.step(self.plan, self.state, event, self.watch)
                 self._do_run(actions)
             if self.floor_events:
                 self._step_floor()
@@ -222,11 +228,13 @@ class _Rehearsal:
                     answer = pretend_answer(spec)
                     self.recorder.note_answer(now, step, answer)
                     self.replies.append((now + REPLY_S, r.Answered(question, answer)))
+                case r.StepEntered(step=step):
+                    self.world.reach(step)
                 case r.StepLeft(step=step):
                     self.left.add(step)
                 case r.Finished():
                     self._finish(now, action)
-                case r.Tell() | r.CancelQuestion() | r.StepEntered() | r.StepFailed():
+                case r.Tell() | r.CancelQuestion() | r.StepFailed():
                     pass  # the record has it
                 case _:
                     assert_never(action)
