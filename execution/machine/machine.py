@@ -61,7 +61,8 @@ def start(
     opened = next((e.step for e in plan.events if entry and e.entry == entry and e.step), "")
     first = Thread(id=MAIN, at=entry, calls=(Activation(frame=MAIN, back_to=-1),))
     frames = {MAIN: {**plan.parameters, **parameters}}
-    turn = Turn(plan, RunState(threads={MAIN: first}, frames=frames, facts={**bound_roles(plan), **(facts or {})}), watch)
+    state = RunState(threads={MAIN: first}, frames=frames, facts={**bound_roles(plan), **(facts or {})})
+    turn = Turn(plan, state, watch)
     turn.keep(turn.enter(first, (opened,) if opened else ()))
     remember_truths(turn)
     _run_ready(turn)
@@ -163,8 +164,10 @@ def _run(turn: Turn, thread: Thread) -> None:
             turn.tell(thread, carried)
             thread = turn.keep(carried)
     except Failure as failure:
+        turn.tell(thread, thread)
         unwind(turn, turn.threads[thread.id], failure.wake)
     except EvaluationError as error:
+        turn.tell(thread, thread)
         unwind(turn, turn.threads[thread.id], Wake("failed", str(error)))
 
 

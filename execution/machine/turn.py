@@ -23,7 +23,9 @@ _LEAVES = (p.Move, p.Pick, p.Drop, p.Cover, p.Call, p.Perform, p.Release, p.Wait
 
 
 Watch = Callable[[int, int, int], None]
-"""Told of an instruction that was carried out: the thread's id, its address, and where the thread goes on."""
+"""Told of an instruction that was carried out: the thread's id, its address, and where the thread goes on.
+
+Where it waits or fails, that is the same address."""
 
 
 class Failure(Exception):

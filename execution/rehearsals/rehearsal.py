@@ -8,7 +8,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, assert_never
+from typing import Any, Protocol, assert_never
 
 from editor.language.expressions.nodes import AnswerSpec
 from editor.language.plan.instructions import Plan
@@ -17,7 +17,6 @@ from execution.floor_protocol import AskingRun, to_floor, to_machine, to_run
 from execution.machine import machine
 from execution.machine import messages as r
 from execution.machine.needs import Facts, clock_fact, needs_of, position_facts
-from execution.machine.turn import Watch
 from execution.rehearsals.course import Course, has_known_end
 from execution.rehearsals.recorder import Recorder
 from execution.traffic import floor
@@ -46,6 +45,19 @@ Follow = Callable[[Course], float | None]
 """Told at every step how far a rehearsal is; answers with the seconds that it was given, once they are over."""
 
 
+class Observer(Protocol):
+    """Whoever wants to know of a rehearsal what its record does not have; it changes nothing."""
+
+    def carried(self, thread: int, at: int, to: int) -> None:
+        """Take in an instruction that was carried out, and where its thread goes on."""
+
+    def did(self, action: r.Action) -> None:
+        """Take in what the run does."""
+
+    def ended(self, stocks: Mapping[str, Mapping[str, int]]) -> None:
+        """Take in what each machine holds at the end."""
+
+
 @dataclass(frozen=True, slots=True)
 class Conditions:
     """How a rehearsal is done: the driver of the robots, the program's parameters, and the longest it may take (s)."""
@@ -62,19 +74,19 @@ def rehearse(
     places: Iterable[PlaceFacts] = (),
     conditions: Conditions | None = None,
     follow: Follow | None = None,
-    watch: Watch | None = None,
+    observer: Observer | None = None,
 ) -> dict[str, Any]:
     """Carry the plan out in a world made from the scene; returns the result (`RehearsalResultShape`).
 
     The scene's seed decides all chance. What goes wrong is in `errors`; a program that does not end is stopped after
-    `conditions.limit_s` of virtual time, or when `follow` says that its time is over. `watch` is told of each
-    instruction that the run carries out.
+    `conditions.limit_s` of virtual time, or when `follow` says that its time is over. `observer` is told
+    what the record does not have.
     """
     conditions = conditions or Conditions()
     world = make_world(scene=scene, driver=conditions.driver)
     try:
         layout = make_layout(scene.grid, scene.devices, places)
-        return _Rehearsal(plan, layout, world, conditions.limit_s, follow, watch).run(conditions.parameters)
+        return _Rehearsal(plan, layout, world, conditions.limit_s, follow, observer).run(conditions.parameters)
     finally:
         world.close()
 
@@ -83,9 +95,10 @@ class _Rehearsal:
     """One rehearsal under way."""
 
     def __init__(
-        self, plan: Plan, layout: Layout, world: World, limit_s: float, follow: Follow | None, watch: Watch | None
+        self, plan: Plan, layout: Layout, world: World, limit_s: float, follow: Follow | None, observer: Observer | None
     ) -> None:
-        self.watch = watch
+        self.observer = observer
+        self.watch = None if observer is None else observer.carried
         self.plan, self.layout, self.world, self.limit_s = plan, layout, world, limit_s
         self.recorder = Recorder(layout, world.readings())
         self.needs = needs_of(plan)
@@ -121,6 +134,8 @@ class _Rehearsal:
                 self._settle()
                 thought_at = now
             self._check_limits(now)
+        if self.observer is not None:
+            self.observer.ended(self.world.stocks())
         return self.recorder.result(self.world.time_s, ok=self.finished.status == "finished")
 
     def _advance(self) -> bool:
@@ -217,6 +232,7 @@ class _Rehearsal:
         self.actions += len(actions)
         for action in actions:
             self.recorder.note_run(now, action)
+            self._tell_of(action)
             match action:
                 case r.Ask() | r.Cancel():
                     self.floor_events.append(to_floor(self.asking, action))
@@ -228,16 +244,21 @@ class _Rehearsal:
                     answer = pretend_answer(spec)
                     self.recorder.note_answer(now, step, answer)
                     self.replies.append((now + REPLY_S, r.Answered(question, answer)))
-                case r.StepEntered(step=step):
-                    self.world.reach(step)
-                case r.StepLeft(step=step):
-                    self.left.add(step)
                 case r.Finished():
                     self._finish(now, action)
-                case r.Tell() | r.CancelQuestion() | r.StepFailed():
+                case r.Tell() | r.CancelQuestion() | r.StepEntered() | r.StepLeft() | r.StepFailed():
                     pass  # the record has it
                 case _:
                     assert_never(action)
+
+    def _tell_of(self, action: r.Action) -> None:
+        """Tell the world of steps that begin, and who watches of all that the run does."""
+        if isinstance(action, r.StepEntered):
+            self.world.reach(action.step)
+        elif isinstance(action, r.StepLeft):
+            self.left.add(action.step)
+        if self.observer is not None:
+            self.observer.did(action)
 
     def _finish(self, now: float, action: r.Finished) -> None:
         self.finished = action
