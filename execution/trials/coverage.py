@@ -31,19 +31,22 @@ class Coverage:
     """Counts for one plan how often each way was taken; an observer of rehearsals (`Observer`)."""
 
     def __init__(self, plan: p.Plan) -> None:
-        self.ways = tuple(dict.fromkeys(_ways(plan)))
+        self.ways = _each_once(_ways(plan))
         self.taken: Counter[tuple[str, str]] = Counter()
         self._plan = plan
         self._loops = {i for i in range(len(plan.instructions)) if _is_loop(plan, i)}
         self._catches = _catches(plan)
         self._events = {event.entry: event.step for event in plan.events}
         self._timed = _timed(plan)
+        self._goes_to: dict[int, int] = {}
         self._rounds: dict[tuple[int, int], int] = {}
 
     def carried(self, thread: int, at: int, to: int) -> None:
         """Take in an instruction and where its thread goes on."""
         instruction = self._plan.instructions[at]
-        for step, name in self._catches.get(at, ()):
+        came_by_itself = self._goes_to.get(thread) == at  # an empty catch begins where the way without it goes on
+        self._goes_to[thread] = to
+        for step, name in () if came_by_itself else self._catches.get(at, ()):
             self.taken[step, name] += 1
         if at in self._events:
             self.taken[self._events[at], "fires"] += 1
@@ -93,6 +96,14 @@ def coverage_to_json(
         entry = found.setdefault(way.step, {"step": way.step, "number": number, "line": way.line, "ways": {}})
         entry["ways"][way.name] = taken.get((way.step, way.name), 0)
     return list(found.values())
+
+
+def _each_once(ways: Iterable[Way]) -> tuple[Way, ...]:
+    """Return each way with the first line on which it stands: a step may have several."""
+    found: dict[tuple[str, str], Way] = {}
+    for way in ways:
+        found.setdefault((way.step, way.name), way)
+    return tuple(found.values())
 
 
 def _ways(plan: p.Plan) -> Iterable[Way]:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 from editor.language import PlaceFacts
 from editor.language.plan.instructions import Plan
@@ -158,6 +157,6 @@ def _steps(plan: Plan) -> set[str]:
     return {step for i in plan.instructions for step in (i.step, *i.enters) if step}
 
 
-def _there_are(words: Any) -> str:
+def _there_are(words: Iterable[str]) -> str:
     listed = sorted(words)
-    return f"There are: {', '.join(listed[:15])}{', …' if len(listed) > 15 else ''}." if listed else "There is none."
+    return f"There are: {', '.join(listed[:40])}{', …' if len(listed) > 40 else ''}." if listed else "There is none."
