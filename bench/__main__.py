@@ -13,6 +13,7 @@ NAMES = (
     "language",
     "rehearsal",
     "beside_rehearsals",
+    "trials",
     "traffic",
     "rooms",
     "compiled_frames",

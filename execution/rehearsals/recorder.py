@@ -97,7 +97,7 @@ class Recorder:
             case FaultBegan(fault=fault):
                 entry = faults_to_json([fault])["faults"][0]
                 word, where = str(entry["fault"]), self._layout.name(fault.device) if fault.device else "the floor"
-                self._say(t_s, fault.step, fault.device, f"On purpose, {where}: {word}", "fault", fault=word)
+                self._say(t_s, fault.step, fault.device, f"On purpose, {where}: {word}", f"fault_{word}")
             case Ack(command=command, status=status, why=why):
                 if command in self._commands and status not in {"ACCEPTED", "RUNNING"}:
                     self._note_answer(t_s, *self._commands[command], status, why)

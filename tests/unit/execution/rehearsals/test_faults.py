@@ -51,8 +51,9 @@ def mixed(*faults, times=1, seed=0):
     return rehearse(plan, replace(demo_floor.scene(faults=faults), seed=seed), conditions=KINEMATIC)
 
 
-def said(result, code="fault"):
-    return [(line["t"], line["args"].get("fault")) for line in result["log"] if line["code"] == code]
+def said(result):
+    codes = ((line["t"], line["code"]) for line in result["log"])
+    return [(t, code.removeprefix("fault_")) for t, code in codes if code.startswith("fault_")]
 
 
 def test_a_late_answer_makes_a_step_longer_by_as_much():
