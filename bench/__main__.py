@@ -13,7 +13,6 @@ NAMES = (
     "language",
     "rehearsal",
     "beside_rehearsals",
-    "trials",
     "traffic",
     "rooms",
     "compiled_frames",

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from simulation.services import DriverName
 from simulation.world import Fault
 from vipo_device.protocol.description import Scalar
 
@@ -31,7 +30,7 @@ class Trial:
     line: int
     then: tuple[Expectation, ...]
     seed: int = 0
-    driver: DriverName = "kinematic"
+    driver: Literal["physics", "kinematic"] = "kinematic"
     limit_s: float = 4 * 3600.0
     parameters: Mapping[str, Scalar] = field(default_factory=dict)
     faults: tuple[Fault, ...] = ()
