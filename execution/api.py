@@ -96,8 +96,9 @@ def start_rehearsal(request: HttpRequest, program: UUID, body: StartRehearsal | 
     )
     person = signed_in(request).pk
     started = services.start_rehearsal(
-        prepared=prepared, by=_who(request), person=person, seed=body.seed, driver=body.driver
-    )
+        prepared=prepared, by=_who(request), person=person, seed=body.seed, driver=body.driver,
+        faults=body.faults.model_dump() if body.faults else None,
+    )  # fmt: skip
     return whole_rehearsal_to_json(started, person)
 
 

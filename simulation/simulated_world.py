@@ -9,6 +9,7 @@ from typing import Protocol
 from simulation.actors import Motion
 from simulation.near_misses import NearnessWatch
 from simulation.scene import Layout, make_actors, make_layout
+from simulation.things_in_the_way import ThingsInTheWay
 from simulation.world import Ack, RobotSnapshot, Scene, WorldEvent
 from vipo_device.protocol.description import Pose, Scalar
 
@@ -46,6 +47,8 @@ class SimulatedWorld:
 
     def __init__(self, scene: Scene, make_driver: DriverFactory) -> None:
         self._events: list[WorldEvent] = []
+        self._things = ThingsInTheWay(scene.faults, self._events.append)
+        self._entered: dict[str, int] = {}
         self._by_kind = make_actors(scene, self._events.append)
         layout = make_layout(scene, self._by_kind)
         self._driver = make_driver(layout)
@@ -68,6 +71,13 @@ class SimulatedWorld:
         actor = self._actors.get(device)
         if actor is not None:
             actor.command(self._asked_s, method, arguments, command)
+
+    def reach(self, step: str) -> None:
+        """Say that a step of the program is entered, with which faults may begin."""
+        count = self._entered[step] = self._entered.get(step, 0) + 1
+        self._things.reach(self._asked_s, step, count)
+        for actor in self._actors.values():
+            actor.reach(self._asked_s, step, count)
 
     def advance(self, seconds: float) -> list[WorldEvent]:
         """Let time pass and return what happened, oldest first."""
@@ -132,6 +142,8 @@ class SimulatedWorld:
             for name, robot in self._by_kind.robots.items()
             if not robot.resting
         }
+        if self._things.pass_time(t_s):
+            targets = {name: self._kept_back(name, target) for name, target in targets.items()}
         self._driver.drive(targets, self._nearness.touching)
         self._events.extend(self._nearness.look(t_s, targets))
         for name in targets:
@@ -139,6 +151,12 @@ class SimulatedWorld:
         if t_s >= (self._slow_ticks + 1) * SLOW_TICK_S:
             self._slow_ticks += 1
             self._tick_slowly(t_s, targets)
+
+    def _kept_back(self, name: str, target: Drive) -> Drive:
+        """Let a robot stand that would drive into a thing that is not on the map: it sees it."""
+        robot, (speed, turn) = self._by_kind.robots[name], target
+        robot.stands_before = self._things.ahead_of(self._motions[name], robot.radius_m) if speed > 0 else ""
+        return (0.0, turn) if robot.stands_before else target
 
     def _tick_slowly(self, t_s: float, targets: Mapping[str, Drive]) -> None:
         """Do once a second what need not be done more often."""

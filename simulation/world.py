@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from math import inf
 from typing import Literal, Protocol
 
 from registry.floorplan.plan import Grid
@@ -11,14 +12,36 @@ from simulation.behaviour import Kind
 from vipo_device.protocol.description import Description, Pose, Scalar
 from vipo_device.protocol.messages import AckStatus, is_final
 
+FaultKind = Literal[
+    "stop", "fail_next", "offline", "lose_ack", "late", "dead", "deaf", "doubled", "wrong_value", "drops", "battery",
+    "obstacle",
+]  # fmt: skip
+
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """Something that goes wrong on purpose: from `at_s` on, `device` does `kind`."""
+    """Something that goes wrong on purpose: `device` does `kind` from `at_s` on, for `for_s` seconds.
+
+    With a `step` it begins when that is entered for the `nth` time, with `odds` at each command with this chance.
+    `error` is what the device says of a failure, `after_s` how late answers are, `name` and `value` what a reading
+    shows wrongly; `value` is also the charge (%) that a battery falls to. An obstacle belongs to no device: it is a
+    thing of `size_m` at (`x`, `y`).
+    """
 
     device: str
-    kind: Literal["stop", "fail_next", "offline", "lose_ack"]
+    kind: FaultKind
     at_s: float = 0.0
+    step: str = ""
+    nth: int = 1
+    odds: float = 0.0
+    for_s: float = inf
+    error: str = ""
+    after_s: float = 0.0
+    name: str = ""
+    value: Scalar = ""
+    x: float = 0.0
+    y: float = 0.0
+    size_m: float = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +109,15 @@ class Contact:
     y: float
 
 
-WorldEvent = Ack | PropertyChanged | Contact
+@dataclass(frozen=True, slots=True)
+class FaultBegan:
+    """A fault on purpose begins."""
+
+    t_s: float
+    fault: Fault
+
+
+WorldEvent = Ack | PropertyChanged | Contact | FaultBegan
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +142,9 @@ class World(Protocol):
 
     def advance(self, seconds: float) -> list[WorldEvent]:
         """Let time pass and return what happened, oldest first."""
+
+    def reach(self, step: str) -> None:
+        """Say that a step of the program is entered, with which faults may begin."""
 
     def hold(self, *, active: bool) -> None:
         """Stop everything where it is, as the site's stop does, until it is called again with False."""

@@ -35,7 +35,7 @@ from execution.machine.messages import (
     TimerFired,
 )
 from execution.machine.state import FLOOR_TASK, MAIN, Activation, Guard, RunState, Thread, Wake, from_json, to_json
-from execution.machine.turn import YIELD_S, Failure, Turn
+from execution.machine.turn import YIELD_S, Failure, Turn, Watch
 from vipo_device.protocol.description import Scalar
 
 __all__ = ["YIELD_S", "from_json", "start", "step", "to_json"]
@@ -51,26 +51,31 @@ def start(
     parameters: Mapping[str, Scalar],
     facts: Mapping[tuple[str, str], Scalar] | None = None,
     entry: int = 0,
+    watch: Watch | None = None,
 ) -> tuple[RunState, tuple[Action, ...]]:
     """Begin a run: parameters override the plan's defaults; `facts` are the readings known so far.
 
-    `entry` is where it begins: the body of an event that starts runs, or the program's at 0.
+    `entry` is where it begins: the body of an event that starts runs, or the program's at 0. `watch` is told of each
+    instruction that is carried out; it changes nothing.
     """
     opened = next((e.step for e in plan.events if entry and e.entry == entry and e.step), "")
     first = Thread(id=MAIN, at=entry, calls=(Activation(frame=MAIN, back_to=-1),))
     frames = {MAIN: {**plan.parameters, **parameters}}
-    turn = Turn(plan, RunState(threads={MAIN: first}, frames=frames, facts={**bound_roles(plan), **(facts or {})}))
+    state = RunState(threads={MAIN: first}, frames=frames, facts={**bound_roles(plan), **(facts or {})})
+    turn = Turn(plan, state, watch)
     turn.keep(turn.enter(first, (opened,) if opened else ()))
     remember_truths(turn)
     _run_ready(turn)
     return turn.close()
 
 
-def step(plan: p.Plan, state: RunState, event: Event) -> tuple[RunState, tuple[Action, ...]]:
+def step(
+    plan: p.Plan, state: RunState, event: Event, watch: Watch | None = None
+) -> tuple[RunState, tuple[Action, ...]]:
     """Take in one event; a run that is over, or an answer nobody waits for, changes nothing."""
     if state.status not in {"running", "paused"}:
         return state, ()
-    turn = Turn(plan, state)
+    turn = Turn(plan, state, watch)
     _take(turn, event)
     _run_ready(turn)
     return turn.close()
@@ -156,10 +161,13 @@ def _run(turn: Turn, thread: Thread) -> None:
         thread = _resume(turn, thread)
         while thread.id in turn.threads and not thread.waits_for and turn.status == "running":
             carried = _carry_out(turn, thread) if turn.spend(thread) else turn.wait(thread, "yield", YIELD_S)
+            turn.tell(thread, carried)
             thread = turn.keep(carried)
     except Failure as failure:
+        turn.tell(thread, thread)
         unwind(turn, turn.threads[thread.id], failure.wake)
     except EvaluationError as error:
+        turn.tell(thread, thread)
         unwind(turn, turn.threads[thread.id], Wake("failed", str(error)))
 
 

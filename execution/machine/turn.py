@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from editor.language.expressions import nodes as e
@@ -20,6 +20,12 @@ YIELD_S = 1.0
 """How long a thread rests that has used up its share; a loop without a wait cannot stop the others."""
 _LEAVES = (p.Move, p.Pick, p.Drop, p.Cover, p.Call, p.Perform, p.Release, p.Wait, p.WaitUntil, p.Assign, p.AskPerson,
            p.Notify, p.Fail, p.End)  # fmt: skip
+
+
+Watch = Callable[[int, int, int], None]
+"""Told of an instruction that was carried out: the thread's id, its address, and where the thread goes on.
+
+Where it waits or fails, that is the same address."""
 
 
 class Failure(Exception):
@@ -40,8 +46,9 @@ class Failure(Exception):
 class Turn:
     """A run while one event is taken in; `close` gives the new state and what is to be done."""
 
-    def __init__(self, plan: p.Plan, state: RunState) -> None:
+    def __init__(self, plan: p.Plan, state: RunState, watch: Watch | None = None) -> None:
         self.plan = plan
+        self._watch = watch
         self.status: RunStatus = state.status
         self.reason = state.reason
         self.threads = dict(state.threads)
@@ -61,6 +68,11 @@ class Turn:
         state = RunState(self.status, self.reason, self.threads, self.frames, self.facts, self.next_id, self.truths,
                          self.ending)  # fmt: skip
         return state, tuple(self.actions)
+
+    def tell(self, thread: Thread, carried: Thread) -> None:
+        """Tell who watches what a thread has carried out."""
+        if self._watch is not None and carried.waits_for != "yield":
+            self._watch(thread.id, thread.at, carried.at)
 
     def new_id(self) -> int:
         """Return the next number: threads, frames, tasks, timers and questions share one sequence."""

@@ -27,6 +27,7 @@ from editor.language.site.surroundings import PlaceFacts, ZoneFacts
 from execution.rehearsals.course import Course
 from execution.rehearsals.rehearsal import Conditions, rehearse
 from registry.floorplan.plan import Grid
+from simulation.fault_form import faults_to_json, read_faults
 from simulation.world import Scene
 from vipo_device.protocol.description import Description, Pose, description_from_json, description_to_json
 
@@ -49,6 +50,7 @@ def scene_to_json(scene: Scene, places: Sequence[PlaceFacts], zones: Sequence[Zo
         "poses": {device: asdict(pose) for device, pose in scene.poses.items()},
         "carrying": {device: dict(load) for device, load in scene.carrying.items()},
         "readings": {device: dict(values) for device, values in scene.readings.items()},
+        "faults": faults_to_json(scene.faults),
     }
 
 
@@ -64,6 +66,7 @@ def scene_from_json(data: Mapping[str, Any]) -> tuple[Scene, tuple[PlaceFacts, .
         poses={device: Pose(**pose) for device, pose in data["poses"].items()},
         carrying=data["carrying"],
         readings=data["readings"],
+        faults=read_faults(data["faults"]) if "faults" in data else (),
     )
     zones = tuple(zone_from_json(zone) for zone in data.get("zones", ()))
     return scene, tuple(PlaceFacts(**place) for place in data["places"]), zones

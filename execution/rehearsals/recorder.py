@@ -12,7 +12,8 @@ from execution.rehearsals.footprint_monitor import FootprintMonitor
 from execution.traffic import messages as m
 from execution.traffic.layout import Layout
 from execution.traffic.routes import length_m
-from simulation.world import Ack, Contact, PropertyChanged, RobotSnapshot, WorldEvent
+from simulation.fault_form import faults_to_json
+from simulation.world import Ack, Contact, FaultBegan, PropertyChanged, RobotSnapshot, WorldEvent
 from vipo_device.protocol.description import Scalar
 
 FRAME_S = 0.2
@@ -93,6 +94,10 @@ class Recorder:
                 if gap_m <= 0 and not self._is_going_on(t_s, device, other):
                     place = {"distance_m": round(gap_m, 3), "x": round(x, 2), "y": round(y, 2)}
                     self.collisions.append({"t": t_s, "a": device, "b": other, **place})
+            case FaultBegan(fault=fault):
+                entry = faults_to_json([fault])["faults"][0]
+                word, where = str(entry["fault"]), self._layout.name(fault.device) if fault.device else "the floor"
+                self._say(t_s, fault.step, fault.device, f"On purpose, {where}: {word}", f"fault_{word}")
             case Ack(command=command, status=status, why=why):
                 if command in self._commands and status not in {"ACCEPTED", "RUNNING"}:
                     self._note_answer(t_s, *self._commands[command], status, why)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, assert_never
+from typing import Any, Protocol, assert_never
 
 from editor.language.expressions.nodes import AnswerSpec
 from editor.language.plan.instructions import Plan
@@ -45,13 +45,30 @@ Follow = Callable[[Course], float | None]
 """Told at every step how far a rehearsal is; answers with the seconds that it was given, once they are over."""
 
 
+class Observer(Protocol):
+    """Whoever wants to know of a rehearsal what its record does not have; it changes nothing."""
+
+    def carried(self, thread: int, at: int, to: int) -> None:
+        """Take in an instruction that was carried out, and where its thread goes on."""
+
+    def did(self, action: r.Action) -> None:
+        """Take in what the run does."""
+
+    def ended(self, stocks: Mapping[str, Mapping[str, int]]) -> None:
+        """Take in what each machine holds at the end."""
+
+
 @dataclass(frozen=True, slots=True)
 class Conditions:
-    """How a rehearsal is done: the driver of the robots, the program's parameters, and the longest it may take (s)."""
+    """How a rehearsal is done: the driver of the robots, the program's parameters, and the longest it may take (s).
+
+    `observer` is told what the record does not have.
+    """
 
     driver: DriverName = "physics"
     parameters: Mapping[str, Scalar] = field(default_factory=dict)
     limit_s: float = LIMIT_S
+    observer: Observer | None = None
 
 
 def rehearse(
@@ -73,7 +90,7 @@ def rehearse(
     world = make_world(scene=scene, driver=conditions.driver)
     try:
         layout = make_layout(scene.grid, scene.devices, places, m.site_zones(zones))
-        return _Rehearsal(plan, layout, world, conditions.limit_s, follow).run(conditions.parameters)
+        return _Rehearsal(plan, layout, world, conditions, follow).run()
     finally:
         world.close()
 
@@ -81,8 +98,11 @@ def rehearse(
 class _Rehearsal:
     """One rehearsal under way."""
 
-    def __init__(self, plan: Plan, layout: Layout, world: World, limit_s: float, follow: Follow | None) -> None:
-        self.plan, self.layout, self.world, self.limit_s = plan, layout, world, limit_s
+    def __init__(self, plan: Plan, layout: Layout, world: World, conditions: Conditions, follow: Follow | None) -> None:
+        self.observer = observer = conditions.observer
+        self.watch = None if observer is None else observer.carried
+        self.plan, self.layout, self.world = plan, layout, world
+        self.limit_s, self.parameters = conditions.limit_s, conditions.parameters
         self.recorder = Recorder(layout, world.readings())
         self.needs = needs_of(plan)
         self.asking = AskingRun(RUN, "this rehearsal", plan.roles, m.floor_zones(RUN, plan.zones))
@@ -100,11 +120,11 @@ class _Rehearsal:
         self.steps = {instruction.step for instruction in plan.instructions if instruction.step} or {""}
         self.left: set[str] = set()
 
-    def run(self, parameters: Mapping[str, Scalar]) -> dict[str, Any]:
+    def run(self) -> dict[str, Any]:
         facts: Facts = {(d, n): v for d, values in self.world.readings().items() for n, v in values.items()}
         facts |= self._stations() | self._surroundings()
         self._report_poses()
-        self.state, actions = machine.start(self.plan, parameters, facts)
+        self.state, actions = machine.start(self.plan, self.parameters, facts, watch=self.watch)
         self._do_run(actions)
         self._settle()
         self.recorder.look(0.0, 0.0, self.world.robots(), self.world.busy())
@@ -117,6 +137,8 @@ class _Rehearsal:
                 self._settle()
                 thought_at = now
             self._check_limits(now)
+        if self.observer is not None:
+            self.observer.ended(self.world.stocks())
         return self.recorder.result(self.world.time_s, ok=self.finished.status == "finished")
 
     def _advance(self) -> bool:
@@ -184,7 +206,7 @@ class _Rehearsal:
         while self.run_events and self.finished is None:
             events, self.run_events = self.run_events, []
             for event in events:
-                self.state, actions = machine.step(self.plan, self.state, event)
+                self.state, actions = machine.step(self.plan, self.state, event, self.watch)
                 self._do_run(actions)
             if self.floor_events:
                 self._step_floor()
@@ -213,6 +235,7 @@ class _Rehearsal:
         self.actions += len(actions)
         for action in actions:
             self.recorder.note_run(now, action)
+            self._tell_of(action)
             match action:
                 case r.Ask() | r.Cancel():
                     self.floor_events.append(to_floor(self.asking, action))
@@ -224,14 +247,21 @@ class _Rehearsal:
                     answer = pretend_answer(spec)
                     self.recorder.note_answer(now, step, answer)
                     self.replies.append((now + REPLY_S, r.Answered(question, answer)))
-                case r.StepLeft(step=step):
-                    self.left.add(step)
                 case r.Finished():
                     self._finish(now, action)
-                case r.Tell() | r.CancelQuestion() | r.StepEntered() | r.StepFailed():
+                case r.Tell() | r.CancelQuestion() | r.StepEntered() | r.StepLeft() | r.StepFailed():
                     pass  # the record has it
                 case _:
                     assert_never(action)
+
+    def _tell_of(self, action: r.Action) -> None:
+        """Tell the world of steps that begin, and who watches of all that the run does."""
+        if isinstance(action, r.StepEntered):
+            self.world.reach(action.step)
+        elif isinstance(action, r.StepLeft):
+            self.left.add(action.step)
+        if self.observer is not None:
+            self.observer.did(action)
 
     def _finish(self, now: float, action: r.Finished) -> None:
         self.finished = action

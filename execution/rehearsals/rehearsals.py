@@ -6,6 +6,7 @@ hints only. `worker` carries them out.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from datetime import UTC, datetime, timedelta
 from typing import Any
 from uuid import UUID
@@ -26,6 +27,7 @@ from execution.rehearsals.queue_order import Entry, order_fairly
 from execution.rehearsals.views import RehearsalView, view_rehearsal
 from execution.runs.programs import Prepared
 from registry import services as registry
+from simulation.fault_form import check_faults, read_faults
 from simulation.world import Scene
 
 QUEUE = "rehearsals"
@@ -36,16 +38,20 @@ HEAVY = ("job", "document", "compiled", "result")
 
 
 def start_rehearsal(
-    *, prepared: Prepared, by: str, person: int | None = None, seed: int = 0, driver: str = "physics"
-) -> RehearsalView:
+    *, prepared: Prepared, by: str, person: int | None = None, seed: int = 0, driver: str = "physics",
+    faults: Mapping[str, Any] | None = None,
+) -> RehearsalView:  # fmt: skip
     """Queue a rehearsal of a program that was checked, in the site as it stands now; `person` is whose it is.
+
+    `faults` go wrong in it on purpose (`simulation.fault_form`); they reach the child that rehearses and nobody else.
 
     Raises:
         TooManyRehearsals: the person or the site has as many as may wait or be under way.
+        BadFaults: they are not understood, or are of a device, reading or step that there is not.
     """
     site = registry.get_site_id(site=prepared.site)
     _refuse_too_many(site, person)  # before the scene is made: who asks too often costs little
-    job = {"plan": prepared.plan, "scene": _scene(prepared.site, seed), "driver": driver,
+    job = {"plan": prepared.plan, "scene": _scene(prepared, seed, faults), "driver": driver,
            "parameters": dict(prepared.parameters)}  # fmt: skip
     with transaction.atomic():
         lock_queue()
@@ -95,8 +101,9 @@ def order_of_queue() -> tuple[UUID, ...]:
     )
 
 
-def _scene(site: str, seed: int) -> dict[str, Any]:
+def _scene(prepared: Prepared, seed: int, faults: Mapping[str, Any] | None) -> dict[str, Any]:
     """Return the site as it stands: its approved devices where they are, with what they hold."""
+    site = prepared.site
     devices = registry.list_devices(site=site, lifecycle="approved")
     places = [place_facts(place) for place in registry.list_places(site=site)]
     robots = {d.id: d for d in devices if d.kind == "robot"}
@@ -104,11 +111,17 @@ def _scene(site: str, seed: int) -> dict[str, Any]:
         grid=registry.get_map(site=site).grid,
         devices=[d.canonical for d in devices],
         seed=seed,
+        faults=() if faults is None else read_faults(faults),
         poses={name: robot.pose for name, robot in robots.items()},
         carrying={name: robot.carrying for name, robot in robots.items()},
         readings={d.id: {"battery": d.readings["battery"]} for d in robots.values() if "battery" in d.readings},
     )
+    check_faults(scene.faults, scene.devices, _steps(prepared.plan))
     return scene_to_json(scene, places, editor.find_zones(site=site))
+
+
+def _steps(plan: Mapping[str, Any]) -> set[str]:
+    return {step for i in plan["instructions"] for step in (i["step"], *i.get("enters", ()))}
 
 
 def get_rehearsal(*, rehearsal_id: UUID | str) -> RehearsalView:

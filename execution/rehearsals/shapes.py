@@ -15,13 +15,21 @@ Driver = Literal["physics", "kinematic"]
 Seed = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
 
 
+class FaultsOnPurpose(Asked):
+    """What goes wrong on purpose, in the form of docs/testing-programs.md; `at_step` is a step's id."""
+
+    version: Literal[1] = 1
+    faults: list[dict[str, Any]] = Field([], max_length=100)
+
+
 class StartRehearsal(Asked):
-    """How a rehearsal is done: with `physics`, or `kinematic` and quicker."""
+    """How a rehearsal is done: with `physics`, or `kinematic` and quicker; `faults` go wrong in it on purpose."""
 
     version: OfVersion = None
     parameters: dict[str, Any] = {}
     seed: Seed = 0
     driver: Driver = "physics"
+    faults: FaultsOnPurpose | None = None
 
 
 class RehearsalError(Schema):

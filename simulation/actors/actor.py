@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
+from simulation.actors.troubles import Troubles
 from simulation.behaviour import Behaviour
-from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
+from simulation.world import Ack, Fault, FaultBegan, PropertyChanged, WorldEvent
 from vipo_device.kit.answers import REMEMBERED, AnswerLedger
 from vipo_device.kit.arguments import duration_s
 from vipo_device.protocol.arguments import refusal_of_arguments
@@ -32,7 +33,8 @@ def starting_value(spec: PropertySpec) -> Scalar:
 class InitialState:
     """How a device is when the world begins; `holds` is a machine's stock or a robot's load, None as usual.
 
-    Without `chance` all takes its middle time, and what happens by odds happens evenly.
+    Without `chance` all takes its middle time, and what happens by odds happens evenly; faults have their own, so that
+    a fault more changes nothing else.
     """
 
     readings: Mapping[str, Scalar] = field(default_factory=dict)
@@ -41,6 +43,7 @@ class InitialState:
     remembered: tuple[AckMessage, ...] = ()
     behaviour: Behaviour = field(default_factory=Behaviour)
     chance: Chance | None = None
+    fault_chance: Chance | None = None
 
 
 class Actor(ABC):
@@ -56,8 +59,11 @@ class Actor(ABC):
         self.held = False
         self._pauses: list[str] = []
         self._emit = emit
-        self._waiting_faults = sorted(initial.faults, key=lambda f: f.at_s)
-        self._faults: set[str] = set()
+        self.troubles = Troubles(initial.faults)
+        self._fault_chance = initial.fault_chance
+        self._late: list[tuple[float, AckMessage]] = []
+        self._true_readings: dict[str, Scalar] = {}
+        self._untold: dict[str, None] = {}
 
     @property
     @abstractmethod
@@ -80,31 +86,77 @@ class Actor(ABC):
     @property
     def frozen(self) -> bool:
         """True while the device stands still whatever its commands are."""
-        return self.paused or self.held or "stop" in self._faults
+        return self.paused or self.held or self.troubles.has("stop", "dead")
+
+    @property
+    def is_silent(self) -> bool:
+        """True while nothing that the device says is heard."""
+        return self.troubles.has("offline", "dead")
+
+    @property
+    def awaits_time(self) -> bool:
+        """True when time alone brings something about: a fault begins or ends, or a late answer is due."""
+        return bool(self._late) or self.troubles.wait_for_time
 
     def command(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> None:
         """Take a command in; what comes of it is emitted."""
         self.notice_faults(t_s)
-        if "offline" in self._faults:
+        if method not in CONTROLS and self.troubles.hang_on_chance:
+            chance = None if self._fault_chance is None else self._fault_chance()
+            self._befall(t_s, self.troubles.draw(t_s, chance))
+        if self.is_silent or self.troubles.has("deaf"):
             return
         if known := self.ledger.find(command):
-            self._emit_ack(t_s, known)
+            self._utter(t_s, known)
         elif method in CONTROLS:
             self._control(t_s, method, arguments, command)
         elif why := self._refusal(t_s, method, arguments, command):
             self._say(t_s, AckMessage(command, "REJECTED", why))
 
     def notice_faults(self, t_s: float) -> None:
-        """Let the faults begin whose time has come."""
-        while self._waiting_faults and self._waiting_faults[0].at_s <= t_s:
-            self._faults.add(self._waiting_faults.pop(0).kind)
+        """Let the faults begin and end whose time has come, and say the late answers that are due."""
+        begun, over = self.troubles.pass_time(t_s)
+        self._befall(t_s, begun)
+        for fault in over:
+            self._recover(t_s, fault)
+        while self._late and self._late[0][0] <= t_s + 1e-9:
+            self._emit_ack(t_s, self._late.pop(0)[1])
+
+    def reach(self, t_s: float, step: str, count: int) -> None:
+        """Let the faults begin that wait for this step of the program."""
+        self._befall(t_s, self.troubles.reach(t_s, step, count))
+
+    def _befall(self, t_s: float, faults: Iterable[Fault]) -> None:
+        for fault in faults:
+            self._emit(FaultBegan(t_s, fault))
+            if fault.kind == "wrong_value" and fault.name in self.readings:
+                self._true_readings.setdefault(fault.name, self.readings[fault.name])
+                self._show(t_s, fault.name, fault.value)
+
+    def _recover(self, t_s: float, fault: Fault) -> None:
+        """Say after a fault what was not said in it."""
+        if fault.kind == "wrong_value" and self.troubles.find("wrong_value", fault.name) is None:
+            self._show(t_s, fault.name, self._true_readings.pop(fault.name, self.readings.get(fault.name, "")))
+        if not self.is_silent:
+            untold, self._untold = list(self._untold), {}
+            for name in untold:
+                self._emit(PropertyChanged(t_s, self.description.id, name, self.readings[name]))
 
     def read(self, t_s: float, name: str, value: Scalar) -> None:
         """Set a reading that the device offers; a change is emitted."""
-        if name in self.readings and self.readings[name] != value:
-            self.readings[name] = value
-            if "offline" not in self._faults:
-                self._emit(PropertyChanged(t_s, self.description.id, name, value))
+        if name in self._true_readings:
+            self._true_readings[name] = value
+        elif name in self.readings:
+            self._show(t_s, name, value)
+
+    def _show(self, t_s: float, name: str, value: Scalar) -> None:
+        if self.readings[name] == value:
+            return
+        self.readings[name] = value
+        if self.is_silent:
+            self._untold[name] = None
+        else:
+            self._emit(PropertyChanged(t_s, self.description.id, name, value))
 
     def _lasts_s(self, method: MethodSpec | None, arguments: Mapping[str, object]) -> float:
         """Return how long a job takes: what its arguments say to the second, all else with the spread of its kind."""
@@ -145,21 +197,29 @@ class Actor(ABC):
 
     def _say(self, t_s: float, ack: AckMessage) -> None:
         self.ledger.note(ack)
-        if "offline" in self._faults:
+        if self.is_silent or (ack.is_final and self.troubles.spend("lose_ack") is not None):
             return
-        if ack.is_final and "lose_ack" in self._faults:
-            self._faults.discard("lose_ack")
+        self._utter(t_s, ack)
+
+    def _utter(self, t_s: float, ack: AckMessage) -> None:
+        """Let an answer out: now, late, or twice."""
+        late = self.troubles.find("late")
+        if late is not None:
+            self._late = sorted([*self._late, (t_s + late.after_s, ack)], key=lambda item: item[0])
             return
         self._emit_ack(t_s, ack)
+        if ack.is_final and self.troubles.spend("doubled") is not None:
+            self._emit_ack(t_s, ack)
 
     def _emit_ack(self, t_s: float, ack: AckMessage) -> None:
         self._emit(Ack(t_s, self.description.id, ack.command, ack.status, ack.why, ack.result))
 
     def _say_done(self, t_s: float, command: str, result: Mapping[str, Scalar] | None = None) -> bool:
         """Say that a command succeeded, unless a fault makes it fail; True if it succeeded."""
-        if "fail_next" in self._faults:
-            self._faults.discard("fail_next")
-            self._say(t_s, AckMessage(command, "FAILED", f"{self.description.name} broke down (a fault on purpose)."))
+        fault = self.troubles.spend("fail_next")
+        if fault is not None:
+            why = fault.error or f"{self.description.name} broke down (a fault on purpose)."
+            self._say(t_s, AckMessage(command, "FAILED", why))
             return False
         self._say(t_s, AckMessage(command, "DONE", result=result or {}))
         return True

@@ -44,7 +44,7 @@ class Machine(Actor):
     @property
     def resting(self) -> bool:
         """True when time changes nothing."""
-        return self._job is None and self._readings.resting and not self._waiting_faults
+        return self._job is None and self._readings.resting and not self.awaits_time
 
     @property
     def slots(self) -> int:

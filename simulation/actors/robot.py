@@ -52,6 +52,7 @@ class Robot(Actor):
         self.carrying = {k: v for k, v in (initial.holds or {}).items() if v > 0}
         self.radius_m = description.radius_m or max(description.size.x, description.size.y) / 2 or DEFAULT_RADIUS_M
         self.touches = ""
+        self.stands_before = ""
         known = initial.readings.get("battery")
         self.battery = float(known) if isinstance(known, int | float) else 100.0
         self._machines, self._bounds = surroundings.machines, surroundings.bounds
@@ -68,7 +69,7 @@ class Robot(Actor):
     @property
     def resting(self) -> bool:
         """True when the robot stands and has nothing to do."""
-        return not self._tasks and self._follower.idle
+        return not self._tasks and self._follower.idle and not self.awaits_time
 
     @property
     def load(self) -> int:
@@ -104,6 +105,17 @@ class Robot(Actor):
         percent_h = 100 / how.charging_h if docked else -100 / (how.driving_h if driving else how.standing_h)
         self.battery = min(100.0, max(0.0, self.battery + percent_h / 3600 * dt_s))
         self.read(t_s, "battery", round(self.battery))
+
+    def notice_faults(self, t_s: float) -> None:
+        """Let faults begin and end; what falls down is gone, and a battery that falls so low is so low."""
+        super().notice_faults(t_s)
+        fallen = self.troubles.spend("battery")
+        if fallen is not None and isinstance(fallen.value, int | float):
+            self.battery = min(self.battery, float(fallen.value))
+            self.read(t_s, "battery", round(self.battery))
+        if self.carrying and self.troubles.spend("drops") is not None:
+            self.carrying = {}
+            self.read(t_s, "load", self._load_shown())
 
     def change_battery(self, t_s: float) -> None:
         """Put a full battery in, as people do with a robot that stands."""
@@ -150,10 +162,11 @@ class Robot(Actor):
     def _give_up(self, t_s: float) -> None:
         task = self._tasks.popleft()
         what = f"{self.description.name} cannot go on"
-        self._say(
-            t_s,
-            AckMessage(task.command, "FAILED", f"{what}: it touches {self.touches}." if self.touches else f"{what}."),
-        )
+        if self.touches:
+            why = f"{what}: it touches {self.touches}."
+        else:
+            why = f"{what}: {self.stands_before}." if self.stands_before else f"{what}."
+        self._say(t_s, AckMessage(task.command, "FAILED", why))
         self._end_moves(t_s, "The way before it failed.")
 
     def _stop_flat(self, t_s: float) -> None:

@@ -17,7 +17,7 @@ from vipo_site.cli.programs import add_program_commands
 from vipo_site.cli.terminal import CLEAN, FAULTY, INTERRUPTED, UNUSABLE, complain, write_json
 
 _NAMES = (
-    *("check", "script", "draw", "plan", "rehearse", "describe"),
+    *("check", "script", "draw", "plan", "rehearse", "test", "describe"),
     *("call", "devices", "alerts", "approve", "enrolment-key", "account", "token", "mend-program", "history"),
 )
 
@@ -106,6 +106,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="vipo", description="Check, print, plan and rehearse programs for robots and machines.")
     commands = parser.add_subparsers(required=True, metavar="|".join(_NAMES), parser_class=_Parser)
     add_program_commands(commands)
+    _add_test(commands.add_parser("test", help=_TEST, description=_TEST))
     _add_describe(commands.add_parser("describe", help=_DESCRIBE, description=_DESCRIBE))
     call.add_arguments(commands.add_parser("call", help=call.WHAT, description=call.WHAT))
     for word, text, add in (
@@ -131,6 +132,24 @@ def _add_describe(sub: argparse.ArgumentParser) -> None:
     sub.set_defaults(run=_describe)
 
 
+def _add_test(sub: argparse.ArgumentParser) -> None:
+    sub.add_argument("files", type=Path, nargs="+", metavar="FILE", help="files of tests (.yaml), or folders of them")
+    sub.add_argument("--seeds", type=int, default=0, help="carry each test out with so many seeds, too (at most 1000)")
+    sub.add_argument("--mutate", action="store_true", help="name what could be taken out without a test noticing")
+    sub.add_argument("--mutants", type=int, default=100, help="try at most so many changes (100)")
+    sub.add_argument("--junit", type=Path, help="write JUnit XML into this file, too")
+    sub.add_argument("--json", action="store_true", help="write JSON for machines")
+    sub.set_defaults(run=_test, lang="en")
+
+
+def _test(options: argparse.Namespace) -> int:
+    # imported late: rehearsing takes libraries that the other commands do not need
+    from vipo_site.cli.trials import test_files
+
+    return test_files(options)
+
+
+_TEST = "Carry out tests of programs in simulation, in virtual time, and say what did not hold."
 _DESCRIBE = "Say what a device's description holds and what is wrong with it, or write it in another form."
 
 

@@ -3453,6 +3453,18 @@ export interface components {
             path: string;
             text: string;
         };
+        /** @description What goes wrong on purpose, in the form of docs/testing-programs.md; `at_step` is a step's id. */
+        FaultsOnPurpose: {
+            /** @default [] */
+            faults: {
+                [key: string]: unknown;
+            }[];
+            /**
+             * @default 1
+             * @constant
+             */
+            version: 1;
+        };
         /** @description A field of the request that does not fit, and why. */
         FieldProblem: {
             field: string;
@@ -4620,13 +4632,14 @@ export interface components {
             /** @default 0 */
             z: number;
         };
-        /** @description How a rehearsal is done: with `physics`, or `kinematic` and quicker. */
+        /** @description How a rehearsal is done: with `physics`, or `kinematic` and quicker; `faults` go wrong in it on purpose. */
         StartRehearsal: {
             /**
              * @default physics
              * @enum {string}
              */
             driver: "physics" | "kinematic";
+            faults?: components["schemas"]["FaultsOnPurpose"] | null;
             /** @default {} */
             parameters: {
                 [key: string]: unknown;

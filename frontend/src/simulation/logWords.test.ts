@@ -18,6 +18,7 @@ test("lines of a rehearsal are told by their code in the language of the screen"
   expect(line("answer", { method: "pick", status: "FAILED", why: "No box." })).toBe(
     "Kiwi, pick: fehlgeschlagen. No box.",
   );
+  expect(line("fault_wrong_value")).toBe("Absichtlich, Kiwi: zeigt einen falschen Wert");
   expect(line("step_offline", { why: "Gone." })).toBe("Nicht verbunden: Gone.");
 });
 

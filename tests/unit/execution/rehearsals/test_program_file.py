@@ -30,8 +30,9 @@ def test_a_site_keeps_what_its_library_has():
 
 
 def test_a_rehearsal_holds_functions_against_the_library_of_the_file():
-    surroundings, _, _ = read_site(site(library=[]), 0)
+    library = [{"id": "gone", "name": "rest", "versions": [{"number": 2, "parameters": []}]}]
+    surroundings, _, _ = read_site(site(library=library), 0)
     codes = [each.code for each in compile_document(CALLS_AN_OLD_FUNCTION, surroundings).diagnostics]
     known_nowhere, _, _ = read_site({key: value for key, value in site().items() if key != "library"}, 0)
     others = [each.code for each in compile_document(CALLS_AN_OLD_FUNCTION, known_nowhere).diagnostics]
-    assert (len(codes), others) == (1, [])
+    assert (codes, others) == (["version_gone"], [])

@@ -1,0 +1,52 @@
+"""Faults are asked for in rehearsals, checked at the door, and can be asked for nowhere else."""
+
+from __future__ import annotations
+
+import pytest
+
+from editor import services as editor
+from execution.models import Rehearsal, Run
+from tests.kit.programs import SITE, TASK
+from tests.kit.sign_in import post_json, sign_in_member
+
+pytestmark = pytest.mark.django_db(transaction=True)
+DEAD = {"version": 1, "faults": [{"fault": "dead", "device": "robot01", "at_s": 5.0}]}
+
+
+@pytest.fixture
+def program(factory):
+    return editor.create_program(site=SITE, name="Task", document=TASK).id
+
+
+def test_faults_reach_the_rehearsal_that_they_were_asked_for(program):
+    client = sign_in_member("operator", SITE)
+    assert post_json(client, f"/api/programs/{program}/rehearsals", {"faults": DEAD}).status_code == 202
+    assert post_json(client, f"/api/programs/{program}/rehearsals", {}).status_code == 202
+    jobs = Rehearsal.objects.order_by("created_at").values_list("job", flat=True)
+    assert [job["scene"]["faults"] for job in jobs] == [DEAD, {"version": 1, "faults": []}]
+
+
+@pytest.mark.parametrize(
+    ("fault", "why"),
+    [
+        ({"fault": "dead", "device": "nobody"}, "Fault 1: there is no device 'nobody' here."),
+        ({"fault": "explodes", "device": "robot01"}, "Fault 1: “fault” is one of fails,"),
+        ({"fault": "dead", "device": "robot01", "at_step": "gone"}, "Fault 1: the program has no step 'gone'."),
+    ],
+)
+def test_faults_that_make_no_sense_are_refused_with_a_sentence(program, fault, why):
+    asked = {"faults": {"version": 1, "faults": [fault]}}
+    refused = post_json(sign_in_member("operator", SITE), f"/api/programs/{program}/rehearsals", asked)
+    assert (refused.status_code, refused.json()["code"]) == (422, "bad_faults")
+    assert why in refused.json()["detail"]
+    assert Rehearsal.objects.count() == 0
+
+
+def test_who_may_not_rehearse_may_not_ask_for_faults(program):
+    refused = post_json(sign_in_member("viewer", SITE), f"/api/programs/{program}/rehearsals", {"faults": DEAD})
+    assert (refused.status_code, Rehearsal.objects.count()) == (403, 0)
+
+
+def test_a_run_of_real_devices_takes_no_faults(program):
+    refused = post_json(sign_in_member("operator", SITE), f"/api/programs/{program}/runs", {"faults": DEAD})
+    assert (refused.status_code, Run.objects.count()) == (422, 0)
