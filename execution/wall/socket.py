@@ -54,7 +54,7 @@ class WallSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         self._devices: dict[str, dict[str, Any]] = {}
         self._known: frozenset[str] = frozenset()
         self._wants_picture = self._wants_map = True
-        self._something = asyncio.Event()
+        self._something, self._listens = asyncio.Event(), asyncio.Event()
         await self.accept()
         try:
             wall = await _in_database(reading.find_wall, self.scope["cookies"].get(registry.WALL_COOKIE, ""))
@@ -104,6 +104,7 @@ class WallSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
     async def _read(self) -> None:
         """Take in what happens at the site: of devices what changed, of all else that there is a new picture."""
         async with registry.subscribe(self._wall.site) as messages:
+            self._listens.set()
             while True:
                 self._take(await messages.get())
 
@@ -127,6 +128,7 @@ class WallSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
 
         When nothing has been new for 5 s a beat is sent: a screen that hears nothing for long is not live.
         """
+        await self._listens.wait()  # what happens after the first picture is heard
         pictured_at = seen_at = float("-inf")
         while True:
             now = time.monotonic()

@@ -77,8 +77,10 @@ async def showing(key: str) -> AsyncIterator[WebsocketCommunicator]:
     socket.scope["cookies"] = {COOKIE: key} if key else {}
     connected, _ = await socket.connect(timeout=5)
     assert connected
-    yield socket
-    await socket.disconnect(timeout=5)
+    try:
+        yield socket
+    finally:
+        await socket.disconnect(timeout=5)
 
 
 async def close_code(socket: WebsocketCommunicator) -> int:
@@ -90,10 +92,11 @@ async def close_code(socket: WebsocketCommunicator) -> int:
 
 async def until(socket: WebsocketCommunicator, wanted: Any, heard: list[dict[str, Any]]) -> dict[str, Any]:
     """Return the first message that is wanted; all that came are kept in `heard`."""
-    while True:
+    for _ in range(20):
         heard.append(await socket.receive_json_from(30))
         if wanted(heard[-1]):
             return heard[-1]
+    raise AssertionError([each["type"] for each in heard])
 
 
 def test_a_link_is_told_once_and_neither_it_nor_its_cookie_is_kept(hall: str) -> None:
@@ -188,7 +191,7 @@ async def test_it_shows_the_map_and_everything_that_happens(hall: str) -> None:
         picture = await until(socket, lambda each: each["type"] == "picture", heard)
         assert (drawn["width"], drawn["height"], drawn["version"]) == (4, 3, 1)
         assert picture["site"] == "Hall"
-        assert [(each["id"], each["status"]) for each in picture["devices"]] == [(MIXER.id, "busy")]
+        assert [(each["id"], each["status"]) for each in picture["devices"]] == [(MIXER.id, "idle")]
         change = {"id": MIXER.id, "location": {"x": 3.0, "y": 1.0, "z": 0.0, "theta": 0.5}, "doing": "Working"}
         services.publish("hall", {"type": "device", "device": change})
         moved = await until(socket, lambda each: each["type"] == "devices", heard)
@@ -281,8 +284,8 @@ async def test_no_frame_and_no_answer_tells_the_name_of_a_person(hall: str) -> N
     async with showing(key) as socket:
         picture = await until(socket, lambda each: each["type"] == "picture", heard)
         publish_names()
+        await until(socket, lambda each: each["type"] == "map", heard)
         changed = await until(socket, lambda each: each["type"] == "devices", heard)
-        await until(socket, lambda each: each["type"] == "picture", heard)
     assert changed["devices"][0] == {
         "id": MIXER.id, "status": "error", "activity": None, "properties": [{"name": "jobStatus", "value": 41}],
     }  # fmt: skip
