@@ -79,7 +79,7 @@ from registry.devices.rows import BadDevice, NoSuchDevice
 from registry.devices.samples import flush_samples, note_samples, prune_samples
 from registry.devices.states import StateMessage, ingest_state, ingest_states
 from registry.devices.views import DeviceView, device_to_json
-from registry.live.fanout import EVERY_SITE, Message, Outage, listen, publish, publish_all, wait_wake, wake
+from registry.live.fanout import EVERY_SITE, Message, Outage, listen, publish, publish_all, subscribe, wait_wake, wake
 from registry.maps.places import PlaceChange, add_place, change_place, find_place, remove_place
 from registry.maps.robot_map_parts import ingest_map_part
 from registry.maps.robot_maps import NoRobotMap, RobotMapFacts, RobotMapView, get_robot_map, get_robot_map_facts
@@ -122,6 +122,8 @@ from registry.people.tokens import (
     list_tokens,
     prune_tokens,
 )
+from registry.people.wall_screens import COOKIE as WALL_COOKIE
+from registry.people.wall_screens import OpenedWall, find_wall, note_wall_seen, prune_wall_screens
 from registry.people.watch import Seat, watch_of_this_loop
 from registry.processes.children import sigint_blocked
 from registry.processes.counters import BOUNDS_S, MEASURES, Measure, count, counters_to_json, time_spent, watch_amount
@@ -153,6 +155,7 @@ __all__ = [
     "FIRST",
     "MEASURES",
     "VIPO",
+    "WALL_COOKIE",
     "Access",
     "AlertCode",
     "AlertView",
@@ -181,6 +184,7 @@ __all__ = [
     "NotOfSite",
     "NotPending",
     "NotRetired",
+    "OpenedWall",
     "Outage",
     "Part",
     "PersonView",
@@ -250,6 +254,7 @@ __all__ = [
     "find_place",
     "find_trouble",
     "find_unchanged",
+    "find_wall",
     "find_zone",
     "flush_alerts",
     "flush_samples",
@@ -304,6 +309,7 @@ __all__ = [
     "note_alert",
     "note_mended",
     "note_samples",
+    "note_wall_seen",
     "prune_alerts",
     "prune_audit",
     "prune_invitations",
@@ -311,6 +317,7 @@ __all__ = [
     "prune_processes",
     "prune_samples",
     "prune_tokens",
+    "prune_wall_screens",
     "publish",
     "publish_all",
     "raise_alert",
@@ -347,6 +354,7 @@ __all__ = [
     "show_enrolment_key",
     "sigint_blocked",
     "site_to_json",
+    "subscribe",
     "take_part",
     "time_spent",
     "update_device",

@@ -19,6 +19,7 @@ from servestatic import ServeStaticASGI  # noqa: E402
 
 from editor.rooms.socket import ProgramSocket, close_hub  # noqa: E402
 from execution.services import open_publisher  # noqa: E402
+from execution.wall.socket import WallSocket  # noqa: E402
 from registry.api.site_socket import SiteSocket  # noqa: E402
 from vipo_site.http.collecting import leave_out_what_stays  # noqa: E402
 from vipo_site.http.ending import keep_rooms_at_end  # noqa: E402
@@ -53,6 +54,7 @@ routes = ProtocolTypeRouter(
                     [
                         path("ws/site/<slug:slug>", SiteSocket.as_asgi()),
                         path("ws/program/<uuid:program>", ProgramSocket.as_asgi()),
+                        path("ws/wall", WallSocket.as_asgi()),
                         re_path(r"", refuse_socket),  # type: ignore[arg-type]  # the stubs know pages only
                     ]
                 )

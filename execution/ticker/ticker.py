@@ -70,6 +70,7 @@ class Ticker:
             registry.prune_alerts(now=now)
             registry.prune_tokens(now=now)
             registry.prune_invitations(now=now)
+            registry.prune_wall_screens(now=now)
             registry.prune_audit(now=now)
             registry.prune_keyed_requests(now=now)
             registry.drop_expired(now=now)

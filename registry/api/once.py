@@ -24,7 +24,15 @@ from registry.people.keyed_requests import KeptAnswer, begin_request, end_reques
 SAFE = ("GET", "HEAD", "OPTIONS")
 KEPT_HEADERS = ("Content-Type", "Location", "ETag")
 TELLS_SECRETS = frozenset(
-    ("create_token", "make_invitation", "approve_device", "rotate_credential", "reserve_device", "renew_enrolment_key")
+    (
+        "create_token",
+        "make_invitation",
+        "approve_device",
+        "rotate_credential",
+        "reserve_device",
+        "renew_enrolment_key",
+        "make_wall_screen",
+    )
 )
 """Calls whose answer is told this once, and therefore not kept."""
 _KEY = re.compile(r'"?([!#-~]{1,255})"?')

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from typing import Literal, get_args
 
-Kind = Literal["roles", "invitations", "tokens", "runs", "stops", "devices", "programs", "map", "sign_in"]
+Kind = Literal[
+    "roles", "invitations", "tokens", "wall_screens", "runs", "stops", "devices", "programs", "map", "sign_in"
+]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 
 _CODES: dict[Kind, str] = {
     "roles": "role_changed access_end_set member_added member_removed member_left joined",
     "invitations": "invitation_made invitation_revoked",
     "tokens": "token_made token_revoked",
+    "wall_screens": "wall_screen_made wall_screen_revoked",
     "runs": "run_started run_cancelled run_started_in_emergency armed_run_not_approved",
     "stops": "stop_pressed stop_reset",
     "devices": """device_asked device_approved device_rejected device_retired device_readmitted device_key_given

@@ -24,3 +24,4 @@ from registry.models.requests import KeyedRequest as KeyedRequest
 from registry.models.sites import Membership as Membership
 from registry.models.sites import Site as Site
 from registry.models.tokens import ApiToken as ApiToken
+from registry.models.wall_screens import WallScreen as WallScreen

@@ -12,7 +12,7 @@ from typing import Literal
 
 from registry.people.roles import ROLES
 
-Role = Literal["anybody", "person", "maker", "viewer", "commenter", "operator", "author", "admin"]
+Role = Literal["anybody", "wall", "person", "maker", "viewer", "commenter", "operator", "author", "admin"]
 Scope = Literal["anybody", "session", "read", "operate", "run", "admin"]
 
 
@@ -21,7 +21,8 @@ class Right:
     """What an operation asks of who calls it.
 
     `role` is the least role at the site that suffices; `person` is anybody who is signed in, `maker` who may make
-    sites, `anybody` everybody. `scope` is what a token must be for; `session` means that no token will do.
+    sites, `wall` a wall screen alone, `anybody` everybody. `scope` is what a token must be for; `session` means that no
+    token will do.
     """
 
     role: Role
@@ -30,7 +31,7 @@ class Right:
     @property
     def is_of_site(self) -> bool:
         """Tell whether it is about something of one site, which others must not even know of."""
-        return self.role not in ("anybody", "person", "maker")
+        return self.role not in ("anybody", "wall", "person", "maker")
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,9 +117,10 @@ DEEDS = (
         "people",
         "admin",
         "session",
-        """show_member change_member remove_member list_invitations make_invitation revoke_invitation""",
+        """show_member change_member remove_member list_invitations make_invitation revoke_invitation
+        list_wall_screens make_wall_screen revoke_wall_screen""",
     ),
-    _deed("come", "anybody", "anybody", "show_me sign_in look_at_invitation join_as_new"),
+    _deed("come", "anybody", "anybody", "show_me sign_in look_at_invitation join_as_new open_wall_screen"),
     _deed(
         "account",
         "person",

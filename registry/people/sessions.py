@@ -18,22 +18,31 @@ from django.utils.crypto import constant_time_compare
 from registry.models import User
 from registry.people.access import allows
 from registry.people.tokens import read_standing_roles
+from registry.people.wall_screens import read_standing_sites
 
 
 @dataclass(frozen=True, slots=True)
 class Session:
-    """A browser's or program's session, by its key and the id of the person who signed in; or a token's, by its row."""
+    """A browser's or program's session, by its key and the id of the person who signed in.
+
+    Or a token's, or a wall screen's, by its row; a wall screen has no person.
+    """
 
     key: str
     person: int
     token: int = 0
+    wall: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """What a session that stands is good for: the roles of its person, by the slugs of their sites."""
+    """What a session that stands is good for: the roles of its person, by the slugs of their sites.
+
+    A wall screen has no role anywhere; it shows the site `shows`, and no person's session does.
+    """
 
     roles: Mapping[str, str]
+    shows: str = ""
 
     def allows(self, site: str, role: str) -> bool:
         """Tell whether the person has this role at the site, or one that includes it."""
@@ -57,10 +66,21 @@ def session_of_socket(scope: Mapping[str, Any]) -> Session | None:
 def read_standings(sessions: Collection[Session]) -> dict[Session, Standing]:
     """Return the standing of each session that stands, by two statements for all of them, and one for all tokens.
 
+    One more is for all wall screens.
+
     One that has ended is left out: signed out, expired, revoked, another password, or an account that is closed.
     """
-    cookies = [session for session in sessions if not session.token]
-    return {**_read_cookies(cookies), **_read_tokens([session for session in sessions if session.token])}
+    walls = [session for session in sessions if session.wall]
+    tokens = [session for session in sessions if session.token]
+    cookies = [session for session in sessions if not session.token and not session.wall]
+    return {**_read_cookies(cookies), **_read_tokens(tokens), **_read_walls(walls)}
+
+
+def _read_walls(sessions: Collection[Session]) -> dict[Session, Standing]:
+    if not sessions:
+        return {}
+    sites = read_standing_sites(walls={session.wall for session in sessions}, now=timezone.now())
+    return {session: Standing({}, sites[session.wall]) for session in sessions if session.wall in sites}
 
 
 def _read_tokens(sessions: Collection[Session]) -> dict[Session, Standing]:

@@ -35,6 +35,7 @@ MEASURES: Mapping[str, Measure] = {
     "http_database_queries": Measure("count", "Questions to the database within HTTP requests", ("route",)),
     "loop_lag_seconds": Measure("duration", "How long the loop of a web process let a call wait"),
     "site_sockets": Measure("amount", "Open sockets that follow a site"),
+    "wall_sockets": Measure("amount", "Open sockets of wall screens"),
     "program_sockets": Measure("amount", "Open sockets to shared programs"),
     "rooms": Measure("amount", "Programs that are open for drawing"),
     "room_send_seconds": Measure("duration", "From a frame's queueing in a room to its sending"),

@@ -20,6 +20,7 @@ from editor.models import Comment, CommentThread
 from execution.models import Command, DeadLetter, Question, Rehearsal, Run
 from registry import services
 from registry.models import Device, DeviceAlert, Site, User
+from registry.people.wall_screens import make_wall_screen
 from registry.sites.invitations import Wanted, make_invitation
 from tests.kit.api_rights import OPERATIONS
 from tests.kit.programs import document
@@ -66,6 +67,8 @@ BODIES: dict[str, dict[str, Any]] = {
     "change_member": {"role": "operator"},
     "make_invitation": {"role": "viewer"},
     "look_at_invitation": {"code": "{code}"},
+    "make_wall_screen": {"name": "Hall 1"},
+    "open_wall_screen": {"code": "{wall_code}"},
     "accept_invitation": {"code": "{code}"},
     "join_as_new": {"code": "{code}", "name": "New One", "email": "new-one@vipo.example", "password": "four odd words"},
     "sign_in": {"email": "a", "password": "b"},
@@ -128,7 +131,9 @@ def _make_guest(site: Site) -> dict[str, str]:
     assert maker is not None
     now = datetime.now(UTC)
     made, code = make_invitation(site=site.slug, by=maker, wanted=Wanted("viewer", 7, 5), now=now)
-    return {"person": str(guest.pk), "invitation": str(made.id), "code": code}
+    wall, wall_code = make_wall_screen(site=site.slug, by=maker, name="East wall", days=7, now=now)
+    walls = {"wall_screen": str(wall.id), "wall_code": wall_code}
+    return {"person": str(guest.pk), "invitation": str(made.id), "code": code, **walls}
 
 
 def _make_robot(name: str, site: str) -> None:

@@ -20,6 +20,7 @@ OPERATIONS: dict[str, dict[str, dict[str, Any]]] = json.loads((ROOT / "docs" / "
 SOCKETS = {
     "ws/site/<slug:slug>": Right("viewer", "session"),
     "ws/program/<uuid:program>": Right("viewer", "session"),
+    "ws/wall": Right("wall", "session"),
 }
 """Who may open each socket, by its route; only who may draw is heard there, and no token opens one."""
 DRAWS = Right("author", "session")

@@ -29,6 +29,7 @@ from registry.api.sites import router as sites_router
 from registry.api.sparql import router as sparql_router
 from registry.api.things import router as things_router
 from registry.api.tokens import router as tokens_router
+from registry.api.wall_screens import router as wall_screens_router
 from registry.api.zones import router as zones_router
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import BadMessage, parse_plain_json
@@ -120,6 +121,7 @@ api.add_router("", sites_router)
 api.add_router("", tokens_router)
 api.add_router("", members_router)
 api.add_router("", invitations_router)
+api.add_router("", wall_screens_router)
 api.add_router("", audit_router)
 api.add_router("", devices_router)
 api.add_router("", alerts_router)

@@ -2792,6 +2792,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/wall-screens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Wall Screens
+         * @description List a site's wall screens, the newest first, also those that ended within the last 30 days.
+         */
+        get: operations["list_wall_screens"];
+        put?: never;
+        /**
+         * Make Wall Screen
+         * @description Make a link by which a screen shows this site, read only and without names of people, and tell it this once.
+         */
+        post: operations["make_wall_screen"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/wall-screens/{wall_screen}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Revoke Wall Screen
+         * @description Turn a wall screen off for good; what shows it goes dark within a second.
+         */
+        delete: operations["revoke_wall_screen"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/zones": {
         parameters: {
             query?: never;
@@ -2838,6 +2882,26 @@ export interface paths {
          * @description Change a zone: robots heed it as it is from then on, those under way, too.
          */
         patch: operations["edit_zone"];
+        trace?: never;
+    };
+    "/api/wall/open": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Open Wall Screen
+         * @description Exchange the code of a link for a cookie that opens the socket `/ws/wall` and nothing else.
+         */
+        post: operations["open_wall_screen"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
         trace?: never;
     };
 }
@@ -3033,13 +3097,13 @@ export interface components {
         AuditAsked: {
             /** @default  */
             before: string;
-            kind?: ("roles" | "invitations" | "tokens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
+            kind?: ("roles" | "invitations" | "tokens" | "wall_screens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
             /** @default 200 */
             limit: number;
         };
         /** @description Which kind of deeds is asked for; all of them if none is named. */
         AuditOfKind: {
-            kind?: ("roles" | "invitations" | "tokens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
+            kind?: ("roles" | "invitations" | "tokens" | "wall_screens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
         };
         /**
          * @description One thing that was done: what (`code` of a `kind`, with the `facts` of its sentence), by whom, and from where.
@@ -3061,7 +3125,7 @@ export interface components {
             };
             id: number;
             /** @enum {string} */
-            kind: "roles" | "invitations" | "tokens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in";
+            kind: "roles" | "invitations" | "tokens" | "wall_screens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in";
             system: string;
         };
         /** @description Who wrote something. */
@@ -3683,6 +3747,19 @@ export interface components {
             scopes: ("read" | "operate" | "run" | "admin" | "broker")[];
             token: string;
         };
+        /** @description A new wall screen; `link` is told this once. */
+        MadeWallScreen: {
+            expired: boolean;
+            /** Format: date-time */
+            expires_at: string;
+            id: number;
+            link: string;
+            /** Format: date-time */
+            made_at: string;
+            made_by: string;
+            name: string;
+            seen_at: string | null;
+        };
         /** @description What changes when the robot's map (`version`) replaces the site's (`replaces`, 0: none), in square metres. */
         MapDifferenceShape: {
             floor_gained_m2: number;
@@ -3857,6 +3934,12 @@ export interface components {
             days: number;
             name: string;
             scopes: ("read" | "operate" | "run" | "admin" | "broker")[];
+        };
+        /** @description Where a wall screen hangs, and how many days it shows the site. */
+        NewWallScreen: {
+            /** @default 365 */
+            days: number;
+            name: string;
         };
         /** @description A zone that is to be: corners in metres in the map frame; `speed_m_s` for `slow` alone; `id` made of its name. */
         NewZone: {
@@ -4815,6 +4898,22 @@ export interface components {
             robot: string;
             t: number;
             why: components["schemas"]["WaitReason"];
+        };
+        /** @description What stands behind the sign # in a wall screen's link. */
+        WallCode: {
+            code: string;
+        };
+        /** @description A wall screen without its link; `seen_at` is when it last showed the site, to the minute, null for never. */
+        WallScreenShape: {
+            expired: boolean;
+            /** Format: date-time */
+            expires_at: string;
+            id: number;
+            /** Format: date-time */
+            made_at: string;
+            made_by: string;
+            name: string;
+            seen_at: string | null;
         };
         /** @description Where something is, as a point. */
         Whereabouts: {
@@ -8846,7 +8945,7 @@ export interface operations {
             query?: {
                 limit?: number;
                 before?: string;
-                kind?: ("roles" | "invitations" | "tokens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
+                kind?: ("roles" | "invitations" | "tokens" | "wall_screens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
             };
             header?: never;
             path: {
@@ -8887,7 +8986,7 @@ export interface operations {
     export_audit: {
         parameters: {
             query?: {
-                kind?: ("roles" | "invitations" | "tokens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
+                kind?: ("roles" | "invitations" | "tokens" | "wall_screens" | "runs" | "stops" | "devices" | "programs" | "map" | "sign_in") | null;
             };
             header?: never;
             path: {
@@ -12224,6 +12323,134 @@ export interface operations {
             };
         };
     };
+    list_wall_screens: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WallScreenShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    make_wall_screen: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewWallScreen"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MadeWallScreen"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    revoke_wall_screen: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                wall_screen: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     add_zone: {
         parameters: {
             query?: never;
@@ -12385,6 +12612,45 @@ export interface operations {
             };
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    open_wall_screen: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WallCode"];
+            };
+        };
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];

@@ -55,6 +55,10 @@ export type TokenScope = Token["scopes"][number];
 export type NewToken = Schemas["NewToken"];
 export type MadeToken = Schemas["MadeToken"];
 
+export type WallScreen = Schemas["WallScreenShape"];
+export type NewWallScreen = Schemas["NewWallScreen"];
+export type MadeWallScreen = Schemas["MadeWallScreen"];
+
 export type Member = Schemas["MemberShape"];
 export type MemberDetail = Schemas["MemberDetail"];
 export type MemberChange = Schemas["MemberChange"];

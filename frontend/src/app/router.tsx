@@ -69,6 +69,7 @@ export function makeRouter() {
       children: [
         ...route("/sign-in", "pages/signin/SignInPage"),
         ...route("/invitation", "pages/invitation/InvitationPage"),
+        ...route("/wall", "pages/wall/WallPage"),
       ],
     },
     {

@@ -10,6 +10,8 @@ import classes from "./map.module.css";
 import { PathLine } from "./PathLine";
 import { type Box, fitViewport, type Point, toPixels, type Viewport } from "./plane/projection";
 import { useSize } from "./plane/useSize";
+import { RobotLayer } from "./robots/RobotLayer";
+import type { RobotSource } from "./robots/robots";
 import { ViewportCell } from "./plane/viewport";
 
 const QUIET: FloorDetail = { rulers: false, labels: false, grid: true };
@@ -27,6 +29,8 @@ export interface StaticMapProps {
   /** Rooms' names and devices' names. */
   named?: boolean;
   label: string;
+  /** Robots that move, instead of standing among the devices. */
+  robots?: RobotSource;
   /** More to draw in drawing pixels, above the devices. */
   children?: ReactNode;
 }
@@ -64,9 +68,12 @@ export function StaticMap(props: StaticMapProps) {
           {props.children}
         </g>
       </svg>
+      {props.robots ? <RobotLayer source={props.robots} viewport={cell} isTaken={nowhere} /> : null}
     </div>
   );
 }
+
+const nowhere = () => false;
 
 function staticView(frame: Box, width: number, height: number): Viewport {
   if (width === 0) return { x: 0, y: 0, zoom: 1 };

@@ -219,6 +219,37 @@ async def test_all_that_is_open_ends_within_3_s_and_later_edits_are_not_kept(
 
 
 @pytest.mark.servers
+async def test_a_wall_screen_that_is_turned_off_in_another_process_goes_dark(form: Form) -> None:
+    made = await asyncio.to_thread(make_wall_screen, form)
+    address = f"ws://127.0.0.1:{form.web.port}/ws/wall"
+    headers = {**form.web.headers(None), "Cookie": f"vipo_wall={made['key']}"}
+    async with connect(address, additional_headers=headers) as wall, asyncio.timeout(60):
+        assert json.loads(await wall.recv())["site"] == "Hall"
+        showing = asyncio.create_task(read_socket(wall))
+        await asyncio.to_thread(turn_off, form, made["id"])
+        ended_at = time.monotonic()
+        end = await showing
+    assert end.code == 4401
+    assert end.at - ended_at <= WITHIN_S
+    async with connect(address, additional_headers=headers) as again:
+        assert (await read_socket(again)).code == 4401
+
+
+def make_wall_screen(form: Form) -> dict[str, str]:
+    """Make a wall screen, and exchange its link for its key."""
+    with form.other.client("admin") as client:
+        made = client.post("/sites/hall/wall-screens", json={"name": "East wall"}).json()
+    with form.web.client(None) as screen:
+        screen.post("/wall/open", json={"code": made["link"].partition("#")[2]}).raise_for_status()
+        return {"id": made["id"], "key": screen.cookies["vipo_wall"]}
+
+
+def turn_off(form: Form, wall_screen: str) -> None:
+    with form.other.client("admin") as client:
+        client.delete(f"/sites/hall/wall-screens/{wall_screen}").raise_for_status()
+
+
+@pytest.mark.servers
 async def test_an_author_who_becomes_a_viewer_reads_on_and_draws_no_more(form: Form, people: dict[str, str]) -> None:
     web = form.web
     program = await asyncio.to_thread(web.new_program, "Lowered")

@@ -1,4 +1,4 @@
-"""Every operation of the API, asked by everybody about what is theirs and what is another site's."""
+"""Every operation of the API, asked by everybody and a wall screen about what is theirs and another site's."""
 
 from __future__ import annotations
 
@@ -11,17 +11,20 @@ from django.test import Client
 from registry import services
 from registry.floorplan.plan import Grid
 from registry.people.access import ROLES
+from registry.people.wall_screens import COOKIE, key_of
 from tests.kit.api_calls import ask_each, make_one_of_each
 from tests.kit.api_rights import OPERATIONS, RIGHTS
 from tests.kit.sign_in import add_person, find_person, signed_in
 
 ASKERS = {
     "nobody": ("", ""),
+    "wall": ("", ""),
     "shed-viewer": ("shed", "viewer"),
     "shed-admin": ("shed", "admin"),
     **{role: ("hall", role) for role in ROLES},
 }
-"""Who asks: their site and role."""
+"""Who asks: their site and role; nobody, and a wall screen of the hall, have none."""
+NO_SESSION = ("nobody", "wall")
 pytestmark = pytest.mark.usefixtures("impatient")
 
 
@@ -46,7 +49,7 @@ def token_of(person: str, site: str) -> str:
 
 def own_session(client: Client, person: str) -> str:
     """Return the id of the session of who asks."""
-    return "0" if person == "nobody" else str(client.get("/api/me/sessions").json()[0]["id"])
+    return "0" if person in NO_SESSION else str(client.get("/api/me/sessions").json()[0]["id"])
 
 
 def expected(name: str, person: str, site: str) -> int:
@@ -54,7 +57,7 @@ def expected(name: str, person: str, site: str) -> int:
     right, (home, role) = RIGHTS[name], ASKERS[person]
     if right.role == "anybody":
         return 0
-    if person == "nobody":
+    if person in NO_SESSION:
         return 401
     if not right.is_of_site:
         return 403 if right.role == "maker" else 0
@@ -75,12 +78,14 @@ def test_every_operation_stands_in_the_table_once() -> None:
 
 @pytest.mark.parametrize("site", ["hall", "shed"])
 @pytest.mark.parametrize("person", ASKERS)
-def test_each_person_may_do_what_the_table_says_and_nothing_else(
+def test_each_person_and_a_wall_screen_may_do_what_the_table_says_and_nothing_else(
     sites: dict[str, dict[str, str]], person: str, site: str
 ) -> None:
-    mine = person != "nobody" and ASKERS[person][0] == site
+    mine = person not in NO_SESSION and ASKERS[person][0] == site
     token = token_of(person if mine else "admin" if site == "hall" else "shed-admin", site)
-    client, odd, asked = signed_in(person), {}, 0
+    client, odd, asked = signed_in("nobody" if person == "wall" else person), {}, 0
+    if person == "wall":
+        client.cookies[COOKIE] = key_of(sites["hall"]["wall_code"])
     named = {**sites[site], "token_id": token, "session": own_session(client, person)}
     for name, answer in ask_each(client, named):
         asked += 1

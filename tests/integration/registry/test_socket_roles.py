@@ -1,4 +1,4 @@
-"""Every socket, stream and address of the directory, opened by everybody for what is theirs and another site's."""
+"""Every socket, stream and address of the directory, opened by everybody and a wall screen, at two sites."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from websockets.exceptions import ConnectionClosed
 from editor.documents.shared_document import empty_document, encode_document
 from editor.rooms import yjs_protocol
 from registry.people.access import ROLES
+from registry.people.wall_screens import COOKIE, key_of
 from tests.kit.api_rights import DIRECTORY, DRAWS, OPERATIONS, RIGHTS, SOCKETS, STREAMED, STREAMS, Right
 from tests.kit.files import ROOT, copy_migrated
 from tests.kit.waiting import wait_for
@@ -27,11 +28,13 @@ from tests.kit.web import Web, environment
 
 ASKERS = {
     "nobody": ("", ""),
+    "wall": ("", ""),
     "shed-viewer": ("shed", "viewer"),
     "shed-admin": ("shed", "admin"),
     **{role: ("hall", role) for role in ROLES},
 }
-"""Who asks: their site and role."""
+"""Who asks: their site and role; nobody, and a wall screen of the hall, have none."""
+NO_SESSION = ("nobody", "wall")
 SITES = ("hall", "shed")
 MAKE = """
 import json, sys
@@ -65,6 +68,9 @@ class Plant:
     token: str
 
     def headers(self, person: str) -> dict[str, str]:
+        if person == "wall":
+            cookie = f"{COOKIE}={key_of(self.ids['hall']['wall_code'])}"
+            return {**self.web.headers(None), "Cookie": cookie}
         return self.web.headers(None if person == "nobody" else person)
 
 
@@ -91,7 +97,9 @@ def expected(right: Right, person: str, site: str) -> int:
     home, role = ASKERS[person]
     if right.role == "anybody":
         return 0
-    if person == "nobody":
+    if right.role == "wall":
+        return 0 if person == "wall" else 401
+    if person in NO_SESSION:
         return 401
     if not right.is_of_site:
         return 0
@@ -153,7 +161,7 @@ async def first_word(plant: Plant, address: str, headers: dict[str, str]) -> int
                 pass
         except ConnectionClosed as closed:
             return closed.rcvd.code if closed.rcvd else -1
-        assert heard[:2] == b"\x00\x00" or json.loads(heard)["type"] == "hello", heard[:100]
+        assert heard[:2] == b"\x00\x00" or json.loads(heard)["type"] in ("hello", "map"), heard[:100]
         return 0
 
 
@@ -241,7 +249,9 @@ def test_each_person_opens_the_streams_of_their_site_and_no_other(plant: Plant, 
 def test_each_person_asks_the_directory_as_the_table_says(plant: Plant, person: str) -> None:
     odd = {}
     root = f"http://127.0.0.1:{plant.web.port}"
-    session = {} if person == "nobody" else {"sessionid": plant.web.sessions[person]}
+    session = {} if person in NO_SESSION else {"sessionid": plant.web.sessions[person]}
+    if person == "wall":
+        session = {COOKIE: key_of(plant.ids["hall"]["wall_code"])}
     with httpx.Client(base_url=root, cookies=session, timeout=20) as client:
         client.headers["X-CSRFToken"] = client.get("/api/me").json()["csrf"]
         for call, right in DIRECTORY.items():

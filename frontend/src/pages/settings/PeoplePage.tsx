@@ -19,6 +19,7 @@ import { useInvitations, useMembers, useRights } from "./people";
 import { RightsTable } from "./RightsTable";
 import { SettingsTabs } from "./SettingsTabs";
 import styles from "./settings.module.css";
+import { WallScreens } from "./WallScreens";
 
 export function PeoplePage() {
   const { slug = "" } = useParams();
@@ -79,6 +80,7 @@ function PeopleOfSite({ slug }: { slug: string }) {
           {members.isPending ? <TableSkeleton /> : null}
           {members.data ? <MemberTable slug={slug} members={members.data} manages={manages} /> : null}
           {manages ? <Inviting slug={slug} making={making} setMaking={setMaking} /> : null}
+          {manages ? <WallScreens slug={slug} /> : null}
           {rights.data ? <RightsTable deeds={rights.data} /> : null}
         </div>
         {manages ? <AuditPane slug={slug} /> : null}

@@ -6,10 +6,13 @@ import type {
   Deed,
   InvitationList,
   MadeInvitation,
+  MadeWallScreen,
   Member,
   MemberChange,
   MemberDetail,
   NewInvitation,
+  NewWallScreen,
+  WallScreen,
 } from "@/api/types";
 
 const EVERY_MS = 15_000;
@@ -47,6 +50,7 @@ export const KINDS = [
   "roles",
   "invitations",
   "tokens",
+  "wall_screens",
   "runs",
   "stops",
   "devices",
@@ -88,6 +92,16 @@ export const useRemoveMember = (slug: string) =>
 export const useLeave = (slug: string) => useChange(slug, () => api.post(`${siteOf(slug)}/leave`));
 export const useInvite = (slug: string) =>
   useChange(slug, (wanted: NewInvitation) => api.post<MadeInvitation>(`${siteOf(slug)}/invitations`, wanted));
+export const useWallScreens = (slug: string) =>
+  useQuery({
+    queryKey: [...keyOf(slug), "wallScreens"],
+    queryFn: () => api.get<WallScreen[]>(`${siteOf(slug)}/wall-screens`),
+    refetchInterval: EVERY_MS,
+  });
+export const useMakeWallScreen = (slug: string) =>
+  useChange(slug, (wanted: NewWallScreen) => api.post<MadeWallScreen>(`${siteOf(slug)}/wall-screens`, wanted));
+export const useTurnOff = (slug: string) =>
+  useChange(slug, (id: number) => api.delete(`${siteOf(slug)}/wall-screens/${id}`));
 export const useRevoke = (slug: string) =>
   useChange(slug, (id: number) => api.delete(`${siteOf(slug)}/invitations/${id}`));
 
