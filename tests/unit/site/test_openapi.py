@@ -77,6 +77,7 @@ def test_every_answer_has_a_shape(described):
         ("delete", "/api/sites/{slug}/places/{place_id}", "204"),
         ("patch", "/api/sites/{slug}/things/{thing}", "204"),
         ("delete", "/api/sites/{slug}/tokens/{token_id}", "204"),
+        ("delete", "/api/sites/{slug}/wall-screens/{wall_screen}", "204"),
         ("delete", "/api/sites/{slug}/zones/{zone_id}", "204"),
     ]
 
