@@ -101,12 +101,14 @@ from registry.maps.site_maps import (
 from registry.people.access import Access, NotAMember, find_access, list_with_role, require
 from registry.people.keyed_requests import prune_keyed_requests
 from registry.people.open_sessions import drop_expired
+from registry.people.second_factor import reset_factor
 from registry.people.sessions import Session, Standing, session_of_socket
 from registry.people.sign_in import (
     change_password,
     check_sign_in,
     close_account,
     create_user,
+    find_person,
     is_known,
     reopen_account,
 )
@@ -239,6 +241,7 @@ __all__ = [
     "find_ended",
     "find_member",
     "find_out",
+    "find_person",
     "find_place",
     "find_trouble",
     "find_unchanged",
@@ -318,6 +321,7 @@ __all__ = [
     "reopen_account",
     "require",
     "reserve_device",
+    "reset_factor",
     "restore_map",
     "retire_device",
     "revoke_credential",
