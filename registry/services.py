@@ -105,12 +105,14 @@ from registry.maps.zones import ZoneChange, add_zone, change_zone, find_zone, re
 from registry.people.access import Access, NotAMember, find_access, list_with_role, require
 from registry.people.keyed_requests import prune_keyed_requests
 from registry.people.open_sessions import drop_expired
+from registry.people.second_factor import reset_factor
 from registry.people.sessions import Session, Standing, session_of_socket
 from registry.people.sign_in import (
     change_password,
     check_sign_in,
     close_account,
     create_user,
+    find_person,
     is_known,
     reopen_account,
 )
@@ -251,6 +253,7 @@ __all__ = [
     "find_map",
     "find_member",
     "find_out",
+    "find_person",
     "find_place",
     "find_trouble",
     "find_unchanged",
@@ -338,6 +341,7 @@ __all__ = [
     "reopen_account",
     "require",
     "reserve_device",
+    "reset_factor",
     "restore_map",
     "retire_device",
     "revoke_credential",

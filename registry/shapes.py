@@ -188,6 +188,7 @@ class SignIn(Asked):
 
     email: Line = Field(max_length=254)
     password: Annotated[str, AsTyped()] = Field(max_length=1000)
+    code: Line = Field("", max_length=40, description="Of an authenticator app, or a recovery code.")
 
 
 class NewPassword(Asked):

@@ -24,7 +24,8 @@ class MemberShape(Schema):
     """A member of a site; `me` marks who asks.
 
     `seen_at` is when a page of theirs last showed the site, to the minute; `ends_at` when their access ends, null for
-    no end; `came_by` who invited them, if they came by a link; `is_closed` says that they sign in no more.
+    no end; `came_by` who invited them, if they came by a link; `is_closed` says that they sign in no more,
+    `second_factor` whether they have one.
     """
 
     id: int
@@ -37,6 +38,7 @@ class MemberShape(Schema):
     ends_at: datetime | None
     came_by: str
     is_closed: bool
+    second_factor: bool
     me: bool
 
 
@@ -114,6 +116,15 @@ def remove_member(request: HttpRequest, slug: str, person: int) -> dict[str, Any
     user = signed_in(request)
     require(user, slug, "admin")
     return asdict(members.drop_member(site=slug, person=person, by=user))
+
+
+@router.delete("/sites/{slug}/members/{int:person}/second-factor", response={204: None}, auth=session_only)
+def reset_second_factor(request: HttpRequest, slug: str, person: int) -> Status[None]:
+    """Take the second factor away from a member who has lost it, as an admin of all their sites; their sessions end."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    members.reset_second_factor(site=slug, person=person, by=user)
+    return Status(204, None)
 
 
 @router.post("/sites/{slug}/leave", response={204: None}, auth=session_only)

@@ -32,6 +32,9 @@ TELLS_SECRETS = frozenset(
         "reserve_device",
         "renew_enrolment_key",
         "make_wall_screen",
+        "begin_second_factor",
+        "confirm_second_factor",
+        "renew_recovery_codes",
     )
 )
 """Calls whose answer is told this once, and therefore not kept."""

@@ -66,7 +66,10 @@ def _offered_accounts(request: HttpRequest) -> list[dict[str, str]]:
 
 @router.post("/sign-in", response=Me, auth=None)
 def sign_in(request: HttpRequest, response: HttpResponse, body: SignIn) -> dict[str, Any]:
-    """Begin a session; too many wrong passwords are refused for a while, which `Retry-After` names."""
+    """Begin a session; too many wrong passwords or codes are refused for a while, which `Retry-After` names.
+
+    Of whom a second factor is asked, the answer without `code` is 401, `second_factor_needed`.
+    """
     if check_csrf(request):
         raise HttpError(403, "The page is out of date. Reload it and sign in again.")
     user = check_sign_in(
@@ -75,6 +78,7 @@ def sign_in(request: HttpRequest, response: HttpResponse, body: SignIn) -> dict[
         address=client_address(request),
         now=timezone.now(),
         device=find_device(request, body.email),
+        code=body.code,
     )
     begin_session(request, response, user)
     return _me(request)

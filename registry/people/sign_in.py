@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from datetime import datetime
 
 from django.contrib.auth import authenticate
@@ -14,6 +16,7 @@ from registry.errors import RegistryError
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import User
 from registry.people.passwords import check_new_password
+from registry.people.second_factor import check_code
 from registry.people.throttle import Attempt, counted
 
 MOST_NAME = 100
@@ -63,7 +66,7 @@ def is_known(*, email: str) -> bool:
 
 def change_password(*, email: str, password: str) -> None:
     """Give a known person another password; their sessions end. Raises BadPerson, BadPassword."""
-    user = _find(email)
+    user = find_person(email=email)
     check_new_password(password, user)
     user.set_password(password)
     user.save(update_fields=["password"])
@@ -72,7 +75,7 @@ def change_password(*, email: str, password: str) -> None:
 
 def close_account(*, email: str) -> None:
     """Let a person sign in no more; their sessions end for good, and what they made stays. Raises BadPerson."""
-    user = _find(email)
+    user = find_person(email=email)
     user.is_active = False
     user.set_unusable_password()
     user.save(update_fields=["is_active", "password"])
@@ -87,9 +90,20 @@ def reopen_account(*, email: str, password: str) -> None:
 
 def check_own_password(*, user: User, password: str, address: str, now: datetime) -> None:
     """Make sure that somebody who is signed in knows their password. Raises WrongOldPassword, TooManyAttempts."""
+    with checking_own_password(user=user, password=password, address=address, now=now):
+        pass
+
+
+@contextmanager
+def checking_own_password(*, user: User, password: str, address: str, now: datetime) -> Iterator[None]:
+    """Do something that asks for the own password; what fails within counts as an attempt, as a wrong code does.
+
+    Raises WrongOldPassword, TooManyAttempts.
+    """
     with counted(Attempt(user.email, address, f"own:{user.pk}"), now):
         if not user.check_password(password):
             raise WrongOldPassword("The password that you have now is another one. Try again.", {"why": "old"})
+        yield
 
 
 def sign_out_everywhere(*, user: User) -> None:
@@ -98,20 +112,25 @@ def sign_out_everywhere(*, user: User) -> None:
     _tell_sessions()
 
 
-def check_sign_in(*, email: str, password: str, address: str, now: datetime, device: str = "") -> User:
-    """Return the person whose password this is; attempts are counted. Raises WrongPassword, TooManyAttempts.
+def check_sign_in(*, email: str, password: str, address: str, now: datetime, device: str = "", code: str = "") -> User:
+    """Return the person whose password this is; `code` is of their second factor, if they have one.
 
-    `device` is a browser from which this person has signed in before; such are counted for themselves.
+    Attempts are counted, those without a needed code, too. `device` is a browser from which this person has signed in
+    before; such are counted for themselves.
+
+    Raises WrongPassword, SecondFactorNeeded, WrongCode, TooManyAttempts.
     """
     email = email.strip().lower().replace("\0", "")[:254]
     with counted(Attempt(email, address, device), now):
         user = authenticate(username=email, password=password)
         if not isinstance(user, User):
             raise WrongPassword("The e-mail address or the password is wrong. Check both and try again.")
+        check_code(user=user, code=code, now=now)
         return user
 
 
-def _find(email: str) -> User:
+def find_person(*, email: str) -> User:
+    """Return who signs in with this address. Raises BadPerson."""
     user = User.objects.filter(email=email.strip().lower()).first()
     if user is None:
         raise BadPerson(f"Nobody signs in as {email[:100]!r}. Check the address.")

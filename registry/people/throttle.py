@@ -84,7 +84,7 @@ def _note_locked(email: str, now: datetime) -> None:
     """Tell the sites of somebody that guessing their password is held up; once while it lasts."""
     members = Membership.objects.filter(user__email=email).select_related("user")
     for member in members:
-        lines = AuditLine.objects.filter(site_id=member.site_id, kind="sign_in", at__gt=now - WINDOW)
+        lines = AuditLine.objects.filter(site_id=member.site_id, code="sign_in_locked", at__gt=now - WINDOW)
         if not lines.filter(person_id=member.user_id).exists():
             address = who_acts().address
             who = Actor("vipo", person=member.user_id, address=address)

@@ -18,7 +18,8 @@ from registry.audit.record import note_act
 from registry.errors import RegistryError
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import ApiToken, Invitation, Membership, Site, User
-from registry.people.access import ROLES, NotAMember, allows, has_not_ended, require
+from registry.people.access import ROLES, NotAllowed, NotAMember, allows, find_access, has_not_ended, require
+from registry.people.second_factor import reset_factor
 from registry.sites.sites import BadName, UnknownPerson, find_site
 
 LONGEST = timedelta(days=3660)
@@ -51,7 +52,10 @@ _MOST_IDS = 2**63
 
 @dataclass(frozen=True, slots=True)
 class MemberView:
-    """A member; `came_by` is who invited them, if they came by a link, `is_closed` says that they sign in no more."""
+    """A member; `came_by` is who invited them, if they came by a link, `is_closed` says that they sign in no more.
+
+    `second_factor` tells whether they have one.
+    """
 
     id: int
     name: str
@@ -63,6 +67,7 @@ class MemberView:
     ends_at: datetime | None
     came_by: str
     is_closed: bool
+    second_factor: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +97,7 @@ def list_people(*, site: str) -> tuple[PersonView, ...]:
 
 def list_members(*, site: str, only: User | None = None) -> tuple[MemberView, ...]:
     """Return the members of a site by name, or one of them alone; also those whose access has ended."""
-    rows = Membership.objects.filter(site__slug=site).select_related("user", "came_by__made_by")
+    rows = Membership.objects.filter(site__slug=site).select_related("user__second_factor", "came_by__made_by")
     if only is not None:
         rows = rows.filter(user_id=only.pk)
     return tuple(_view(row) for row in rows.order_by("user__display_name", "user__email"))
@@ -143,6 +148,23 @@ def change_member(
             )
         _tell(site)
     return _view(member)
+
+
+def reset_second_factor(*, site: str, person: int, by: User) -> None:
+    """Take the second factor away from a member who has lost it, as an admin of all their sites; their sessions end.
+
+    Raises NoSuchMember, NotAMember, NotAllowed, NoFactor.
+    """
+    with transaction.atomic():
+        require(by, site, "admin")
+        member = _find(_rows(site), person)
+        theirs = Membership.objects.filter(user_id=member.user_id).values_list("site__slug", flat=True)
+        if any((access := find_access(by, each)) is None or not access.allows("admin") for each in theirs):
+            raise NotAllowed(
+                f"{member.user.display_name} is a member of sites that are not yours. Who serves VIPO can reset "
+                "the second factor: vipo account EMAIL --no-second-factor"
+            )
+        reset_factor(user=member.user)
 
 
 def drop_member(*, site: str, person: int, by: User) -> Ending:
@@ -289,4 +311,5 @@ def _view(row: Membership) -> MemberView:
         ends_at=row.ends_at,
         came_by=maker.display_name if maker else "",
         is_closed=not row.user.is_active,
+        second_factor=bool((factor := getattr(row.user, "second_factor", None)) and factor.confirmed_at),
     )

@@ -72,6 +72,11 @@ BODIES: dict[str, dict[str, Any]] = {
     "accept_invitation": {"code": "{code}"},
     "join_as_new": {"code": "{code}", "name": "New One", "email": "new-one@vipo.example", "password": "four odd words"},
     "sign_in": {"email": "a", "password": "b"},
+    "begin_second_factor": {"password": "not this one"},
+    **{
+        name: {"password": "not this one", "code": "123456"}
+        for name in ("confirm_second_factor", "renew_recovery_codes", "turn_off_second_factor")
+    },
     "change_my_password": {"old": "not this one", "new": "another-horse-9"},
 }
 """What is sent, where an empty object does not say enough; a name in braces stands for an id."""

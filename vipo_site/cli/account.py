@@ -23,6 +23,7 @@ def add_account_arguments(sub: argparse.ArgumentParser) -> None:
     ending.add_argument("--new-password", action="store_true", help="another password; who is signed in is signed out")
     ending.add_argument("--close", action="store_true", help="they are signed out and sign in no more; work stays")
     ending.add_argument("--reopen", action="store_true", help="they may sign in again, with a new password")
+    sub.add_argument("--no-second-factor", action="store_true", help="take it away: who lost theirs is signed out")
     sub.set_defaults(run=set_account)
 
 
@@ -61,6 +62,9 @@ def _decide(options: argparse.Namespace) -> list[str]:
     elif options.new_password:
         services.change_password(email=email, password=password)
         told = [f"The new password of {email}, shown this once: {password}"]
+    if options.no_second_factor:
+        services.reset_factor(user=services.find_person(email=email))
+        told.append(f"{email} has no second factor any more.")
     if options.sites is not None:
         services.set_site_quota(email=email, sites=options.sites)
         told.append(f"{email} may make {options.sites} sites in all.")

@@ -230,6 +230,90 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/me/second-factor": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Second Factor
+         * @description Say whether the asker has a second factor.
+         */
+        get: operations["show_second_factor"];
+        put?: never;
+        /**
+         * Begin Second Factor
+         * @description Make a secret for an authenticator app; it counts once a code of it was sent to `…/confirm`.
+         */
+        post: operations["begin_second_factor"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/me/second-factor/confirm": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Confirm Second Factor
+         * @description Turn the second factor on by a code of the app; all other sessions end, and this one goes on.
+         */
+        post: operations["confirm_second_factor"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/me/second-factor/off": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Turn Off Second Factor
+         * @description Turn the second factor off; sessions and tokens go on.
+         */
+        post: operations["turn_off_second_factor"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/me/second-factor/recovery-codes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Renew Recovery Codes
+         * @description Give ten other recovery codes; those before end.
+         */
+        post: operations["renew_recovery_codes"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/me/sessions": {
         parameters: {
             query?: never;
@@ -1031,7 +1115,9 @@ export interface paths {
         put?: never;
         /**
          * Sign In
-         * @description Begin a session; too many wrong passwords are refused for a while, which `Retry-After` names.
+         * @description Begin a session; too many wrong passwords or codes are refused for a while, which `Retry-After` names.
+         *
+         *     Of whom a second factor is asked, the answer without `code` is 401, `second_factor_needed`.
          */
         post: operations["sign_in"];
         delete?: never;
@@ -2318,6 +2404,26 @@ export interface paths {
         patch: operations["change_member"];
         trace?: never;
     };
+    "/api/sites/{slug}/members/{person}/second-factor": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Reset Second Factor
+         * @description Take the second factor away from a member who has lost it, as an admin of all their sites; their sessions end.
+         */
+        delete: operations["reset_second_factor"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/mtconnect/current": {
         parameters: {
             query?: never;
@@ -3502,6 +3608,11 @@ export interface components {
             text?: string | null;
             value?: unknown;
         };
+        /** @description Since when the asker has a second factor, null for none, and how many recovery codes are left. */
+        FactorShape: {
+            recovery_codes: number;
+            since: string | null;
+        };
         /**
          * @description One thing that is wrong or was mended: a sentence, and where: a line and column from 1 (0: none), or a path.
          *
@@ -3848,13 +3959,15 @@ export interface components {
             name: string;
             /** @enum {string} */
             role: "viewer" | "commenter" | "operator" | "author" | "admin";
+            second_factor: boolean;
             seen_at: string | null;
         };
         /**
          * @description A member of a site; `me` marks who asks.
          *
          *     `seen_at` is when a page of theirs last showed the site, to the minute; `ends_at` when their access ends, null for
-         *     no end; `came_by` who invited them, if they came by a link; `is_closed` says that they sign in no more.
+         *     no end; `came_by` who invited them, if they came by a link; `is_closed` says that they sign in no more,
+         *     `second_factor` whether they have one.
          */
         MemberShape: {
             came_by: string;
@@ -3868,6 +3981,7 @@ export interface components {
             name: string;
             /** @enum {string} */
             role: "viewer" | "commenter" | "operator" | "author" | "admin";
+            second_factor: boolean;
             seen_at: string | null;
         };
         /** @description Something a device can be told to do. */
@@ -3892,6 +4006,12 @@ export interface components {
             /** @default false */
             again: boolean;
             id: string;
+        };
+        /** @description What an app is given; told this once. `picture` is a QR code of `address`, as a data URI. */
+        NewFactorShape: {
+            address: string;
+            picture: string;
+            secret: string;
         };
         /** @description For which role an invitation is, how many days and people; with `email` it is sent there. */
         NewInvitation: {
@@ -4005,6 +4125,10 @@ export interface components {
             tries: number;
             waits_s: number;
         };
+        /** @description The password that somebody has. */
+        OwnPassword: {
+            password: string;
+        };
         /**
          * @description One of the asker's sessions; `here` marks the one that asks. `browser` and `system` may be empty.
          *
@@ -4066,6 +4190,11 @@ export interface components {
             before: string;
             /** @default 200 */
             limit: number;
+        };
+        /** @description The password that somebody has, and a code of their app or a recovery code. */
+        PasswordAndCode: {
+            code: string;
+            password: string;
         };
         /** @description Which approvals let a run start: how many were demanded and whose were there; or the reason of an emergency. */
         PermitShape: {
@@ -4277,6 +4406,10 @@ export interface components {
             name: string;
             oldest_s: number | null;
             waiting: number;
+        };
+        /** @description Ten codes that stand in for the app, each once; told this once. */
+        RecoveryCodes: {
+            codes: string[];
         };
         /** @description Something that the real run would meet, too. */
         RehearsalError: {
@@ -4671,6 +4804,11 @@ export interface components {
         };
         /** @description What somebody signs in with. */
         SignIn: {
+            /**
+             * @description Of an authenticator app, or a recovery code.
+             * @default
+             */
+            code: string;
             email: string;
             password: string;
         };
@@ -5616,6 +5754,218 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Me"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_second_factor: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FactorShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    begin_second_factor: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["OwnPassword"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["NewFactorShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    confirm_second_factor: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PasswordAndCode"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecoveryCodes"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    turn_off_second_factor: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PasswordAndCode"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FactorShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    renew_recovery_codes: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PasswordAndCode"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecoveryCodes"];
                 };
             };
             400: components["responses"]["Refused400"];
@@ -10832,6 +11182,48 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["MemberShape"];
                 };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    reset_second_factor: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                person: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];

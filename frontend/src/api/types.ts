@@ -50,6 +50,9 @@ export type Enrolment = Schemas["Door"];
 export type DescriptionLook = Schemas["LookShape"];
 
 export type OwnSession = Schemas["OwnSession"];
+export type Factor = Schemas["FactorShape"];
+export type NewFactor = Schemas["NewFactorShape"];
+export type RecoveryCodes = Schemas["RecoveryCodes"];
 export type Token = Schemas["TokenShape"];
 export type TokenScope = Token["scopes"][number];
 export type NewToken = Schemas["NewToken"];

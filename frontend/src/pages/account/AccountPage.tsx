@@ -12,6 +12,7 @@ import { problemText } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { SignOutQuestion, useSignOut } from "@/shell/SignOut";
 import styles from "./account.module.css";
+import { SecondFactor } from "./SecondFactor";
 import { SessionList } from "./SessionList";
 
 const EMPTY = { old: "", new: "" };
@@ -136,6 +137,7 @@ export function AccountPage() {
             <span>{user.email}</span>
           </div>
           <PasswordForm user={user} />
+          <SecondFactor />
           <Sessions />
         </div>
       ) : null}

@@ -11,7 +11,7 @@ import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatMoment } from "@/i18n/format";
 import { problemText } from "@/shell/LoadProblem";
 import pages from "../pages.module.css";
-import { endOfDay, useChangeMember, useLeave, useMember, useRemoveMember } from "./people";
+import { endOfDay, useChangeMember, useLeave, useMember, useRemoveMember, useResetFactor } from "./people";
 import styles from "./settings.module.css";
 
 interface OfMember {
@@ -178,5 +178,35 @@ export function AskLeave({ slug, onClose }: Omit<OfMember, "member">) {
     >
       <p>{t("people.leave.text")}</p>
     </Ask>
+  );
+}
+
+export function AskReset({ slug, member, onClose }: OfMember) {
+  const { t } = useTranslation();
+  useReturnFocus();
+  const reset = useResetFactor(slug);
+  const { name } = member;
+  const go = () =>
+    reset.mutate(member.id, {
+      onSuccess: () => {
+        notifications.show({ message: t("factor.reset.done", { name }) });
+        onClose();
+      },
+    });
+  return (
+    <Modal opened onClose={onClose} title={t("factor.reset.title", { name })} size={440}>
+      <div className={pages.form}>
+        <p>{t("factor.reset.text", { name })}</p>
+        <Problem error={reset.error} />
+        <div className={pages.buttons}>
+          <Button variant="default" data-autofocus onClick={onClose}>
+            {t("factor.reset.keep")}
+          </Button>
+          <Button color="red" loading={reset.isPending} onClick={go}>
+            {t("factor.reset.go")}
+          </Button>
+        </div>
+      </div>
+    </Modal>
   );
 }

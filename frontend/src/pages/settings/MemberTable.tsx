@@ -1,7 +1,7 @@
 /** The members of a site: who they are, what they may do, and when they were there last. */
 import { Menu, TextInput } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
-import { CalendarClock, Ellipsis, LogOut, Search, UserMinus } from "lucide-react";
+import { CalendarClock, Ellipsis, KeyRound, LogOut, Search, UserMinus } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Member, Role } from "@/api/types";
@@ -13,7 +13,7 @@ import { useNow } from "@/design/useNow";
 import { formatAgo, formatMoment } from "@/i18n/format";
 import { problemText } from "@/shell/LoadProblem";
 import pages from "../pages.module.css";
-import { AccessEnd, AskLeave, AskRemove } from "./MemberDialogs";
+import { AccessEnd, AskLeave, AskRemove, AskReset } from "./MemberDialogs";
 import { findMembers, isLastAdmin, useChangeMember } from "./people";
 import { RoleChip, RoleSelect } from "./RoleSelect";
 import styles from "./settings.module.css";
@@ -24,7 +24,7 @@ const COLUMNS = ["name", "mail", "role", "seen", "act"];
 /** From so many on there is a field to find them by. */
 const MANY = 6;
 
-export type Doing = { do: "end" | "remove" | "leave"; member: Member };
+export type Doing = { do: "end" | "remove" | "leave" | "reset"; member: Member };
 
 function isHere(member: Member, now: number): boolean {
   return member.seen_at !== null && now - new Date(member.seen_at).getTime() < HERE_MS;
@@ -61,7 +61,7 @@ interface RowProps {
 function More({ member, manages, begin }: Pick<RowProps, "member" | "manages" | "begin">) {
   const { t } = useTranslation();
   return (
-    <Menu width={200} position="bottom-end">
+    <Menu width={230} position="bottom-end">
       <Menu.Target>
         <IconButton label={t("people.more", { name: member.name })}>
           <Ellipsis size={17} aria-hidden="true" />
@@ -71,6 +71,11 @@ function More({ member, manages, begin }: Pick<RowProps, "member" | "manages" | 
         {manages ? (
           <Menu.Item leftSection={<CalendarClock size={15} />} onClick={() => begin({ do: "end", member })}>
             {t("people.end.menu")}
+          </Menu.Item>
+        ) : null}
+        {manages && member.second_factor && !member.me ? (
+          <Menu.Item leftSection={<KeyRound size={15} />} onClick={() => begin({ do: "reset", member })}>
+            {t("factor.reset.menu")}
           </Menu.Item>
         ) : null}
         {member.me ? (
@@ -147,6 +152,7 @@ function useSetRole(slug: string) {
 function Doing({ slug, doing, onClose }: { slug: string; doing: Doing; onClose: () => void }) {
   const { member } = doing;
   if (doing.do === "end") return <AccessEnd {...{ slug, member, onClose }} />;
+  if (doing.do === "reset") return <AskReset {...{ slug, member, onClose }} />;
   if (doing.do === "remove") return <AskRemove {...{ slug, member, onClose }} />;
   return <AskLeave {...{ slug, onClose }} />;
 }

@@ -13,6 +13,7 @@ const member = (id: number, some: Partial<Member> = {}): Member => ({
   ends_at: null,
   came_by: "",
   is_closed: false,
+  second_factor: false,
   me: false,
   ...some,
 });

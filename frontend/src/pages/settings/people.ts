@@ -89,6 +89,8 @@ export const useChangeMember = (slug: string) =>
   );
 export const useRemoveMember = (slug: string) =>
   useChange(slug, (id: number) => api.delete(`${siteOf(slug)}/members/${id}`));
+export const useResetFactor = (slug: string) =>
+  useChange(slug, (id: number) => api.delete(`${siteOf(slug)}/members/${id}/second-factor`));
 export const useLeave = (slug: string) => useChange(slug, () => api.post(`${siteOf(slug)}/leave`));
 export const useInvite = (slug: string) =>
   useChange(slug, (wanted: NewInvitation) => api.post<MadeInvitation>(`${siteOf(slug)}/invitations`, wanted));

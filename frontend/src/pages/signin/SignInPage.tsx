@@ -6,7 +6,7 @@ import { useEffect, useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { Navigate, useLocation, useSearchParams } from "react-router-dom";
 import { LoadProblem, problemText, Waiting } from "@/shell/LoadProblem";
-import { api, rememberCsrf } from "@/api/client";
+import { api, ApiProblem, rememberCsrf } from "@/api/client";
 import { keys, useMe } from "@/api/queries";
 import type { Me } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
@@ -18,6 +18,7 @@ import styles from "./SignInPage.module.css";
 interface Credentials {
   email: string;
   password: string;
+  code?: string;
 }
 
 function useSignIn() {
@@ -64,6 +65,9 @@ function SignInForm({ me }: { me: Me }) {
   const [who, setWho] = useState<Credentials>({ email: "", password: "" });
   const signIn = useSignIn();
   const waiting = useWaitingCount();
+  const refusedFor = signIn.error instanceof ApiProblem ? signIn.error.code : "";
+  const [asksCode, setAsksCode] = useState(false);
+  if (refusedFor === "second_factor_needed" && !asksCode) setAsksCode(true);
   const submit = (event: FormEvent) => {
     event.preventDefault();
     signIn.mutate(who);
@@ -90,7 +94,11 @@ function SignInForm({ me }: { me: Me }) {
           required
           withAsterisk={false}
           value={who.email}
-          onChange={(event) => setWho({ ...who, email: event.target.value })}
+          onChange={(event) => {
+            setWho({ ...who, email: event.target.value, code: "" });
+            setAsksCode(false);
+            signIn.reset();
+          }}
         />
         <PasswordInput
           label={t("pages.signIn.password")}
@@ -100,7 +108,22 @@ function SignInForm({ me }: { me: Me }) {
           value={who.password}
           onChange={(event) => setWho({ ...who, password: event.target.value })}
         />
-        {signIn.isError ? (
+        {asksCode ? (
+          <TextInput
+            label={t("factor.signIn")}
+            description={t("factor.signInHint")}
+            autoComplete="one-time-code"
+            autoFocus
+            required
+            withAsterisk={false}
+            maxLength={40}
+            value={who.code ?? ""}
+            error={refusedFor === "wrong_code"}
+            onChange={(event) => setWho({ ...who, code: event.target.value })}
+          />
+        ) : null}
+        {asksCode ? <p>{t("factor.lost")}</p> : null}
+        {signIn.isError && refusedFor !== "second_factor_needed" ? (
           <p className={styles.refused} role="alert">
             <CircleAlert size={16} aria-hidden="true" />
             {problemText(signIn.error, t("shell.problem.screen"))}
