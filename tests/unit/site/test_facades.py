@@ -21,8 +21,8 @@ POSITIONAL = {
     # A view as JSON, or something made of one other thing: there is nothing to mistake.
     "account_file", "alert_to_json", "call_to_json", "device_to_json", "get_walls", "site_to_json",
     # Words that all apps speak with: who may do this, and who is told that.
-    "acting", "find_access", "has_ended", "listen", "publish", "publish_all", "require", "session_of_socket", "subscribe",
-    "wait_wake", "wake",
+    "acting", "find_access", "has_ended", "listen", "publish", "publish_all", "require", "session_of_socket",
+    "subscribe", "wait_wake", "wake",
 }  # fmt: skip
 MOST_MODULES = 20
 
