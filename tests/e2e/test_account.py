@@ -7,6 +7,7 @@ import subprocess
 import sys
 from itertools import count
 
+import pyotp
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 
@@ -93,6 +94,52 @@ def test_one_session_is_ended_from_the_list_by_keyboard(
     expect(other.get_by_role("button", name="Sign in", exact=True)).to_be_visible()
     for context in (here, there):
         context.close()
+
+
+def test_a_second_factor_is_set_up_by_keyboard_and_asked_for_when_signing_in(
+    demo: Demo, chromium: Browser, email: str, password: str, faults: list[str]
+) -> None:
+    here = chromium.new_context(locale="en-GB")
+    listen(here, faults)
+    page = come_in(here, demo, email, password)
+    page.get_by_role("button", name="Set up a second factor").press("Enter")
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_label("Your password")).to_be_focused()
+    page.keyboard.type(password)
+    page.keyboard.press("Enter")
+    expect(dialog.get_by_role("img", name="QR code for the authenticator app")).to_be_visible()
+    assert violations(page) == []
+    shoot(page, "factor-picture")
+    app = pyotp.TOTP(dialog.get_by_label("Secret").input_value())
+    expect(dialog.get_by_label("Code", exact=True)).to_be_focused()
+    page.keyboard.type(app.now())
+    page.keyboard.press("Enter")
+    codes = dialog.get_by_role("list", name="Your recovery codes").get_by_role("listitem")
+    expect(codes).to_have_count(10)
+    stands_in = codes.first.inner_text()
+    shoot(page, "factor-codes")
+    dialog.get_by_role("button", name="I have them").press("Enter")
+    expect(page.get_by_role("region", name="Second factor")).to_contain_text("10 recovery codes are left.")
+    there = chromium.new_context(locale="en-GB")
+    other = there.new_page()
+    other.set_default_timeout(PATIENCE_MS)
+    other.goto(f"{demo.url}/sign-in?next=/account")
+    other.get_by_label("Email address").fill(email)
+    other.get_by_label("Password", exact=True).fill(password)
+    other.keyboard.press("Enter")
+    expect(other.get_by_label("Code of your authenticator app")).to_be_focused()
+    assert violations(other) == []
+    shoot(other, "factor-sign-in")
+    other.keyboard.type(stands_in)
+    other.keyboard.press("Enter")
+    expect(other.get_by_role("region", name="Second factor")).to_contain_text("9 recovery codes are left.")
+    for context in (here, there):
+        context.close()
+
+
+def shoot(page: Page, name: str) -> None:
+    if shots := os.environ.get("VIPO_SHOTS"):
+        page.screenshot(path=f"{shots}/{name}.png")
 
 
 def test_the_page_is_sound_in_both_themes_sizes_and_languages(sign_in: SignIn) -> None:

@@ -1,0 +1,1 @@
+"""The map of a site over HTTP, with the places and zones on it."""
