@@ -9,6 +9,7 @@ import { api, ApiProblem } from "@/api/client";
 import type { Factor, NewFactor, RecoveryCodes } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { SecretField } from "@/design/SecretField";
+import { takeKeyboard } from "@/design/takeKeyboard";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatMoment } from "@/i18n/format";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
@@ -92,7 +93,8 @@ function ProofForm({ code, go, error, busy, children, password, onSend, onClose 
           required
           withAsterisk={false}
           maxLength={40}
-          data-autofocus={password !== undefined || undefined}
+          // The dialog is open already where the password is known: nothing else brings the keyboard here.
+          ref={password === undefined ? undefined : takeKeyboard}
           value={proof.code}
           error={refusedFor === "wrong_code"}
           onChange={(event) => setProof({ ...proof, code: event.target.value })}
@@ -115,7 +117,9 @@ function CodesShown({ codes, note, onClose }: { codes: readonly string[]; note?:
   const { t } = useTranslation();
   return (
     <div className={pages.form}>
-      <p>{t("factor.codesText")}</p>
+      <p ref={takeKeyboard} tabIndex={-1}>
+        {t("factor.codesText")}
+      </p>
       <ol className={styles.codes} aria-label={t("factor.codes")}>
         {codes.map((code) => (
           <li key={code}>

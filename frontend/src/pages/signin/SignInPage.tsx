@@ -12,6 +12,7 @@ import type { Me } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
 import { Logo } from "@/design/Logo";
 import { Panel } from "@/design/Panel";
+import { takeKeyboard } from "@/design/takeKeyboard";
 import { useWaitingCount } from "@/shell/waitingCopies";
 import styles from "./SignInPage.module.css";
 
@@ -113,7 +114,7 @@ function SignInForm({ me }: { me: Me }) {
             label={t("factor.signIn")}
             description={t("factor.signInHint")}
             autoComplete="one-time-code"
-            autoFocus
+            ref={takeKeyboard}
             required
             withAsterisk={false}
             maxLength={40}
