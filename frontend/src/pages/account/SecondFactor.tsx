@@ -117,7 +117,7 @@ function CodesShown({ codes, note, onClose }: { codes: readonly string[]; note?:
   const { t } = useTranslation();
   return (
     <div className={pages.form}>
-      <p ref={takeKeyboard} tabIndex={-1}>
+      <p ref={takeKeyboard} className={styles.told} tabIndex={-1}>
         {t("factor.codesText")}
       </p>
       <ol className={styles.codes} aria-label={t("factor.codes")}>
