@@ -10,20 +10,20 @@ from registry.people.roles import ROLES
 
 ROOT = Path(__file__).resolve().parent.parent
 GUIDE = ROOT / "docs" / "administration.md"
-WORDS = ROOT / "frontend" / "src" / "i18n" / "en" / "people.json"
+WORDS = ROOT / "frontend" / "src" / "i18n" / "en"
 BEGIN, END = "<!-- rights -->", "<!-- end of rights -->"
 
 
 def print_rights() -> str:
     """Return the table as Markdown: the sentences of the screen, the roles, and what a token needs."""
-    words = json.loads(WORDS.read_text())
-    heads = ["what", *(words["role"][role].lower() for role in ROLES), "token"]
+    roles, deeds = (json.loads((WORDS / name).read_text()) for name in ("role.json", "screens/people.json"))
+    heads = ["what", *(roles[role].lower() for role in ROLES), "token"]
     lines = [_row(heads), _row(["---"] * len(heads))]
     for deed in DEEDS:
         if deed.roles:
             marks = ["yes" if role in deed.roles else "no" for role in ROLES]
             scope = "none" if deed.right.scope == "session" else f"`{deed.right.scope}`"
-            lines.append(_row([words["deed"][deed.name], *marks, scope]))
+            lines.append(_row([deeds["deed"][deed.name], *marks, scope]))
     return "\n".join(lines)
 
 

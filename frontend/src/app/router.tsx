@@ -1,6 +1,7 @@
 /** Which address shows which screen. A screen is loaded when it is first needed. */
 import { lazy, Suspense, type ComponentType } from "react";
 import { createBrowserRouter, Navigate, type RouteObject } from "react-router-dom";
+import { loadScreenTexts } from "@/i18n";
 import { Waiting } from "@/shell/LoadProblem";
 import { RequireUser } from "./RequireUser";
 import { RouteProblem } from "./RouteProblem";
@@ -15,6 +16,8 @@ const screens: Screens = import.meta.glob<Record<string, ComponentType>>([
   "../simulation/SimulationScreen.tsx",
 ]);
 
+/** The one screen that has all of its texts from the start, so that drawing begins soon. */
+const EDITOR = "editor/EditorScreen";
 const ROUTES: readonly [path: string, file: string][] = [
   ["/", "pages/home/HomePage"],
   ["/account", "pages/account/AccountPage"],
@@ -31,7 +34,7 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/operations", "pages/operations/OperationsPage"],
   ["/sites/:slug/retention", "pages/retention/RetentionPage"],
   ["/sites/:slug/review", "pages/review/ReviewRulePage"],
-  ["/programs/:id", "editor/EditorScreen"],
+  ["/programs/:id", EDITOR],
   ["/programs/:id/compare", "compare/CompareScreen"],
   ["/sites/:slug/history/:id", "pages/history/HistoryPage"],
   ["/programs/:id/simulate/:rehearsal?", "simulation/SimulationScreen"],
@@ -43,7 +46,10 @@ function route(path: string, file: string): RouteObject[] {
   const load = screens[`../${file}.tsx`];
   const name = file.slice(file.lastIndexOf("/") + 1);
   if (!load) return [];
-  const Screen = lazy(async () => ({ default: pick(await load(), name) }));
+  const Screen = lazy(async () => {
+    const [module] = await Promise.all([load(), file === EDITOR ? null : loadScreenTexts()]);
+    return { default: pick(module, name) };
+  });
   return [
     {
       path,

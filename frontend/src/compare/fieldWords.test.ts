@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import type { ConstructChange, ValueChange } from "@/api/types";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
 import { surroundingsOf } from "@/program/surroundings";
-import compareEnglish from "@/i18n/en/compare.json";
+import compareEnglish from "@/i18n/en/screens/compare.json";
 import { STEP_KINDS } from "@/program/kinds";
 import { fieldLines, otherName } from "./fieldWords";
 import { reversed } from "./useRestore";

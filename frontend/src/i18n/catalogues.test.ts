@@ -1,7 +1,14 @@
 /** The languages say the same things, and every text that the screens ask for is there. */
 import { expect, test } from "vitest";
-import { texts as english } from "./catalogue.en";
-import { texts as german } from "./catalogue.de";
+import { texts as englishBase } from "./catalogue.en";
+import { texts as englishScreens } from "./catalogue.screens.en";
+import { texts as germanBase } from "./catalogue.de";
+import { texts as germanScreens } from "./catalogue.screens.de";
+
+const [english, german] = [
+  { ...englishBase, ...englishScreens },
+  { ...germanBase, ...germanScreens },
+];
 
 type Texts = Record<string, string>;
 const sources = import.meta.glob<string>(["../**/*.{ts,tsx}", "!../**/*.test.ts"], {

@@ -1,4 +1,4 @@
-/** The languages of the screens; the texts of one are loaded when it is chosen. */
+/** The languages of the screens; the texts of one are loaded when it is chosen, those of most screens with the first. */
 import i18next from "i18next";
 import { initReactI18next } from "react-i18next";
 import type { Areas } from "./areas";
@@ -7,10 +7,25 @@ export const LANGUAGES = ["en", "de"] as const;
 export type Language = (typeof LANGUAGES)[number];
 
 const KEPT_AS = "vipo.language";
-export const CATALOGUES: Record<Language, () => Promise<{ texts: Areas }>> = {
-  en: () => import("./catalogue.en"),
-  de: () => import("./catalogue.de"),
+type Catalogue = Record<Language, () => Promise<{ texts: Areas }>>;
+type Part = "base" | "screens";
+/** What the editor and all bars say, and what the other screens say. */
+export const CATALOGUES: Record<Part, Catalogue> = {
+  base: { en: () => import("./catalogue.en"), de: () => import("./catalogue.de") },
+  screens: { en: () => import("./catalogue.screens.en"), de: () => import("./catalogue.screens.de") },
 };
+const wanted = new Set<Part>(["base"]);
+
+async function addTexts(language: Language, part: Part): Promise<void> {
+  const { texts } = await CATALOGUES[part][language]();
+  i18next.addResourceBundle(language, "translation", texts, true, true);
+}
+
+/** Done when the screens beside the editor have their texts, in the language that is spoken now. */
+export async function loadScreenTexts(): Promise<void> {
+  wanted.add("screens");
+  await addTexts(i18next.language as Language, "screens");
+}
 
 function firstLanguage(): Language {
   const wanted = [localStorage.getItem(KEPT_AS), ...navigator.languages.map((each) => each.slice(0, 2))];
@@ -21,8 +36,7 @@ function firstLanguage(): Language {
 export async function chooseLanguage(language: Language): Promise<void> {
   localStorage.setItem(KEPT_AS, language);
   try {
-    const { texts } = await CATALOGUES[language]();
-    i18next.addResourceBundle(language, "translation", texts);
+    await Promise.all([...wanted].map((part) => addTexts(language, part)));
     await i18next.changeLanguage(language);
   } catch {
     location.reload();
@@ -32,7 +46,7 @@ export async function chooseLanguage(language: Language): Promise<void> {
 /** Done when there are texts. */
 export async function startI18n(): Promise<void> {
   const language = firstLanguage();
-  const { texts } = await CATALOGUES[language]();
+  const { texts } = await CATALOGUES.base[language]();
   i18next.on("languageChanged", (chosen) => document.documentElement.setAttribute("lang", chosen));
   await i18next.use(initReactI18next).init({
     resources: { [language]: { translation: texts } },

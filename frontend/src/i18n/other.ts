@@ -14,7 +14,7 @@ export function useOtherLanguage(): (key: string) => string {
   const loaded = useQuery({
     queryKey: ["catalogue", other],
     queryFn: async () => {
-      const { texts } = await CATALOGUES[other]();
+      const { texts } = await CATALOGUES.base[other]();
       i18next.addResourceBundle(other, "translation", texts);
       return true;
     },

@@ -98,7 +98,7 @@ export class SiteFeed {
         return this.#caches.refresh(keys.reviews);
       case "role":
         notifications.show({
-          message: i18next.t("people.roleNow", { role: i18next.t(`people.role.${message.role}`) }),
+          message: i18next.t("role.now", { role: i18next.t(`role.${message.role}`) }),
         });
         return this.#siteChanged();
       case "checked":

@@ -75,7 +75,7 @@ export function SideBar() {
       </nav>
       {slug ? (
         <ul className={styles.entries}>
-          <Entry to={`/sites/${slug}/people`} icon={Settings} label={t("people.settings")} />
+          <Entry to={`/sites/${slug}/people`} icon={Settings} label={t("shell.nav.settings")} />
         </ul>
       ) : null}
       <AccountBar role={site?.role} slug={slug} />

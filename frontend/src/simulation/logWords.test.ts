@@ -1,7 +1,7 @@
 import i18next from "i18next";
 import { beforeAll, expect, test } from "vitest";
 import run from "@/i18n/de/run.json";
-import simulation from "@/i18n/de/simulation.json";
+import simulation from "@/i18n/de/screens/simulation.json";
 import { logWords } from "./logWords";
 
 const nameOf = (id: string) => ({ robot01: "Kiwi" })[id] ?? id;

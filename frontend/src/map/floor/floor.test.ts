@@ -1,5 +1,14 @@
 import { expect, test } from "vitest";
-import { cellAt, cellBoxToPixels, knownBox, mergeCells, wallBoxes, type FloorPlan } from "./floor";
+import {
+  cellAt,
+  cellBoxToPixels,
+  floorMark,
+  knownBox,
+  mergeCells,
+  wallBoxes,
+  type FloorPlan,
+  type MapZone,
+} from "./floor";
 
 const plan: FloorPlan = {
   version: 1,
@@ -36,4 +45,42 @@ test("a point off the map is unknown", () => {
 test("walls are looked for once for as long as the cells stay the same", () => {
   expect(wallBoxes(plan)).toEqual([{ left: 92, right: 138, top: 46, bottom: 138 }]);
   expect(wallBoxes({ ...plan, version: 2 })).toBe(wallBoxes(plan));
+});
+
+const zone: MapZone = {
+  id: "z",
+  name: "Aisle",
+  rule: "keep_out",
+  points: [
+    [0, 0],
+    [1, 0],
+    [1, 1],
+  ],
+  speed_m_s: null,
+};
+
+test("routes are planned anew on another map and round other zones to keep out of, for nothing else", () => {
+  const marks = [
+    plan,
+    { ...plan, version: 8 },
+    { ...plan, zones: [zone] },
+    {
+      ...plan,
+      zones: [
+        {
+          ...zone,
+          points: [
+            [0, 0],
+            [1, 0],
+            [1, 2],
+          ] as const,
+        },
+      ],
+    },
+  ].map(floorMark);
+  expect(marks.slice(0, 2)).toEqual(["1", "8"]);
+  expect(new Set(marks).size).toBe(4);
+  expect(floorMark({ ...plan, zones: [{ ...zone, name: "Other" }] })).toBe(marks[2]);
+  expect(floorMark({ ...plan, zones: [{ ...zone, rule: "slow", speed_m_s: 0.3 }] })).toBe("1");
+  expect(floorMark(null)).toBeUndefined();
 });

@@ -158,7 +158,7 @@ function OfferCard({ offer, code, me }: { offer: Offer; code: string; me: Me }) 
         <div>
           <h1>{t("people.join.title")}</h1>
           <p>{t(by ? "people.join.text" : "people.join.textNobody", { by, site })}</p>
-          <p>{t("people.join.as", { role: t(`people.role.${offer.role}`) })}</p>
+          <p>{t("people.join.as", { role: t(`role.${offer.role}`) })}</p>
         </div>
       </div>
       {me.user ? (

@@ -43,7 +43,7 @@ function Row({ invitation, revoke, busy }: { invitation: Invitation; revoke: () 
             c="var(--error)"
             loading={busy}
             aria-label={t("people.invitations.revokeLabel", {
-              role: t(`people.role.${role}`),
+              role: t(`role.${role}`),
               when: formatMoment(made_at),
             })}
             onClick={revoke}

@@ -140,7 +140,7 @@ function useSetRole(slug: string) {
       {
         onSuccess: () =>
           notifications.show({
-            message: t("people.roleSet", { name: member.name, role: t(`people.role.${role}`) }),
+            message: t("people.roleSet", { name: member.name, role: t(`role.${role}`) }),
           }),
         onError: (error) =>
           notifications.show({ color: "red", message: problemText(error, t("shell.problem.screen")), autoClose: 8000 }),

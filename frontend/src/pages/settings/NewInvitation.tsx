@@ -51,7 +51,7 @@ function Fields({ wanted, set, canMail }: FieldsProps) {
             <Radio
               key={role}
               value={role}
-              label={t(`people.role.${role}`)}
+              label={t(`role.${role}`)}
               description={t(`people.new.about.${role}`)}
               data-autofocus={role === wanted.role || undefined}
             />
@@ -109,7 +109,7 @@ export function NewInvitation({ slug, canMail, onMade, onClose }: Props) {
 
 export function LinkShown({ made, onClose }: { made: MadeInvitation; onClose: () => void }) {
   const { t } = useTranslation();
-  const role = t(`people.role.${made.role}`);
+  const role = t(`role.${made.role}`);
   return (
     <Modal
       opened

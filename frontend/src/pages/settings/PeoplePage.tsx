@@ -67,7 +67,7 @@ function PeopleOfSite({ slug }: { slug: string }) {
     </Button>
   );
   return (
-    <PageShell title={t("people.title")} actions={manages ? invite : null}>
+    <PageShell title={t("shell.nav.people")} actions={manages ? invite : null}>
       <SettingsTabs slug={slug} role={site.data?.role} />
       <div className={manages ? styles.columns : undefined}>
         <div className={pages.stack}>

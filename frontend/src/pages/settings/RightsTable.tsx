@@ -34,7 +34,7 @@ export function RightsTable({ deeds }: { deeds: Deed[] }) {
               </th>
               {ROLES.map((role) => (
                 <th key={role} scope="col">
-                  {t(`people.role.${role}`)}
+                  {t(`role.${role}`)}
                 </th>
               ))}
             </tr>

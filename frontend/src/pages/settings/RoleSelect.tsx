@@ -16,7 +16,7 @@ const TONES: Record<Role, Tone> = {
 
 export function RoleChip({ role }: { role: Role }) {
   const { t } = useTranslation();
-  return <Chip tone={TONES[role]}>{t(`people.role.${role}`)}</Chip>;
+  return <Chip tone={TONES[role]}>{t(`role.${role}`)}</Chip>;
 }
 
 interface Props {
@@ -36,7 +36,7 @@ export function RoleSelect({ label, role, busy, onChoose }: Props) {
       aria-label={label}
       disabled={busy}
       value={role}
-      data={ROLES.map((value) => ({ value, label: t(`people.role.${value}`) }))}
+      data={ROLES.map((value) => ({ value, label: t(`role.${value}`) }))}
       onChange={(event) => onChoose(event.currentTarget.value as Role)}
     />
   );

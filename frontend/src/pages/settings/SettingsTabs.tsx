@@ -17,7 +17,7 @@ export function SettingsTabs({ slug, role }: { slug: string; role: Role | undefi
       : []),
   ] as const;
   return (
-    <nav aria-label={t("people.settings")}>
+    <nav aria-label={t("shell.nav.settings")}>
       <ul className={styles.tabs}>
         {tabs.map(([name, page]) => (
           <li key={name}>

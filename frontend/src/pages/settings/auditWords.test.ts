@@ -1,7 +1,8 @@
 import { beforeAll, expect, test } from "vitest";
 import i18next from "i18next";
 import type { AuditEntry } from "@/api/types";
-import people from "@/i18n/en/people.json";
+import role from "@/i18n/en/role.json";
+import people from "@/i18n/en/screens/people.json";
 import { actorWords, byDay, deedWords, placeWords } from "./auditWords";
 
 const line = (code: string, facts: Record<string, unknown> = {}, some: Partial<AuditEntry> = {}): AuditEntry => ({
@@ -18,7 +19,7 @@ const line = (code: string, facts: Record<string, unknown> = {}, some: Partial<A
   ...some,
 });
 
-beforeAll(() => i18next.init({ lng: "en", resources: { en: { translation: { people } } } }));
+beforeAll(() => i18next.init({ lng: "en", resources: { en: { translation: { people, role } } } }));
 
 test("roles are called as people call them", () => {
   expect(deedWords(line("role_changed", { person: "Tom West", before: "operator", after: "viewer" }))).toBe(

@@ -25,7 +25,7 @@ function variantOf({ code, facts }: AuditEntry): string {
 
 function factsOf(line: AuditEntry): [string, unknown][] {
   return Object.entries(line.facts as Record<string, unknown>).map(([name, value]) => {
-    if (ROLES.includes(name)) return [name, i18next.t(`people.role.${String(value)}`)];
+    if (ROLES.includes(name)) return [name, i18next.t(`role.${String(value)}`)];
     if (name === "until" && typeof value === "string") return [name, formatMoment(value)];
     return [name, value];
   });

@@ -62,7 +62,7 @@ function usePageTargets(slug: string | undefined, other: Words): readonly Target
     return [
       page("shell.nav.home", House, "/"),
       ...(slug ? pages.map(([name, icon]) => page(`shell.nav.${name}`, icon, `/sites/${slug}/${name}`)) : []),
-      ...(slug ? [page("people.title", Users, `/sites/${slug}/people`)] : []),
+      ...(slug ? [page("shell.nav.people", Users, `/sites/${slug}/people`)] : []),
       page("shell.account.settings", CircleUserRound, "/account"),
       ...lookTargets(t, other),
     ];

@@ -1,6 +1,6 @@
 import i18next from "i18next";
 import { beforeAll, expect, test } from "vitest";
-import simulation from "@/i18n/de/simulation.json";
+import simulation from "@/i18n/de/screens/simulation.json";
 import { progressWords } from "./progress";
 
 const course = { virtual_s: 3725, step: "s", steps_done: 2, steps: 5, share: 0.4, end_known: true };
