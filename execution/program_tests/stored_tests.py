@@ -89,9 +89,13 @@ def add_tests(*, program: UUID, texts: Sequence[str], user: Any) -> list[TestTex
             )
         rows = ProgramTest.objects.bulk_create(
             ProgramTest(
-                program_id=program, name=name, text=text, edited_at=now, edited_by=user,
+                program_id=program,
+                name=name,
+                text=text,
+                edited_at=now,
+                edited_by=user,
                 created_at=now + timedelta(microseconds=place),  # they stay in the order of their file
-            )  # fmt: skip
+            )
             for place, (name, text) in enumerate(zip(names, texts, strict=True))
         )
         say_changed(program)

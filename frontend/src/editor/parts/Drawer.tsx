@@ -1,7 +1,8 @@
-/** The drawer at the bottom: script, problems, steps, comments. */
+/** The drawer at the bottom: script, problems, steps, tests, comments. */
 import {
   Copy,
   FileCode2,
+  FlaskConical,
   ListTree,
   MessageSquare,
   OctagonAlert,
@@ -10,6 +11,7 @@ import {
 } from "lucide-react";
 import { lazy, type ReactNode, Suspense } from "react";
 import { IconButton } from "@/design/IconButton";
+import { loadScreenTexts } from "@/i18n";
 import { useTranslation } from "react-i18next";
 import { countUnread, useThreads } from "../comments/threads";
 import { useOpenProgram } from "../state/context";
@@ -19,6 +21,11 @@ import { ProblemsPanel } from "./ProblemsPanel";
 import { ScriptPanel } from "./ScriptPanel";
 import { StepTree } from "./StepTree";
 
+/** Fetched when it is opened, with its texts. */
+const TestsPanel = lazy(async () => {
+  const [panel] = await Promise.all([import("../tests/TestsPanel"), loadScreenTexts()]);
+  return { default: panel.TestsPanel };
+});
 /** Fetched once the program is there. */
 export const loadComments = () => import("../comments/CommentsPanel");
 const CommentsPanel = lazy(async () => ({ default: (await loadComments()).CommentsPanel }));
@@ -43,6 +50,7 @@ export function Drawer({ small }: { small: boolean }) {
             count={diagnostics.length}
           />
           <Tab tab="steps" icon={<ListTree size={15} aria-hidden="true" />} label={t("drawer.steps")} />
+          <Tab tab="tests" icon={<FlaskConical size={15} aria-hidden="true" />} label={t("drawer.tests")} />
           <CommentsTab />
         </div>
         <Actions />
@@ -78,11 +86,10 @@ function Body({ tab, beside }: { tab: DrawerTab; beside: boolean }) {
       {tab === "script" ? <ScriptPanel /> : null}
       {tab === "problems" ? <ProblemsPanel /> : null}
       {tab === "steps" ? <StepTree /> : null}
-      {tab === "comments" ? (
-        <Suspense fallback={null}>
-          <CommentsPanel />
-        </Suspense>
-      ) : null}
+      <Suspense fallback={null}>
+        {tab === "tests" ? <TestsPanel /> : null}
+        {tab === "comments" ? <CommentsPanel /> : null}
+      </Suspense>
       {beside ? (
         <div className={classes.beside}>
           <ProblemsPanel titled />
