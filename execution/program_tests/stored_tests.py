@@ -25,6 +25,7 @@ from registry import services as registry
 MOST_TESTS = 100
 MOST_TEXT = 20_000
 """Characters of one test."""
+TOO_LONG = f"A test has at most {MOST_TEXT} characters. Make two of it."
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,10 +53,12 @@ def tag_of(revision: int) -> str:
 
 def find_fault(*, text: str) -> tuple[int, str] | None:
     """Return the line (0: unknown) and why a text is no test; None when it is one."""
+    if len(text) > MOST_TEXT:
+        return 0, TOO_LONG
     try:
-        _read(text)
-    except BadTest as error:
-        return int(error.facts["line"]), error.detail
+        read_trial(text.encode())
+    except BadTrialFile as error:
+        return error.line, error.why
     return None
 
 
@@ -150,7 +153,7 @@ def _as_read(program: UUID, test: UUID, tag: str) -> Any:
 def _read(text: str) -> str:
     """Return the name of the test in a text."""
     if len(text) > MOST_TEXT:
-        raise BadTest(f"A test has at most {MOST_TEXT} characters. Make two of it.", {"line": 0})
+        raise BadTest(TOO_LONG, {"line": 0})
     try:
         return read_trial(text.encode()).name
     except BadTrialFile as error:

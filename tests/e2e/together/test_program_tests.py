@@ -1,4 +1,4 @@
-"""Tests beside a program, by keyboard alone: written, mended where the parser says so, carried out, drawn on the map."""
+"""Tests beside a program, by keyboard alone: written, mended where the parser says so, carried out, on the map."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from tests.e2e.screens import ask, draw_task, make_program, program_named, saved
 
 pytestmark = pytest.mark.browser
 WRONG = "name: One box is carried\nwhen: {driver: kinematic}\nthen:\n- ends: badly"
-NARROW = {"width": 390, "height": 844}
 
 
 def open_tests(page: Page) -> Locator:

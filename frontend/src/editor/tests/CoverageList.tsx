@@ -1,8 +1,7 @@
 /** Which ways through the program no test takes, in words; a press goes to the step. */
-import { Switch } from "@mantine/core";
+import { Button, Switch } from "@mantine/core";
 import { CircleCheck } from "lucide-react";
 import { useState } from "react";
-import { Button } from "@mantine/core";
 import { useTranslation } from "react-i18next";
 import type { ProgramTests } from "@/api/types";
 import { showSteps } from "../commands/view";
@@ -33,8 +32,8 @@ export function CoverageList({ tests: { coverage } }: { tests: ProgramTests }) {
         />
       </div>
       <p>
-        {t("tests.steps_taken", { taken: steps.taken, all: steps.all })},{" "}
-        {t("tests.ways_taken", { taken: ways.taken, all: ways.all })}
+        {t("tests.steps_taken", { ...steps })}
+        {ways.all > 0 ? `, ${t("tests.ways_taken", { ...ways })}` : null}
       </p>
       <progress
         aria-label={t("tests.coverage")}

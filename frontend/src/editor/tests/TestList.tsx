@@ -2,7 +2,7 @@
 import { Ban, CircleCheck, CircleDashed, CircleX, Clock } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import type { ProgramTest, ProgramTests } from "@/api/types";
-import { formatClock } from "@/i18n/format";
+import { formatSpan } from "@/i18n/format";
 import { useOpenProgram } from "../state/context";
 import classes from "./tests.module.css";
 import { NEW, openTest, useTestsUi } from "./tests";
@@ -60,7 +60,7 @@ function Row({ test }: { test: ProgramTest }) {
         {result && result.duration_s > 0 ? (
           <>
             <span className="visually-hidden">{t("tests.took")}</span>
-            {formatClock(result.duration_s)}
+            {formatSpan(result.duration_s)}
           </>
         ) : null}
       </span>

@@ -9,6 +9,7 @@ import { mayOperate } from "@/api/roles";
 import type { ProgramTests, TestRun } from "@/api/types";
 import { useNow } from "@/design/useNow";
 import { formatAgo, formatSpan } from "@/i18n/format";
+import { reasonWords } from "@/i18n/reasons";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
 import { useOpenProgram } from "../state/context";
 import { say } from "../state/ui";
@@ -76,8 +77,10 @@ function Head({ tests }: { tests: ProgramTests }) {
       {under ? <UnderWay key={under.id} run={under} /> : <Summary tests={tests} />}
       <div className={classes.acts}>
         {canEdit ? <NewTest /> : null}
-        {canEdit ? <BringIn /> : null}
-        {tests.tests.length > 0 ? <Export /> : null}
+        <span className={classes.files}>
+          {canEdit ? <BringIn /> : null}
+          {tests.tests.length > 0 ? <Export /> : null}
+        </span>
         {mayOperate(site.role) && tests.tests.length > 0 ? (
           <>
             <VersionChoice version={version} onChange={setVersion} />
@@ -95,8 +98,10 @@ function Summary({ tests }: { tests: ProgramTests }) {
   const last = tests.last;
   const results = tests.tests.flatMap(({ result }) => result ?? []);
   const passed = results.filter(({ status }) => status === "passed").length;
+  const outdated = results.filter(({ stale }) => stale !== null).length;
   const facts = [
     results.length > 0 ? t("tests.pass", { passed, count: tests.tests.length }) : t("tests.never_run"),
+    outdated > 0 ? t("tests.outdated", { count: outdated }) : "",
     ...(last?.status === "done" ? [whereOf(last, t), last.ended_at ? formatAgo(last.ended_at, now) : ""] : []),
   ];
   if (tests.tests.length === 0) return <span />;
@@ -105,7 +110,7 @@ function Summary({ tests }: { tests: ProgramTests }) {
       <strong>{facts[0]}</strong>
       <span>{facts.slice(1).filter(Boolean).join(", ")}</span>
       {last?.status === "cancelled" ? <span>{t("tests.cancelled")}</span> : null}
-      {last?.status === "failed" ? <span>{t("tests.run_failed", { reason: last.reason })}</span> : null}
+      {last?.status === "failed" ? <span>{t("tests.run_failed", { reason: reasonWords(last.cause, last.reason) })}</span> : null}
     </p>
   );
 }

@@ -9,7 +9,6 @@ import { mayOperate } from "@/api/roles";
 import type { Program, RunSummary, Site, Version, VersionTests } from "@/api/types";
 import { compareAddress, DRAFT, versionTitle } from "@/compare/sides";
 import { Avatar } from "@/design/Avatar";
-import { FactList } from "@/design/FactList";
 import { IconButton } from "@/design/IconButton";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatMoment } from "@/i18n/format";
@@ -112,7 +111,13 @@ function useSeen<T extends Element>() {
 function Tests({ tests }: Pick<RowProps, "tests">) {
   const { t } = useTranslation();
   const fact = factOfTests(tests, t);
-  return fact ? <FactList facts={[fact]} label={t("tests.list")} /> : null;
+  if (!fact) return null;
+  const status = fact.tone === "done" ? "done" : fact.tone === "error" ? "error" : "waiting";
+  return (
+    <p className={styles.runs}>
+      <StatusBadge status={status}>{fact.text}</StatusBadge>
+    </p>
+  );
 }
 
 function Runs({ runs }: { runs: readonly RunSummary[] }) {

@@ -20,5 +20,5 @@ export function factOfTests(tests: VersionTests | undefined, t: Words): Fact | n
   const { status, passed, total } = tests;
   if (status === "failed") return { tone: "error", text: t("tests.of_version_failed") };
   if (status !== "done") return { tone: "plain", text: t("tests.of_version_waits") };
-  return { tone: passed === total ? "done" : "error", text: t("tests.of_version", { passed, total }) };
+  return { tone: passed === total ? "done" : "error", text: t("tests.pass", { passed, count: total }) };
 }
