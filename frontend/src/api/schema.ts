@@ -6139,6 +6139,8 @@ export interface operations {
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -13578,6 +13580,8 @@ export interface operations {
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {

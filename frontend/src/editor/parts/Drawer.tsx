@@ -11,24 +11,14 @@ import {
 } from "lucide-react";
 import { lazy, type ReactNode, Suspense } from "react";
 import { IconButton } from "@/design/IconButton";
-import { loadScreenTexts } from "@/i18n";
 import { useTranslation } from "react-i18next";
 import { countUnread, useThreads } from "../comments/threads";
 import { useOpenProgram } from "../state/context";
 import { say, showTab, useUi, type DrawerTab } from "../state/ui";
 import classes from "./drawer.module.css";
-import { ProblemsPanel } from "./ProblemsPanel";
-import { ScriptPanel } from "./ScriptPanel";
-import { StepTree } from "./StepTree";
 
-/** Fetched when it is opened, with its texts. */
-const TestsPanel = lazy(async () => {
-  const [panel] = await Promise.all([import("../tests/TestsPanel"), loadScreenTexts()]);
-  return { default: panel.TestsPanel };
-});
-/** Fetched once the program is there. */
-export const loadComments = () => import("../comments/CommentsPanel");
-const CommentsPanel = lazy(async () => ({ default: (await loadComments()).CommentsPanel }));
+/** What it shows comes after the map, which does not wait for it. */
+const DrawerBody = lazy(async () => ({ default: (await import("./DrawerBody")).DrawerBody }));
 
 export function Drawer({ small }: { small: boolean }) {
   const { t, diagnostics } = useOpenProgram();
@@ -55,7 +45,11 @@ export function Drawer({ small }: { small: boolean }) {
         </div>
         <Actions />
       </div>
-      {drawer.open ? <Body tab={drawer.tab} beside={!small && drawer.tab === "script"} /> : null}
+      {drawer.open ? (
+        <Suspense fallback={<div className={classes.body} aria-busy="true" />}>
+          <DrawerBody tab={drawer.tab} beside={!small && drawer.tab === "script"} />
+        </Suspense>
+      ) : null}
     </section>
   );
 }
@@ -76,25 +70,6 @@ function Actions() {
       <IconButton label={t(drawer.open ? "drawer.hide" : "drawer.show")} aria-expanded={drawer.open} onClick={toggle}>
         <Sign size={16} aria-hidden="true" />
       </IconButton>
-    </div>
-  );
-}
-
-function Body({ tab, beside }: { tab: DrawerTab; beside: boolean }) {
-  return (
-    <div className={classes.body} role="tabpanel" id="drawer-panel" aria-labelledby={`drawer-tab-${tab}`}>
-      {tab === "script" ? <ScriptPanel /> : null}
-      {tab === "problems" ? <ProblemsPanel /> : null}
-      {tab === "steps" ? <StepTree /> : null}
-      <Suspense fallback={null}>
-        {tab === "tests" ? <TestsPanel /> : null}
-        {tab === "comments" ? <CommentsPanel /> : null}
-      </Suspense>
-      {beside ? (
-        <div className={classes.beside}>
-          <ProblemsPanel titled />
-        </div>
-      ) : null}
     </div>
   );
 }
