@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import yaml
 
-from execution.trials.trial_file import VERSION, read_trial, read_trials
+from execution.trials.trial_file import VERSION, read_trials
 
 
 def take_apart(payload: bytes) -> list[str]:
@@ -40,8 +40,3 @@ def _entry(text: str) -> str:
     before = [f"  {line}".rstrip() for line in lines[:head]]
     body = [f"    {line}".rstrip() for line in lines[head:]]
     return "\n".join([*before, f"  - {body[0][4:]}", *body[1:]]) + "\n"
-
-
-def names_in(texts: Iterable[str]) -> list[str]:
-    """Return the names of tests by their texts; raises BadTrialFile."""
-    return [read_trial(text.encode()).name for text in texts]

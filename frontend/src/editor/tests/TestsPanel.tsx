@@ -110,7 +110,9 @@ function Summary({ tests }: { tests: ProgramTests }) {
       <strong>{facts[0]}</strong>
       <span>{facts.slice(1).filter(Boolean).join(", ")}</span>
       {last?.status === "cancelled" ? <span>{t("tests.cancelled")}</span> : null}
-      {last?.status === "failed" ? <span>{t("tests.run_failed", { reason: reasonWords(last.cause, last.reason) })}</span> : null}
+      {last?.status === "failed" ? (
+        <span>{t("tests.run_failed", { reason: reasonWords(last.cause, last.reason) })}</span>
+      ) : null}
     </p>
   );
 }
