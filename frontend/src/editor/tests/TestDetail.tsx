@@ -90,7 +90,7 @@ function DetailHead({ opened, test, most }: DetailProps) {
               loading={run.isPending}
               onClick={() => run.start({ tests: [test.id] })}
             >
-              {t("tests.run_one")}
+              {t("tests.run_this")}
             </Button>
           ) : null}
           {test && !draft ? <Delete test={test} onDelete={writing.remove} /> : null}
