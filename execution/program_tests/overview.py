@@ -7,26 +7,31 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 from uuid import UUID
 
-from django.db.models import Prefetch
+from django.db.models import QuerySet
 
 from editor import services as editor
 from execution.models import ProgramTest, Rehearsal, TrialResult, TrialRun
 from execution.program_tests.stored_tests import MOST_TESTS, tag_of
 from execution.reasons import cause_of
+from execution.rehearsals.rehearsals import HEAVY
 from execution.trials.coverage import Way, coverage_to_json
 
 MOST_RUNS = 500
+RUNS_LOOKED_AT = 20
+Key = tuple[int, UUID, str]
+"""A result, its test, and the digest of what it was carried out on."""
 Latest = Mapping[UUID, TrialResult]
 
 
 def show_tests(*, program: UUID, asker: int) -> dict[str, Any]:
     """Return a program's tests with their last results, as JSON (`ProgramTestsShape`). Raises NoSuchProgram."""
     digest = editor.get_digest(program_id=program)
-    newest = TrialResult.objects.select_related("run").order_by("-at", "-pk")
     rows = ProgramTest.objects.filter(program=program).select_related("edited_by").defer("text")
-    tests = list(rows.prefetch_related(Prefetch("results", queryset=newest)).order_by("created_at", "name"))
-    latest = {test.pk: results[0] for test in tests if (results := list(test.results.all()))}
-    runs = list(TrialRun.objects.filter(program=program).select_related("rehearsal").order_by("-created_at")[:20])
+    tests = list(rows.order_by("created_at", "name"))
+    known = TrialResult.objects.filter(test__program=program).order_by("-at", "-pk")
+    results = list(known.values_list("pk", "test", "digest"))
+    latest = _latest(results)
+    runs = list(runs_of(program)[:RUNS_LOOKED_AT])
     under_way = [run for run in runs if status_of(run) in Rehearsal.OPEN]
     over = next((run for run in runs if status_of(run) not in Rehearsal.OPEN), None)
     return {
@@ -34,8 +39,14 @@ def show_tests(*, program: UUID, asker: int) -> dict[str, Any]:
         "tests": [_test_to_json(test, latest.get(test.pk), digest) for test in tests],
         "under_way": [run_to_json(run, asker) for run in reversed(under_way)],
         "last": run_to_json(over, asker) if over else None,
-        "coverage": _coverage(program, tests, digest),
+        "coverage": _coverage(program, results, digest),
     }
+
+
+def runs_of(program: UUID) -> QuerySet[TrialRun]:
+    """Return the runs of a program's tests, the newest first, without what of their place in the queue is large."""
+    rows = TrialRun.objects.filter(program=program).select_related("rehearsal").order_by("-created_at")
+    return rows.defer("ways", *(f"rehearsal__{column}" for column in HEAVY))
 
 
 def status_of(run: TrialRun) -> str:
@@ -91,25 +102,32 @@ def _result_to_json(result: TrialResult, test: ProgramTest, digest: str) -> dict
     }
 
 
-def _coverage(program: UUID, tests: Sequence[ProgramTest], digest: str) -> dict[str, Any] | None:
+def _latest(results: Sequence[Key]) -> Latest:
+    """Return the last result of each test."""
+    rows = TrialResult.objects.select_related("run").defer("taken").in_bulk(list(_newest(results).values()))
+    return {row.test_id: row for row in rows.values()}
+
+
+def _newest(results: Iterable[Key]) -> dict[UUID, int]:
+    """Return for each test the first of its results."""
+    found: dict[UUID, int] = {}
+    for key, test, _ in results:
+        found.setdefault(test, key)
+    return found
+
+
+def _coverage(program: UUID, results: Sequence[Key], digest: str) -> dict[str, Any] | None:
     """Return which ways the tests took through the program as it is now, else as it was when they last ran."""
     runs = TrialRun.objects.filter(program=program).exclude(ways=[]).order_by("-created_at")
     run = runs.filter(digest=digest).first() or runs.first()
     if run is None:
         return None
-    results = [_newest_of(test.results.all(), run.digest) for test in tests]
-    taken = Counter((step, name) for result in results if result for step, name in result.taken)
+    chosen = _newest(each for each in results if each[2] == run.digest).values()
+    found = list(TrialResult.objects.filter(pk__in=list(chosen)).values_list("taken", flat=True))
+    taken = Counter((step, name) for each in found for step, name in each)
     ways = [Way(each["step"], each["line"], each["name"]) for each in run.ways]
     constructs = [{key: each[key] for key in ("step", "line", "ways")} for each in coverage_to_json(ways, taken, {})]
-    return {
-        "stale": run.digest != digest,
-        "tests": sum(result is not None for result in results),
-        "constructs": constructs,
-    }
-
-
-def _newest_of(results: Iterable[TrialResult], digest: str) -> TrialResult | None:
-    return next((result for result in results if result.digest == digest), None)
+    return {"stale": run.digest != digest, "tests": len(found), "constructs": constructs}
 
 
 def list_version_tests(*, program: UUID) -> list[dict[str, Any]]:
@@ -117,9 +135,8 @@ def list_version_tests(*, program: UUID) -> list[dict[str, Any]]:
 
     As JSON (`VersionTestsShape`).
     """
-    runs = TrialRun.objects.filter(program=program, whole=True).select_related("rehearsal").order_by("-created_at")
     newest: dict[str, TrialRun] = {}
-    for run in runs.defer("ways")[:MOST_RUNS]:
+    for run in runs_of(program).filter(whole=True)[:MOST_RUNS]:
         newest.setdefault(run.digest, run)
     numbers = editor.find_numbers(program_id=program, digests=newest)
     return [_version_to_json(number, newest[digest]) for number, digest in sorted(numbers.items(), reverse=True)]

@@ -13,10 +13,9 @@ from ninja.responses import Status
 
 from editor import services as editor
 from editor.services import NoSuchProgram
-from execution.models import TrialRun
 from execution.program_tests import stored_tests
 from execution.program_tests.first_text import first_text
-from execution.program_tests.overview import list_version_tests, run_to_json, show_tests
+from execution.program_tests.overview import list_version_tests, run_to_json, runs_of, show_tests
 from execution.program_tests.shapes import (
     FirstTextShape,
     ProgramTestsShape,
@@ -140,7 +139,7 @@ def run_tests(request: HttpRequest, program: UUID, body: TestsToRun | None = Non
     person, body = signed_in(request), body or TestsToRun(tests=None)
     asker = Asker(person.pk, person.display_name)
     started = start_tests(program=program, asker=asker, tests=body.tests, number=body.version)
-    run = TrialRun.objects.select_related("rehearsal").get(pk=started)
+    run = runs_of(program).get(pk=started)
     return Status(202, run_to_json(run, person.pk))
 
 

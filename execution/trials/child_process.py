@@ -20,7 +20,7 @@ from execution.trials.trial_run import Outcome, Subject, run_trial, settle
 from execution.trials.yaml_lines import BadTrialFile
 
 MOST_ERRORS: Final = 20
-MOST_TEXT: Final = 500
+MOST_TEXT: Final = 300
 MOST_TAKEN: Final = 2000
 
 
