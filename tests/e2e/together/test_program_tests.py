@@ -10,6 +10,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
 from tests.e2e.screens import ask, draw_task, make_program, program_named, saved, tell, violations
+from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
 WRONG = "name: One box is carried\nwhen: {driver: kinematic}\nthen:\n- ends: badly"
@@ -74,6 +75,11 @@ def test_a_test_is_written_mended_and_carried_out_by_keyboard(sign_in: SignIn, f
     program = program_named(page, "Tested from the keyboard")
     tell(page, f"/api/programs/{program}/versions", {"name": "Tested"})
     page.goto(f"{page.url.split('/programs/')[0]}/sites/painting-factory/history/{program}")
-    expect(page.get_by_text("1 of 1 tests pass")).to_be_visible()
+    last = wait_for(
+        "tests of a version that was named",
+        lambda: (last := ask(page, f"/api/programs/{program}/tests")["last"])["by_itself"] and last,
+        60.0,
+    )
+    assert (last["number"], last["passed"], last["total"]) == (1, 1, 1)
+    expect(page.get_by_text("1 of 1 test passes")).to_be_visible()
     shoot(page, "tests-history")
-    assert ask(page, f"/api/programs/{program}/version-tests")[0]["status"] == "done"
