@@ -104,6 +104,13 @@ class Version(models.Model):
         constraints = [models.UniqueConstraint(fields=["program", "number"], name="one_version_per_number")]
 
 
+class VersionToTest(models.Model):
+    """A version that somebody has named, until whoever carries tests out has taken it."""
+
+    version = models.OneToOneField(Version, on_delete=models.CASCADE, related_name="+")
+    asked_at = models.DateTimeField(auto_now_add=True)
+
+
 class LibraryFunction(models.Model):
     """A function that programs may bring in; its content is in its versions.
 

@@ -4,6 +4,18 @@ from editor.documents.mending import Mending, mend_program, restore_rows, show_m
 from editor.documents.store import Change, get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram, NotApproved
 from editor.programs.checking import build_surroundings, find_zones
+from editor.programs.contents import (
+    ContentView,
+    VersionToTestView,
+    compile_content,
+    find_numbers,
+    get_content,
+    get_digest,
+    has_versions_to_test,
+    list_versions_to_test,
+    lock_program,
+    take_version_to_test,
+)
 from editor.programs.drawn_script import DrawnScript
 from editor.programs.floor_use import ProgramTrouble, list_program_troubles
 from editor.programs.library import Said, change_function, get_function, save_function, search_library
@@ -35,6 +47,7 @@ __all__ = [
     "AuthorView",
     "BadRequest",
     "Change",
+    "ContentView",
     "DrawnScript",
     "EditorError",
     "ExpressionView",
@@ -46,27 +59,35 @@ __all__ = [
     "ProgramTrouble",
     "ProgramView",
     "Said",
+    "VersionToTestView",
     "VersionView",
     "WholeVersionView",
     "admit_start",
     "build_surroundings",
     "change_function",
+    "compile_content",
     "compile_version",
     "compile_version_to_json",
     "copy_version",
     "create_program",
     "delete_program",
     "draw_script",
+    "find_numbers",
     "find_version",
     "find_zones",
     "get_compiled",
+    "get_content",
+    "get_digest",
     "get_document",
     "get_function",
     "get_program",
     "get_version",
+    "has_versions_to_test",
     "list_program_troubles",
     "list_programs",
     "list_versions",
+    "list_versions_to_test",
+    "lock_program",
     "mend_program",
     "name_version",
     "pin_version",
@@ -78,4 +99,5 @@ __all__ = [
     "search_library",
     "seed_programs",
     "show_mending",
+    "take_version_to_test",
 ]

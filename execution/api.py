@@ -13,6 +13,7 @@ from execution import services
 from execution.errors import NotFound, NoWay
 from execution.floor.map_routes import router as map_router
 from execution.operations.routes import router as operations_router
+from execution.program_tests.routes import router as program_tests_router
 from execution.rehearsals.shapes import RehearsalShape, RehearsalSummaryShape, StartRehearsal
 from execution.rehearsals.views import rehearsal_to_json, whole_rehearsal_to_json
 from execution.retention.routes import router as retention_router
@@ -51,6 +52,7 @@ from vipo_device.descriptions.thing_description import DEVICE_URN
 router = Router(tags=["execution"])
 router.add_router("", map_router)
 router.add_router("", operations_router)
+router.add_router("", program_tests_router)
 router.add_router("", retention_router)
 ABSENT = {
     "program": "There is no such program. It may have been deleted.",

@@ -11,6 +11,11 @@ ExecutionError
  ├── ActionFailed: a device did not do what it was told
  ├── TooManyWaiting: as many wait for results as may
  ├── TooManyRehearsals: as many rehearsals wait or are under way as may
+ ├── BadTest: a test's text cannot be read
+ ├── TestChanged: a test is not what its writer has read
+ ├── TestTagNeeded: somebody writes without saying what they read
+ ├── TestNameTaken: another test of the program is called so
+ ├── TestsFull: a program has as many tests as it may
  ├── HistoryUnreadable: it is in the archive, and that cannot be read here now
  ├── BadKeeping: nothing can be kept for so many days
  └── NoWay: there is no route
@@ -96,6 +101,41 @@ class TooManyRehearsals(ExecutionError):
     code = "too_many_rehearsals"
     status = 429
     retry_after_s = 30
+
+
+class BadTest(ExecutionError):
+    """A test, or a file of tests, cannot be read; `line` counts from 1 (0: unknown)."""
+
+    code = "bad_test"
+    status = 422
+
+
+class TestChanged(ExecutionError):
+    """Somebody else has written a test since it was read; nothing was changed."""
+
+    code = "changed"
+    status = 412
+
+
+class TestTagNeeded(ExecutionError):
+    """The header If-Match is missing."""
+
+    code = "if_match_needed"
+    status = 428
+
+
+class TestNameTaken(ExecutionError):
+    """A file of tests has each name once."""
+
+    code = "test_name_taken"
+    status = 409
+
+
+class TestsFull(ExecutionError):
+    """There is no room for more tests."""
+
+    code = "tests_full"
+    status = 409
 
 
 class HistoryUnreadable(ExecutionError):

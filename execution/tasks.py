@@ -14,6 +14,7 @@ from execution.engine.drive import drive_site as drive
 from execution.engine.drive import leave
 from execution.errors import NotFound
 from execution.pool_children import end_of_worker
+from execution.program_tests.test_runs import queue_named_versions
 from execution.rehearsals import worker
 from execution.retention import upkeep
 from execution.runs.runs import site_of_run
@@ -74,7 +75,11 @@ def _leave_all() -> None:
 
 @shared_task(name="execution.tasks.rehearse", ignore_result=True)  # type: ignore[untyped-decorator]
 def rehearse(_hint: str) -> int:
-    """Carry out the rehearsals that wait, each in a process of its own; which one is next the database knows."""
+    """Carry out the rehearsals that wait, each in a process of its own; which one is next the database knows.
+
+    The tests of versions that were named come into the queue here.
+    """
+    queue_named_versions()
     return worker.carry_out_waiting()
 
 

@@ -14,7 +14,7 @@ from django.db.models import QuerySet
 from editor.documents.shared_document import digest_of, migrate_document
 from editor.documents.store import get_document, last_row
 from editor.errors import BadRequest, NoSuchProgram, UnreadableVersion
-from editor.models import Program, Version
+from editor.models import Program, Version, VersionToTest
 from editor.programs.checking import build_surroundings, new_revision
 from editor.programs.compilations import Compilation, compile_program, print_program
 from editor.programs.packing import Content, UnknownPacking, pack, pack_difference, unpack
@@ -71,22 +71,32 @@ def pin_version(
         )
         last, made = add_version(program_id, content, digest, rows, {**words, "author": _saved(user), "cause": cause})
         if made:
+            _ask_for_tests(last.pk, "", words["name"])
             return replace(get_version(version_id=last.pk), made=True)
     if not (last.name or last.message) and any(words.values()):
         Version.objects.filter(pk=last.pk).update(**words)
+        _ask_for_tests(last.pk, last.name, words["name"])
     return get_version(version_id=last.pk)
+
+
+def _ask_for_tests(version: UUID, name_before: str, name: str) -> None:
+    """Note that a version has a name now, for whoever carries out the program's tests."""
+    if name and not name_before:
+        VersionToTest.objects.get_or_create(version_id=version)
 
 
 def name_version(*, program_id: UUID | str, number: int, name: str, message: str) -> VersionView:
     """Give a version another name and message; nothing else of it changes. Raises NoSuchProgram, BadRequest."""
     words = _checked_words(name, message)
-    if not Version.objects.filter(program_id=program_id, number=number).update(**words):
+    before = Version.objects.filter(program_id=program_id, number=number).values_list("name", flat=True).first()
+    if before is None or not Version.objects.filter(program_id=program_id, number=number).update(**words):
         raise NoSuchProgram(f"The program has no version {number}.")
     row = (
         Version.objects.select_related("author", "program__site")
         .defer("content")
         .get(program_id=program_id, number=number)
     )
+    _ask_for_tests(row.pk, before, row.name)
     return _view(row, row.program.site.slug, _people([row]))
 
 

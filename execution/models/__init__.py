@@ -1,7 +1,8 @@
-"""What execution keeps: runs, commands, sites, rehearsals, archives."""
+"""What execution keeps: runs, commands, sites, rehearsals, tests of programs, archives."""
 
 from execution.models.archives import Archivable, Archive, Keeping
 from execution.models.commands import Command
+from execution.models.program_tests import ProgramTest, TrialResult, TrialRun
 from execution.models.rehearsals import Rehearsal
 from execution.models.runs import ArmedProgram, Question, Run, RunEvent, RunInput, Timer
 from execution.models.sites import DeadLetter, FloorState, InboxEvent, Lease, SiteLease, SiteStop, StopFollowed
@@ -16,6 +17,7 @@ __all__ = [
     "InboxEvent",
     "Keeping",
     "Lease",
+    "ProgramTest",
     "Question",
     "Rehearsal",
     "Run",
@@ -25,4 +27,6 @@ __all__ = [
     "SiteStop",
     "StopFollowed",
     "Timer",
+    "TrialResult",
+    "TrialRun",
 ]

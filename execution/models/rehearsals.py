@@ -10,7 +10,7 @@ from execution.models.archives import Archivable
 
 
 class Rehearsal(Archivable):
-    """A program tried out in a pretend world.
+    """A program tried out in a pretend world, or its tests: `kind` says which; tests leave their results elsewhere.
 
     `person` is whose it is. The worker that carries it out has its `claim`, runs on `machine` and says at `beat_at`, by
     the database's clock, that it goes on; `tries` counts how often it was begun, `course` says how far it is.
@@ -25,12 +25,19 @@ class Rehearsal(Archivable):
         FAILED = "failed"
         CANCELLED = "cancelled"
 
+    class Kind(models.TextChoices):
+        """What is carried out."""
+
+        REHEARSAL = "rehearsal"
+        TESTS = "tests"
+
     OPEN = (Status.QUEUED, Status.RUNNING)
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4)
     site = models.ForeignKey("registry.Site", on_delete=models.CASCADE, related_name="rehearsals")
     program = models.UUIDField(db_index=True)
     program_name = models.CharField(max_length=200, default="")
+    kind = models.CharField(max_length=10, choices=Kind.choices, default=Kind.REHEARSAL, db_default=Kind.REHEARSAL)
     status = models.CharField(max_length=10, choices=Status.choices, default=Status.QUEUED)
     progress = models.FloatField(default=0.0)
     course = models.JSONField(default=dict)

@@ -17,7 +17,7 @@ import signal
 import sys
 import time
 import zlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -72,7 +72,7 @@ def scene_from_json(data: Mapping[str, Any]) -> tuple[Scene, tuple[PlaceFacts, .
     return scene, tuple(PlaceFacts(**place) for place in data["places"]), zones
 
 
-class _Teller:
+class Teller:
     """Writes how far the rehearsal is, and tells when its time by the clock is over."""
 
     def __init__(self, limits: Mapping[str, Any]) -> None:
@@ -82,6 +82,7 @@ class _Teller:
         self._told_at = 0.0
 
     def __call__(self, course: Course) -> float | None:
+        """Take in how far it is; return the seconds that it was given, once they are over."""
         now = time.monotonic()
         if now - self._told_at >= TELL_EVERY_S:
             self._told_at = now
@@ -94,14 +95,19 @@ class _Teller:
 
 def run_job(job: Mapping[str, Any]) -> dict[str, Any]:
     """Carry a job out, writing how far it is; returns the result."""
-    limits = job.get("limits", {})
-    _write({"begun": True})  # before it gives way to others: its start is not counted, and may take long beside them
-    _hold_to(limits)
-    teller = _Teller(limits)
+    teller = begin(job)
     scene, places, zones = scene_from_json(job["scene"])
     conditions = Conditions(job.get("driver", "physics"), job.get("parameters", {}))
     plan = plan_from_json(job["plan"])
     return rehearse(plan, scene, places=places, zones=zones, conditions=conditions, follow=teller)
+
+
+def begin(job: Mapping[str, Any]) -> Teller:
+    """Say that its time begins, hold to the job's limits, and return who says how far it is."""
+    limits = job.get("limits", {})
+    _write({"begun": True})  # before it gives way to others: its start is not counted, and may take long beside them
+    _hold_to(limits)
+    return Teller(limits)
 
 
 def _hold_to(limits: Mapping[str, Any]) -> None:
@@ -123,10 +129,10 @@ def _write(line: Mapping[str, Any]) -> None:
     sys.stdout.flush()
 
 
-def main() -> int:
+def main(run: Callable[[Mapping[str, Any]], Mapping[str, Any]] = run_job) -> int:
     """Read a job, write its lines; 0 when there is a result."""
     try:
-        result = run_job(json.loads(sys.stdin.read()))
+        result = run(json.loads(sys.stdin.read()))
     except MemoryError:
         os.write(1, b'{"memory": true}\n')
         return 1

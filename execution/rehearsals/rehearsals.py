@@ -49,22 +49,29 @@ def start_rehearsal(
         TooManyRehearsals: the person or the site has as many as may wait or be under way.
         BadFaults: they are not understood, or are of a device, reading or step that there is not.
     """
-    site = registry.get_site_id(site=prepared.site)
-    _refuse_too_many(site, person)  # before the scene is made: who asks too often costs little
+    refuse_too_many(site=prepared.site, person=person)  # before the scene is made: who asks too often costs little
     job = {"plan": prepared.plan, "scene": _scene(prepared, seed, faults), "driver": driver,
            "parameters": dict(prepared.parameters)}  # fmt: skip
-    with transaction.atomic():
-        lock_queue()
-        _refuse_too_many(site, person)
-        row = Rehearsal.objects.create(
-            site_id=site, program=prepared.program, program_name=prepared.name, job=job, document=prepared.document,
-            compiled=prepared.compiled, started_by=by, person=person, created_at=datetime.now(UTC),
-        )  # fmt: skip
-    transaction.on_commit(lambda: mailbox.send_hint(mailbox.REHEARSE, str(row.id)))
+    row = put_into_queue(
+        site=prepared.site, person=person, program=prepared.program, program_name=prepared.name, job=job,
+        document=prepared.document, compiled=prepared.compiled, started_by=by,
+    )  # fmt: skip
     return view_rehearsal(row, order_of_queue())
 
 
-def _refuse_too_many(site: int, person: int | None) -> None:
+def put_into_queue(*, site: str, person: int | None, **columns: Any) -> Rehearsal:
+    """Add a rehearsal, or tests, to the queue. Raises TooManyRehearsals."""
+    with transaction.atomic():
+        lock_queue()
+        refuse_too_many(site=site, person=person)
+        site_id = registry.get_site_id(site=site)
+        row = Rehearsal.objects.create(site_id=site_id, person=person, created_at=datetime.now(UTC), **columns)
+    transaction.on_commit(lambda: mailbox.send_hint(mailbox.REHEARSE, str(row.id)))
+    return row
+
+
+def refuse_too_many(*, site: str, person: int | None) -> None:
+    """Refuse what is more than a person or a site may have waiting or under way. Raises TooManyRehearsals."""
     under_way = Rehearsal.objects.filter(status__in=Rehearsal.OPEN)
     of_person = under_way.filter(person=person).count() if person is not None else 0
     most = settings.VIPO_REHEARSALS_OF_PERSON
@@ -74,7 +81,7 @@ def _refuse_too_many(site: int, person: int | None) -> None:
             "Wait until one is over, or cancel one.",
             {"why": "person", "number": of_person, "most": most},
         )
-    of_site, most = under_way.filter(site_id=site).count(), settings.VIPO_REHEARSALS_OF_SITE
+    of_site, most = under_way.filter(site__slug=site).count(), settings.VIPO_REHEARSALS_OF_SITE
     if of_site >= most:
         raise TooManyRehearsals(
             f"{of_site} rehearsals of this site wait or are under way; it may have {most} at a time. "
@@ -180,6 +187,8 @@ def publish_rehearsal(row: Rehearsal) -> None:
     """Tell the site's screens how a rehearsal stands."""
     message = {
         "type": "rehearsal", "id": str(row.id), "status": row.status, "progress": row.progress,
-        "course": row.course or None, "tries": row.tries,
+        "course": row.course or None, "tries": row.tries, "kind": row.kind, "program": str(row.program),
     }  # fmt: skip
     registry.publish(row.site.slug, message)
+    if row.kind == Rehearsal.Kind.TESTS and not (row.status == RUNNING and row.course):
+        registry.publish(row.site.slug, {"type": "tests", "program": str(row.program)})

@@ -23,12 +23,12 @@ MOST_BYTES = 1024 * 1024
 class RunningChild:
     """A child process with its job; as a context it is ended at the latest when the context is left."""
 
-    def __init__(self, job: Mapping[str, Any]) -> None:
+    def __init__(self, job: Mapping[str, Any], module: str = "execution.rehearsals.child_process") -> None:
         # A job in a file, not in a pipe: a child that is frozen before it has read it must not hold up the worker.
         with tempfile.TemporaryFile() as file:
             file.write(json.dumps(job).encode())
             file.seek(0)
-            command = [sys.executable, "-m", "execution.rehearsals.child_process"]
+            command = [sys.executable, "-m", module]
             with sigint_blocked():
                 self._process = subprocess.Popen(  # noqa: S603 - our own module, with our own interpreter
                     command, stdin=file, stdout=subprocess.PIPE, cwd=ROOT, bufsize=0

@@ -157,10 +157,12 @@ class CourseShape(Schema):
 class RehearsalSummaryShape(Schema):
     """A rehearsal without its program; `progress` goes from 0 to 1, `tries` is how often it was begun.
 
+    Tests of a program stand in the same queue (`kind`); their results are with the program's tests.
     `place` counts from 1 in the queue of all sites, while it waits; `mine` tells whether the asker has started it.
     """
 
     id: str
+    kind: Literal["rehearsal", "tests"]
     program: str
     program_name: str
     status: Literal["queued", "running", "done", "failed", "cancelled"]

@@ -15,12 +15,13 @@ from execution.views import iso
 
 @dataclass(frozen=True, slots=True)
 class RehearsalView:
-    """A rehearsal with its result, once there is one; `progress` goes from 0 to 1.
+    """A rehearsal with its result, once there is one, or tests in the same queue (`kind`); `progress` goes from 0 to 1.
 
     `place` counts from 1 in the queue of all sites, while it waits; `tries` is how often it was begun.
     """
 
     id: UUID
+    kind: str
     program: UUID
     program_name: str
     site: str
@@ -49,6 +50,7 @@ def view_rehearsal(row: Rehearsal, order: Sequence[UUID] = (), *, whole: bool = 
     """Return the view of a rehearsal's row; `order` is the queue, and not `whole` leaves out what lists do not show."""
     return RehearsalView(
         id=row.id,
+        kind=row.kind,
         program=row.program,
         program_name=row.program_name,
         site=row.site.slug,
@@ -73,6 +75,7 @@ def rehearsal_to_json(rehearsal: RehearsalView, asker: int | None) -> dict[str, 
     """Return a rehearsal as lists have it, for the person who asks."""
     return {
         "id": str(rehearsal.id),
+        "kind": rehearsal.kind,
         "program": str(rehearsal.program),
         "program_name": rehearsal.program_name,
         "status": rehearsal.status,

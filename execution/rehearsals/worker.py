@@ -26,6 +26,7 @@ from execution import mailbox
 from execution.models import Rehearsal
 from execution.rehearsals.rehearsals import lock_queue, order_of_queue, publish_rehearsal
 from execution.rehearsals.running_child import RunningChild
+from execution.rehearsals.test_results import keep_results
 
 log = logging.getLogger(__name__)
 LOOK_S = 0.1
@@ -44,6 +45,11 @@ MOST_TRIES = 2
 DIED = "The process that rehearsed it has died. Start it again."
 MACHINE = socket.gethostname()
 MIB = 1024 * 1024
+CHILDREN: Mapping[str, str] = {
+    Rehearsal.Kind.REHEARSAL: "execution.rehearsals.child_process",
+    Rehearsal.Kind.TESTS: "execution.trials.child_process",
+}
+"""The module that carries out each kind of what is in the queue."""
 Course = Mapping[str, Any]
 Answer = TypeVar("Answer")
 stopping = threading.Event()
@@ -83,7 +89,7 @@ def carry_out(row: Rehearsal) -> None:
         "memory_bytes": settings.VIPO_REHEARSAL_MEMORY_MB * MIB,
         "parent": os.getpid(),
     }
-    with RunningChild({**row.job, "limits": limits}) as child:
+    with RunningChild({**row.job, "limits": limits}, CHILDREN[row.kind]) as child:
         ending = _follow(row, child)
     if ending is not None:
         _end(row, **ending)
@@ -149,10 +155,20 @@ def _end(row: Rehearsal, **columns: Any) -> None:
     """Write how it ended, if the row is still this worker's; a database that is away is waited for."""
     if columns["status"] != Rehearsal.Status.QUEUED:
         columns["ended_at"] = Now()
-    while (kept := _through(lambda: _owned(row).update(**columns))) is None and not stopping.wait(1.0):
+    while (kept := _through(lambda: _keep(row, columns))) is None and not stopping.wait(1.0):
         pass
     if kept:
         publish_rehearsal(Rehearsal.objects.select_related("site").defer("job").get(id=row.id))
+
+
+def _keep(row: Rehearsal, columns: Mapping[str, Any]) -> int:
+    """Write how it ended; what tests found goes to the tests."""
+    found = columns.get("result") if row.kind == Rehearsal.Kind.TESTS else None
+    with transaction.atomic():
+        kept: int = _owned(row).update(**(columns if found is None else {**columns, "result": None}))
+        if kept and found is not None:
+            keep_results(rehearsal=row.id, found=found)
+    return kept
 
 
 def _owned(row: Rehearsal) -> Any:

@@ -52,7 +52,7 @@ def prepare(
     pinned = _version(program_id, user, version, cause)
     compiled = editor.compile_version(version=pinned)
     if compiled.plan is None:
-        raise _not_ready(compiled.errors)
+        raise not_ready(compiled.errors)
     _, names = read_parameters(by_id(pinned.document.get("parameters")).items())
     fitting = fit_parameters(compiled.parameters, names, parameters, _around(program.site))
     return Prepared(
@@ -78,7 +78,7 @@ def _around(site: str) -> Surrounding:
     return Surrounding(registry.list_device_ids(site=site, lifecycle="approved"), places)
 
 
-def _not_ready(errors: Sequence[Diagnostic]) -> NotReady:
+def not_ready(errors: Sequence[Diagnostic]) -> NotReady:
     """Return the refusal for a program with errors; it names the first of them."""
     count = f"{len(errors)} errors" if len(errors) != 1 else "one error"
     first = errors[0].messages if errors else {}

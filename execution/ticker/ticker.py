@@ -12,6 +12,7 @@ from datetime import datetime, timedelta
 from django.db import DatabaseError, connection, transaction
 from django.db.models import Q
 
+from editor import services as editor
 from execution import database, mailbox
 from execution.commands.manual_calls import expire_calls
 from execution.commands.outbox import drop_stale_controls, end_commands_of_those_out
@@ -124,6 +125,8 @@ def sweep(now: datetime) -> None:
     end_commands_of_those_out(now)
     expire_calls(now=now)
     sweep_rehearsals()
+    if editor.has_versions_to_test():
+        mailbox.send_hint(mailbox.REHEARSE, "")
 
 
 _ticker = Ticker()

@@ -36,6 +36,12 @@ def read_trials(payload: bytes) -> TrialFile:
     return _Reader(lines).file(data)
 
 
+def read_trial(payload: bytes) -> Trial:
+    """Read one test, as an entry of `tests` says it; raises BadTrialFile with the line and how to mend it."""
+    data, lines = read_yaml(payload)
+    return _Reader(lines).trial((), data)
+
+
 @dataclass(frozen=True, slots=True)
 class _Reader:
     lines: Mapping[Path, int]
@@ -61,7 +67,6 @@ class _Reader:
         )
 
     def trial(self, path: Path, test: object) -> Trial:
-        given, when = {}, {}
         body = self.table(path, test)
         self.known(path, body, {"name", "given", "when", "then"})
         name = self.text((*path, "name"), body.get("name"))

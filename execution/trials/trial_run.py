@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from editor.language import PlaceFacts, ZoneFacts
 from editor.language.plan.instructions import Plan
 from execution.machine import messages as r
-from execution.rehearsals.rehearsal import Conditions, rehearse
+from execution.rehearsals.rehearsal import Conditions, Follow, rehearse
 from execution.trials.coverage import Coverage
 from execution.trials.expectations import Seen, Verdict, judge
 from execution.trials.trial import Expectation, Trial
@@ -87,12 +87,14 @@ def settle(trial: Trial, subject: Subject) -> Trial:
     return replace(trial, faults=faults, then=tuple(_settled(each, subject) for each in trial.then))
 
 
-def run_trial(trial: Trial, subject: Subject, limit_s: float | None = None) -> Outcome:
-    """Carry out a settled test; `limit_s` ends it sooner than it says itself."""
+def run_trial(trial: Trial, subject: Subject, limit_s: float | None = None, follow: Follow | None = None) -> Outcome:
+    """Carry out a settled test; `limit_s` ends it sooner than it says itself, `follow` is told how far it is."""
     watcher = _Watcher(subject.plan)
     conditions = Conditions(trial.driver, trial.parameters, limit_s or trial.limit_s, watcher)
     scene = _scene(trial, subject.scene)
-    result = rehearse(subject.plan, scene, places=subject.places, zones=subject.zones, conditions=conditions)
+    result = rehearse(
+        subject.plan, scene, places=subject.places, zones=subject.zones, conditions=conditions, follow=follow
+    )
     places = {place.id: (place.x, place.y) for place in subject.places}
     places |= {d.id: (d.pose.x, d.pose.y) for d in subject.scene.devices if d.kind == "machine"}
     seen = Seen(result, watcher.stocks, subject.outlines(), places, subject.numbers)

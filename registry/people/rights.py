@@ -66,7 +66,8 @@ DEEDS = (
         download_pgm download_yaml show_cells list_map_versions show_map_version show_version_cells show_place
         show_zone current probe sample current_of_device probe_device sample_of_device list_programs ask post_query
         list_things watch_things show_thing read_expression show_values show_value watch_value await_next_value
-        query_action list_threads show_thread mark_thread_read""",
+        query_action list_threads show_thread mark_thread_read
+        list_tests export_tests show_test show_version_tests""",
     ),
     _deed("stop", "viewer", "operate", "press_stop"),
     _deed("own", "viewer", "session", "list_tokens show_token create_token revoke_token list_members leave_site"),
@@ -87,7 +88,8 @@ DEEDS = (
         "run",
         "operator",
         "run",
-        """start_rehearsal cancel_rehearsal start_run pause_run resume_run cancel_run answer_question arm_program""",
+        """start_rehearsal cancel_rehearsal start_run pause_run resume_run cancel_run answer_question arm_program
+        run_tests""",
     ),
     _deed("ask_review", "operator", "run", "ask_for_review"),
     _deed("review", "operator", "session", "give_verdict"),
@@ -96,7 +98,8 @@ DEEDS = (
         "author",
         "run",
         """delete_program rename_program draw_script pin_version name_version copy_version look_at_restoring
-        restore_version make_changes save_function change_function create_program put_document put_script""",
+        restore_version make_changes save_function change_function create_program put_document put_script
+        add_test look_at_test show_first_text import_tests write_test delete_test""",
     ),
     _deed(
         "equip",

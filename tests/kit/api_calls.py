@@ -17,7 +17,7 @@ from django.test import Client
 
 from editor import services as editor
 from editor.models import Comment, CommentThread
-from execution.models import Command, DeadLetter, Question, Rehearsal, Run
+from execution.models import Command, DeadLetter, ProgramTest, Question, Rehearsal, Run
 from registry import services
 from registry.models import Device, DeviceAlert, Site, User
 from registry.people.wall_screens import make_wall_screen
@@ -48,6 +48,10 @@ BODIES: dict[str, dict[str, Any]] = {
     "wait_until_stored": {"seen": ""},
     "save_function": {"program": "{program}", "function": "f", "name": "F"},
     "change_function": {"visibility": "everyone"},
+    "add_test": {"text": "name: It is quick\nthen:\n- within_s: 60\n"},
+    "look_at_test": {"text": ""},
+    "import_tests": {"text": ""},
+    "write_test": {"text": "name: It ends\nthen:\n- ends: well\n"},
     "use_robot_map": {"device": "{device}", "version": 1, "replaces": 1},
     "set_review_rule": {"approvals": 0, "least_role": "author"},
     "give_verdict": {"version": 1, "verdict": "approved"},
@@ -115,6 +119,10 @@ def make_one_of_each(slug: str) -> dict[str, str]:
         "alert_id": DeviceAlert.objects.create(device_id=device, code="offline", first_at=NOW, last_at=NOW).pk,
     }
     made |= _make_comment(program)
+    ends = "name: It ends\nthen:\n- ends: well\n"
+    made["test"] = ProgramTest.objects.create(
+        program_id=program, name="It ends", text=ends, created_at=NOW, edited_at=NOW
+    ).pk
     named = {"device_id": device, "device": device, "thing": device, "slug": slug, "site": slug, "number": "1"}
     named |= {"version": "1", "name": "jobStatus", "action": "mix", "session": "0"}
     named |= _make_guest(site)

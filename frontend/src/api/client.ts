@@ -76,9 +76,9 @@ async function receive<T>(response: Response): Promise<T> {
 
 const JSON_TYPE = { "Content-Type": "application/json" };
 
-async function sendJson<T>(method: string, path: string, body?: unknown): Promise<T> {
+async function sendJson<T>(method: string, path: string, body?: unknown, tag?: string): Promise<T> {
   const payload = body === undefined ? undefined : JSON.stringify(body);
-  return receive<T>(await send(method, path, payload, payload ? JSON_TYPE : {}));
+  return receive<T>(await send(method, path, payload, { ...(payload && JSON_TYPE), ...(tag && { "If-Match": tag }) }));
 }
 
 /** Ask for something that the server does once for this key, however often it is asked. */
@@ -129,10 +129,11 @@ export const api = {
   part: receivePart,
   post: <T = void>(path: string, body?: unknown) => sendJson<T>("POST", path, body),
   postOnce,
-  put: <T = void>(path: string, body: unknown) => sendJson<T>("PUT", path, body),
+  /** With a `tag` only what is still as it was read is replaced or deleted. */
+  put: <T = void>(path: string, body: unknown, tag?: string) => sendJson<T>("PUT", path, body, tag),
   patch: <T = void>(path: string, body: unknown) => sendJson<T>("PATCH", path, body),
   replace,
-  delete: <T = void>(path: string) => sendJson<T>("DELETE", path),
+  delete: <T = void>(path: string, tag?: string) => sendJson<T>("DELETE", path, undefined, tag),
   upload: async <T>(path: string, form: FormData, headers: Readonly<Record<string, string>> = {}) =>
     receive<T>(await send("POST", path, form, headers)),
   text: async (path: string) => (await send("GET", path)).text(),

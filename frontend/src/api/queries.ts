@@ -56,6 +56,7 @@ export const keys = {
   versions: (id: string) => ["versions", id] as const,
   version: (id: string, number: number) => ["version", id, number] as const,
   threads: (id: string) => ["threads", id] as const,
+  tests: (id: string) => ["tests", id] as const,
   peopleToMention: (id: string) => ["people-to-mention", id] as const,
   comparison: (id: string) => ["comparison", id] as const,
   reviews: ["review"] as const,

@@ -708,6 +708,158 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/programs/{program}/test-runs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Run Tests
+         * @description Carry out tests of a program, all or some, on what is drawn now or on a version; queued as rehearsals are.
+         */
+        post: operations["run_tests"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/tests": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Tests
+         * @description Return a program's tests with what came of them last, and which ways through it none of them took.
+         */
+        get: operations["list_tests"];
+        put?: never;
+        /**
+         * Add Test
+         * @description Add a test. `args.line` of a refusal is where its text is wrong.
+         */
+        post: operations["add_test"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/tests/file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Tests
+         * @description Send a program's tests as a file for `vipo test`, which seeks the program's own file beside it.
+         */
+        get: operations["export_tests"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/tests/first": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show First Text
+         * @description Return the text that a new test may begin with: hardly anything, or made of the program's last rehearsal.
+         */
+        get: operations["show_first_text"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/tests/import": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Import Tests
+         * @description Add all tests of a file, or none of them.
+         */
+        post: operations["import_tests"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/tests/look": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Look At Test
+         * @description Tell whether a text is a test, and else where it is wrong; nothing is kept.
+         */
+        post: operations["look_at_test"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/tests/{test}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Test
+         * @description Return a test; the header `ETag` is what it is written with.
+         */
+        get: operations["show_test"];
+        /**
+         * Write Test
+         * @description Write a test anew, if it is still what was read.
+         */
+        put: operations["write_test"];
+        post?: never;
+        /**
+         * Delete Test
+         * @description Delete a test with its results, if it is still what was read.
+         */
+        delete: operations["delete_test"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/programs/{program}/threads": {
         parameters: {
             query?: never;
@@ -790,6 +942,26 @@ export interface paths {
          * @description Note that the asker has read a thread up to now.
          */
         post: operations["mark_thread_read"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/version-tests": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Version Tests
+         * @description Return how many tests passed on each version on which all were carried out.
+         */
+        get: operations["show_version_tests"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -3374,6 +3546,20 @@ export interface components {
             steps_done: number;
             virtual_s: number;
         };
+        /** @description Which ways through the program so many tests took; `stale` if that was before the program was changed. */
+        CoverageShape: {
+            constructs: components["schemas"]["CoveredConstruct"][];
+            stale: boolean;
+            tests: number;
+        };
+        /** @description A construct, its line of the script, and for each way through it how many tests took it. */
+        CoveredConstruct: {
+            line: number;
+            step: string;
+            ways: {
+                [key: string]: number;
+            };
+        };
         /** @description Which items, and of when: texts, since what cannot be read is answered with an MTConnect error. */
         CurrentAsked: {
             at?: string | null;
@@ -3583,6 +3769,14 @@ export interface components {
             signs_out: boolean;
             tokens: string[];
         };
+        /** @description What a test expected, on which line of its text, and what was seen; `t_s` is when, in virtual time. */
+        ExpectationShape: {
+            expected: string;
+            line: number;
+            ok: boolean;
+            saw: string;
+            t_s: number | null;
+        };
         /** @description What a device is set up with; `credential` is its key, told this once, `broker` may be empty. */
         ExpectedDevice: {
             broker: string;
@@ -3654,6 +3848,11 @@ export interface components {
             code: "no_gateway" | "no_worker" | "no_ticker" | "process_silent" | "clock_apart" | "archive_failed" | "set_aside";
             /** @enum {string} */
             severity: "warning" | "error";
+            text: string;
+        };
+        /** @description The text that a new test begins with; `of_rehearsal` is whether it is made of the program's last rehearsal. */
+        FirstTextShape: {
+            of_rehearsal: boolean;
             text: string;
         };
         /** @description A change that mends a problem: `field` of the step becomes `value`. */
@@ -3774,6 +3973,11 @@ export interface components {
         LibrarySource: {
             library: string;
             version: number;
+        };
+        /** @description Why a text is no test, and on which line (0: unknown). */
+        LineFault: {
+            line: number;
+            why: string;
         };
         /** @description A name that can stand in a line: `kind` is device, place, zone, robot or variable. */
         LineName: {
@@ -4345,6 +4549,25 @@ export interface components {
             site: string;
             warnings: number;
         };
+        /** @description A test beside a program, and its last result. */
+        ProgramTestShape: {
+            /** Format: date-time */
+            edited_at: string;
+            edited_by: string;
+            /** Format: uuid */
+            id: string;
+            name: string;
+            result: components["schemas"]["TestResultShape"] | null;
+            tag: string;
+        };
+        /** @description The tests of a program, at most `most`; the runs of them that are under way, and the last that is over. */
+        ProgramTestsShape: {
+            coverage: components["schemas"]["CoverageShape"] | null;
+            last: components["schemas"]["TestRunShape"] | null;
+            most: number;
+            tests: components["schemas"]["ProgramTestShape"][];
+            under_way: components["schemas"]["TestRunShape"][];
+        };
         /** @description Which programs are asked for: those whose names have all words of `q`. */
         ProgramsAsked: {
             /** @default  */
@@ -4472,6 +4695,8 @@ export interface components {
             document: components["schemas"]["DocumentShape"];
             ended_at: string | null;
             id: string;
+            /** @enum {string} */
+            kind: "rehearsal" | "tests";
             mine: boolean;
             place: number | null;
             program: string;
@@ -4487,6 +4712,7 @@ export interface components {
         /**
          * @description A rehearsal without its program; `progress` goes from 0 to 1, `tries` is how often it was begun.
          *
+         *     Tests of a program stand in the same queue (`kind`); their results are with the program's tests.
          *     `place` counts from 1 in the queue of all sites, while it waits; `mine` tells whether the asker has started it.
          */
         RehearsalSummaryShape: {
@@ -4496,6 +4722,8 @@ export interface components {
             created_at: string;
             ended_at: string | null;
             id: string;
+            /** @enum {string} */
+            kind: "rehearsal" | "tests";
             mine: boolean;
             place: number | null;
             program: string;
@@ -4917,6 +5145,77 @@ export interface components {
             at: string | null;
             by: string;
         };
+        /** @description What is wrong with the text of a test, if anything. */
+        TestLookShape: {
+            fault: components["schemas"]["LineFault"] | null;
+        };
+        /**
+         * @description What came of a test: on which content of the program, with which seed, how long it took in virtual time.
+         *
+         *     `stale` says what has changed since: the program, or the test. An unusable test names what there is not, on a
+         *     `line` (0: unknown) and `why`; a stopped one was not done when the time for all was over.
+         */
+        TestResultShape: {
+            /** Format: date-time */
+            at: string;
+            digest: string;
+            duration_s: number;
+            errors: string[];
+            expectations: components["schemas"]["ExpectationShape"][];
+            line: number;
+            number: number | null;
+            seed: number;
+            stale: ("program" | "test") | null;
+            /** @enum {string} */
+            status: "passed" | "failed" | "unusable" | "stopped";
+            why: string;
+        };
+        /**
+         * @description Tests carried out together, on a version or on what was drawn (no `number`).
+         *
+         *     `rehearsal` is what they are in the queue, by which they are followed and cancelled; `by_itself` is true where they
+         *     are those of a version that was named.
+         */
+        TestRunShape: {
+            by_itself: boolean;
+            cause: components["schemas"]["Cause"] | null;
+            /** Format: date-time */
+            created_at: string;
+            ended_at: string | null;
+            /** Format: uuid */
+            id: string;
+            mine: boolean;
+            number: number | null;
+            passed: number;
+            reason: string;
+            rehearsal: string | null;
+            started_by: string;
+            /** @enum {string} */
+            status: "queued" | "running" | "done" | "failed" | "cancelled";
+            total: number;
+        };
+        /** @description A test as it is written; `tag` is its ETag, by which it is written anew. */
+        TestTextShape: {
+            /** Format: uuid */
+            id: string;
+            name: string;
+            tag: string;
+            text: string;
+        };
+        /** @description The text of a test: one entry of `tests`, as docs/testing-programs.md has it. */
+        TestToWrite: {
+            text: string;
+        };
+        /** @description A file of tests, as `vipo test` reads it; the program and the site that it names are not looked at. */
+        TestsToImport: {
+            text: string;
+        };
+        /** @description Which tests are carried out (all, if none are named), on which version (what is drawn now, if none). */
+        TestsToRun: {
+            tests?: string[] | null;
+            /** @description The version of the program that is taken; as it is drawn now if none. */
+            version?: number | null;
+        };
         /** @description Whether a thread is resolved. */
         ThreadChange: {
             resolved: boolean;
@@ -5002,6 +5301,16 @@ export interface components {
             message: string;
             name: string;
             number: number;
+        };
+        /** @description How the last run of all tests on a version's content stands. */
+        VersionTestsShape: {
+            /** Format: date-time */
+            created_at: string;
+            number: number;
+            passed: number;
+            /** @enum {string} */
+            status: "queued" | "running" | "done" | "failed" | "cancelled";
+            total: number;
         };
         /** @description What a version is about, and before what it is made. */
         VersionToPin: {
@@ -7100,6 +7409,461 @@ export interface operations {
             };
         };
     };
+    run_tests: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["TestsToRun"] | null;
+            };
+        };
+        responses: {
+            /** @description Accepted */
+            202: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestRunShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_tests: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProgramTestsShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    add_test: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TestToWrite"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestTextShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    export_tests: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/yaml": Record<string, never>;
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_first_text: {
+        parameters: {
+            query?: {
+                of?: "nothing" | "rehearsal";
+            };
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FirstTextShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    import_tests: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TestsToImport"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestTextShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    look_at_test: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TestToWrite"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestLookShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_test: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+                test: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    /** @description What the test is written with. */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestTextShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    write_test: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The ETag of the test that was read, as it is. */
+                "If-Match"?: string;
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+                test: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TestToWrite"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    /** @description What the test is written with. */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestTextShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            412: components["responses"]["Refused412"];
+            422: components["responses"]["Refused422"];
+            428: components["responses"]["Refused428"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    delete_test: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The ETag of the test that was read, as it is. */
+                "If-Match"?: string;
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+                test: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            412: components["responses"]["Refused412"];
+            422: components["responses"]["Refused422"];
+            428: components["responses"]["Refused428"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_threads: {
         parameters: {
             query?: never;
@@ -7353,6 +8117,45 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_version_tests: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VersionTestsShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

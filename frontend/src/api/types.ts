@@ -150,3 +150,10 @@ export interface Restored {
   readonly skipped: readonly ValueChange[];
   readonly needs: readonly (readonly [root: string, id: string])[];
 }
+export type ProgramTests = Schemas["ProgramTestsShape"];
+export type ProgramTest = Schemas["ProgramTestShape"];
+export type TestResult = Schemas["TestResultShape"];
+export type TestRun = Schemas["TestRunShape"];
+export type TestText = Schemas["TestTextShape"];
+export type TestCoverage = Schemas["CoverageShape"];
+export type VersionTests = Schemas["VersionTestsShape"];

@@ -8,6 +8,7 @@ import { FactList } from "@/design/FactList";
 import { AskForReview } from "@/shell/review/AskForReview";
 import { NoteForm } from "@/shell/review/NoteForm";
 import { factsOf, findingsOf, isReviewed, useReview, useVerdict, type Verdict } from "@/shell/review/review";
+import { factOfTests, useVersionTests } from "@/shell/review/versionTests";
 import { mayOperate } from "@/api/roles";
 import type { Review, Role } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
@@ -27,11 +28,21 @@ export function ReviewBar({ program, role, asked, onSince }: BarProps) {
   const side = asked?.[1];
   const number = side === undefined || side === "0" ? undefined : side === DRAFT ? null : Number(side);
   const review = useReview(program, number).data;
-  if (!isReviewed(review)) return null;
+  const tested = useVersionTests(program).data?.find((each) => each.number === number);
+  const tests = factOfTests(tested, t);
+  if (!isReviewed(review))
+    return tests ? (
+      <div className={styles.review}>
+        <FactList label={t("tests.list")} facts={[tests]} />
+      </div>
+    ) : null;
   const since = review.compare_with;
   return (
     <div className={styles.review}>
-      <FactList label={t("review.title")} facts={[...factsOf(review, t), ...findingsOf(review, t)]} />
+      <FactList
+        label={t("review.title")}
+        facts={[...factsOf(review, t), ...findingsOf(review, t), ...(tests ? [tests] : [])]}
+      />
       <div className={styles.verdict}>
         {since !== null && String(since) !== asked?.[0] ? (
           <Button size="xs" variant="default" onClick={() => onSince(String(since))}>

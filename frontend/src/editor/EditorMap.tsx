@@ -1,5 +1,5 @@
 /** The map of the editor: what presses, drags and keys on it mean for the program. */
-import { useCallback, useMemo } from "react";
+import { lazy, Suspense, useCallback, useMemo } from "react";
 import { liveRobots } from "@/live/robots";
 import { isRobot } from "@/map/devices/device";
 import { type Insets, toMetres, toPixels } from "@/map/plane/projection";
@@ -39,6 +39,8 @@ import { PreviewLine } from "./canvas/PreviewLine";
 import { ZONE_TOOL } from "./state/tools";
 import { pressZoneTool } from "./zones/zoneTool";
 import { EditorZones, ZoneHandles } from "./zones/ZoneLayer";
+
+const CoverageMarks = lazy(async () => ({ default: (await import("./tests/CoverageMarks")).CoverageMarks }));
 
 interface EditorMapProps {
   insets: Insets;
@@ -100,12 +102,18 @@ export function EditorMap({ insets, fitInsets, small }: EditorMapProps) {
 
 /** What lies in the map's plane over the drawing. */
 function Plane({ drawing }: { drawing: Drawing }) {
+  const tested = useUi((ui) => ui.drawer.open && ui.drawer.tab === "tests");
   return (
     <>
       <PreviewLine from={drawing.from} route={drawing.preview} pointer={drawing.pointer} />
       <RouteBends />
       <ModeMark />
       <CommentPins />
+      {tested ? (
+        <Suspense fallback={null}>
+          <CoverageMarks />
+        </Suspense>
+      ) : null}
       <ZoneHandles pointer={drawing.pointer} />
     </>
   );

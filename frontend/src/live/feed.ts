@@ -93,6 +93,8 @@ export class SiteFeed {
         return this.#caches.refresh(keys.programs(this.slug));
       case "comments":
         return this.#caches.refresh(keys.threads(message.program));
+      case "tests":
+        return this.#caches.refresh(keys.tests(message.program));
       case "review":
         this.#caches.refresh(keys.reviewRule(this.slug));
         return this.#caches.refresh(keys.reviews);
@@ -125,9 +127,16 @@ export class SiteFeed {
       keys.armed,
       keys.alerts,
     ].map((key) => key(this.slug) as readonly string[]);
-    const open = ["threads", "run", "run-events", "rehearsal", "robot-map", "map-difference", "map-versions"].map(
-      (name) => [name],
-    );
+    const open = [
+      "threads",
+      "tests",
+      "run",
+      "run-events",
+      "rehearsal",
+      "robot-map",
+      "map-difference",
+      "map-versions",
+    ].map((name) => [name]);
     this.#refreshAll([...stale, ...open]);
   }
 

@@ -51,6 +51,7 @@ export type LiveMessage =
   | { type: "traffic"; robots: Record<string, RobotTraffic> }
   | { type: "programs" }
   | { type: "comments"; program: string }
+  | { type: "tests"; program: string }
   | { type: "review" }
   | { type: "role"; role: Role }
   | ({ type: "checked" } & CheckedProgram);

@@ -22,7 +22,8 @@ from vipo_site.http.making import MADE
 pytestmark = pytest.mark.django_db(transaction=True)
 AT_SITE = f"/api/sites/{SITE}"
 YAML = b"image: a.pgm\nresolution: 1.0\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n"
-LATER = {"start_run", "start_rehearsal", "call_method"}
+LATER = {"start_run", "start_rehearsal", "run_tests", "call_method"}
+FILE_OF_TESTS = "version: 1\nprogram: a.json\ntests:\n- {name: It ends, then: [ends: well]}\n"
 
 
 @pytest.fixture
@@ -83,6 +84,11 @@ def make_each(client: Client) -> dict[str, Any]:
         "start_thread": thread,
         "answer_thread": post_json(client, f"{threads}/{thread.json()['id']}/comments", {"text": "For the paint."}),
         "save_function": post_json(client, f"{AT_SITE}/library", function),
+        "add_test": post_json(
+            client, f"/api/programs/{task}/tests", {"text": "name: It is quick\nthen:\n- within_s: 60\n"}
+        ),
+        "import_tests": post_json(client, f"/api/programs/{task}/tests/import", {"text": FILE_OF_TESTS}),
+        "run_tests": post_json(client, f"/api/programs/{task}/test-runs"),
         "start_rehearsal": post_json(client, f"/api/programs/{task}/rehearsals"),
         "call_method": post_json(
             client, f"{AT_SITE}/devices/paintMixer01/call", {"method": "mixPaint", "args": {"time": 5}}

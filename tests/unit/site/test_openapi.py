@@ -8,6 +8,7 @@ from ninja import Schema
 
 import editor.api
 import editor.shapes
+import execution.program_tests.shapes
 import execution.rehearsals.shapes
 import execution.shapes
 import registry.shapes
@@ -71,6 +72,7 @@ def test_every_answer_has_a_shape(described):
         ("put", "/api/programs/{program}/document", "204"),
         ("put", "/api/programs/{program}/script", "204"),
         ("post", "/api/programs/{program}/stored", "204"),
+        ("delete", "/api/programs/{program}/tests/{test}", "204"),
         ("post", "/api/programs/{program}/threads/{thread}/read", "204"),
         ("delete", "/api/sites/{slug}/invitations/{invitation}", "204"),
         ("post", "/api/sites/{slug}/leave", "204"),
@@ -90,6 +92,7 @@ def test_no_two_shapes_have_one_name():
         editor.api,
         editor.shapes,
         execution.shapes,
+        execution.program_tests.shapes,
         execution.rehearsals.shapes,
         vipo_site.http.openapi,
     )

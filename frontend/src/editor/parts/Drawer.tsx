@@ -1,7 +1,8 @@
-/** The drawer at the bottom: script, problems, steps, comments. */
+/** The drawer at the bottom: script, problems, steps, tests, comments. */
 import {
   Copy,
   FileCode2,
+  FlaskConical,
   ListTree,
   MessageSquare,
   OctagonAlert,
@@ -39,6 +40,7 @@ export function Drawer({ small }: { small: boolean }) {
             count={diagnostics.length}
           />
           <Tab tab="steps" icon={<ListTree size={15} aria-hidden="true" />} label={t("drawer.steps")} />
+          <Tab tab="tests" icon={<FlaskConical size={15} aria-hidden="true" />} label={t("drawer.tests")} />
           <CommentsTab />
         </div>
         <Actions />

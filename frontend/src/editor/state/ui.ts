@@ -4,7 +4,7 @@ import type { BranchRef } from "@/program/document/tree";
 import type { Clipping } from "../edits/clipping";
 import { RESTING, type Gesture } from "./tool";
 
-export type DrawerTab = "script" | "problems" | "steps" | "comments";
+export type DrawerTab = "script" | "problems" | "steps" | "tests" | "comments";
 export type Dialog =
   "run" | "function" | "library" | "save_function" | "shortcuts" | "find" | "strangers" | "templates" | null;
 

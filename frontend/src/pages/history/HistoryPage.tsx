@@ -11,6 +11,7 @@ import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
+import { useVersionTests } from "@/shell/review/versionTests";
 import { mayEdit } from "../programs/NewProgram";
 import { TableSkeleton } from "../TableSkeleton";
 import styles from "./history.module.css";
@@ -54,6 +55,7 @@ function Versions({ program, site }: { program: Program; site: Site }) {
   const { t } = useTranslation();
   const query = useVersions(program.id);
   const runs = useProgramRuns(site.slug, program.id);
+  const tests = useVersionTests(program.id).data ?? [];
   if (query.isPending) return <TableSkeleton />;
   if (query.isLoadingError) return <LoadProblem error={query.error} again={() => void query.refetch()} />;
   const versions = query.data.pages.flatMap((page) => page.items);
@@ -73,6 +75,7 @@ function Versions({ program, site }: { program: Program; site: Site }) {
             version={version}
             before={versions[at + 1]?.number ?? (version.number > 1 ? version.number - 1 : null)}
             runs={used.get(version.number) ?? []}
+            tests={tests.find(({ number }) => number === version.number)}
             program={program}
             site={site}
           />

@@ -6,12 +6,13 @@ import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { useVersion } from "@/api/queries";
 import { mayOperate } from "@/api/roles";
-import type { Program, RunSummary, Site, Version } from "@/api/types";
+import type { Program, RunSummary, Site, Version, VersionTests } from "@/api/types";
 import { compareAddress, DRAFT, versionTitle } from "@/compare/sides";
 import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatMoment } from "@/i18n/format";
+import { factOfTests } from "@/shell/review/versionTests";
 import { StepsPicture } from "../library/FunctionPicture";
 import { mayEdit } from "../programs/NewProgram";
 import { statusOfRun } from "../runs/runStatus";
@@ -28,6 +29,8 @@ interface RowProps {
   /** The number of the version before; null for the first. */
   before: number | null;
   runs: readonly RunSummary[];
+  /** How its tests came out, if they were carried out on it. */
+  tests: VersionTests | undefined;
   program: Program;
   site: Site;
 }
@@ -49,6 +52,7 @@ export function VersionRow(props: RowProps) {
           {[version.author?.name, formatMoment(version.created_at)].filter(Boolean).join(", ")}
           {drew && drew !== version.author?.name ? <small>{t("history.drew", { people: drew })}</small> : null}
         </p>
+        <Tests tests={props.tests} />
         <Runs runs={props.runs} />
       </div>
       <div className={styles.does}>
@@ -102,6 +106,18 @@ function useSeen<T extends Element>() {
     return () => watch.disconnect();
   }, [seen]);
   return [element, seen] as const;
+}
+
+function Tests({ tests }: Pick<RowProps, "tests">) {
+  const { t } = useTranslation();
+  const fact = factOfTests(tests, t);
+  if (!fact) return null;
+  const status = fact.tone === "done" ? "done" : fact.tone === "error" ? "error" : "waiting";
+  return (
+    <p className={styles.runs}>
+      <StatusBadge status={status}>{fact.text}</StatusBadge>
+    </p>
+  );
 }
 
 function Runs({ runs }: { runs: readonly RunSummary[] }) {

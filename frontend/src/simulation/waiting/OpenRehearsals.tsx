@@ -43,14 +43,18 @@ interface RowProps {
 
 function Row({ rehearsal, allowed, busy, onCancel }: RowProps) {
   const { t } = useTranslation();
-  const { id, program, program_name: name, started_by: by, place, course, mine } = rehearsal;
+  const { id, kind, program, program_name: name, started_by: by, place, course, mine } = rehearsal;
   return (
     <li>
       <span className={styles.position}>
         {place === null ? t("simulation.queue.running") : t("simulation.queue.place", { place })}
       </span>
       <span className={styles.what}>
-        <Link to={`/programs/${program}/simulate/${id}`}>{name}</Link>{" "}
+        {kind === "tests" ? (
+          <Link to={`/programs/${program}`}>{t("simulation.queue.tests", { name })}</Link>
+        ) : (
+          <Link to={`/programs/${program}/simulate/${id}`}>{name}</Link>
+        )}{" "}
         {t(mine ? "simulation.queue.mine" : "simulation.queue.by", { by })}
         {course ? <small>{progressWords(course)}</small> : null}
       </span>

@@ -72,8 +72,8 @@ def children(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     started: list[Any] = []
 
     class Watched(worker.RunningChild):
-        def __init__(self, job: Any) -> None:
-            super().__init__(job)
+        def __init__(self, *told: Any) -> None:
+            super().__init__(*told)
             started.append(self)
 
     monkeypatch.setattr(worker, "RunningChild", Watched)

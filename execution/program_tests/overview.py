@@ -1,0 +1,152 @@
+"""What came of a program's tests: for each its last result, what is under way, and which ways were taken."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+from uuid import UUID
+
+from django.db.models import QuerySet
+
+from editor import services as editor
+from execution.models import ProgramTest, Rehearsal, TrialResult, TrialRun
+from execution.program_tests.stored_tests import MOST_TESTS, tag_of
+from execution.reasons import cause_of
+from execution.rehearsals.rehearsals import HEAVY
+from execution.trials.coverage import Way, coverage_to_json
+
+MOST_RUNS = 500
+RUNS_LOOKED_AT = 20
+Key = tuple[int, UUID, str]
+"""A result, its test, and the digest of what it was carried out on."""
+Latest = Mapping[UUID, TrialResult]
+
+
+def show_tests(*, program: UUID, asker: int) -> dict[str, Any]:
+    """Return a program's tests with their last results, as JSON (`ProgramTestsShape`). Raises NoSuchProgram."""
+    digest = editor.get_digest(program_id=program)
+    rows = ProgramTest.objects.filter(program=program).select_related("edited_by").defer("text")
+    tests = list(rows.order_by("created_at", "name"))
+    known = TrialResult.objects.filter(test__program=program).order_by("-at", "-pk")
+    results = list(known.values_list("pk", "test", "digest"))
+    latest = _latest(results)
+    runs = list(runs_of(program)[:RUNS_LOOKED_AT])
+    under_way = [run for run in runs if status_of(run) in Rehearsal.OPEN]
+    over = next((run for run in runs if status_of(run) not in Rehearsal.OPEN), None)
+    return {
+        "most": MOST_TESTS,
+        "tests": [_test_to_json(test, latest.get(test.pk), digest) for test in tests],
+        "under_way": [run_to_json(run, asker) for run in reversed(under_way)],
+        "last": run_to_json(over, asker) if over else None,
+        "coverage": _coverage(program, results, digest),
+    }
+
+
+def runs_of(program: UUID) -> QuerySet[TrialRun]:
+    """Return the runs of a program's tests, the newest first, without what of their place in the queue is large."""
+    rows = TrialRun.objects.filter(program=program).select_related("rehearsal").order_by("-created_at")
+    return rows.defer("ways", *(f"rehearsal__{column}" for column in HEAVY))
+
+
+def status_of(run: TrialRun) -> str:
+    """Return how a run of tests stands: what its place in the queue says, once it is over by itself."""
+    if run.ended_at is not None:
+        return str(Rehearsal.Status.FAILED if run.reason else Rehearsal.Status.DONE)
+    return str(run.rehearsal.status if run.rehearsal else Rehearsal.Status.FAILED)
+
+
+def run_to_json(run: TrialRun, asker: int) -> dict[str, Any]:
+    """Return a run of tests as JSON (`TestRunShape`)."""
+    rehearsal = run.rehearsal
+    reason = run.reason or (rehearsal.reason if rehearsal else "")
+    ended = run.ended_at or (rehearsal.ended_at if rehearsal else None)
+    return {
+        "id": run.pk,
+        "rehearsal": rehearsal.pk if rehearsal else None,
+        "number": run.number,
+        "status": status_of(run),
+        "passed": run.passed,
+        "total": run.total,
+        "by_itself": run.by_itself,
+        "started_by": run.started_by,
+        "mine": bool(rehearsal and rehearsal.person == asker),
+        "reason": reason,
+        "cause": cause_of(reason),
+        "created_at": run.created_at,
+        "ended_at": ended,
+    }
+
+
+def _test_to_json(test: ProgramTest, result: TrialResult | None, digest: str) -> dict[str, Any]:
+    return {
+        "id": test.pk,
+        "name": test.name,
+        "tag": tag_of(test.revision),
+        "edited_at": test.edited_at,
+        "edited_by": test.edited_by.display_name if test.edited_by else "",
+        "result": None if result is None else _result_to_json(result, test, digest),
+    }
+
+
+def _result_to_json(result: TrialResult, test: ProgramTest, digest: str) -> dict[str, Any]:
+    return {
+        "status": result.status,
+        "stale": "program" if result.digest != digest else "test" if result.revision != test.revision else None,
+        "number": result.run.number,
+        "digest": result.digest,
+        "seed": result.seed,
+        "duration_s": result.duration_s,
+        "at": result.at,
+        **result.detail,
+    }
+
+
+def _latest(results: Sequence[Key]) -> Latest:
+    """Return the last result of each test."""
+    rows = TrialResult.objects.select_related("run").defer("taken").in_bulk(list(_newest(results).values()))
+    return {row.test_id: row for row in rows.values()}
+
+
+def _newest(results: Iterable[Key]) -> dict[UUID, int]:
+    """Return for each test the first of its results."""
+    found: dict[UUID, int] = {}
+    for key, test, _ in results:
+        found.setdefault(test, key)
+    return found
+
+
+def _coverage(program: UUID, results: Sequence[Key], digest: str) -> dict[str, Any] | None:
+    """Return which ways the tests took through the program as it is now, else as it was when they last ran."""
+    runs = TrialRun.objects.filter(program=program).exclude(ways=[]).order_by("-created_at")
+    run = runs.filter(digest=digest).first() or runs.first()
+    if run is None:
+        return None
+    chosen = _newest(each for each in results if each[2] == run.digest).values()
+    found = list(TrialResult.objects.filter(pk__in=list(chosen)).values_list("taken", flat=True))
+    taken = Counter((step, name) for each in found for step, name in each)
+    ways = [Way(each["step"], each["line"], each["name"]) for each in run.ways]
+    constructs = [{key: each[key] for key in ("step", "line", "ways")} for each in coverage_to_json(ways, taken, {})]
+    return {"stale": run.digest != digest, "tests": len(found), "constructs": constructs}
+
+
+def list_version_tests(*, program: UUID) -> list[dict[str, Any]]:
+    """Return for each version on whose content all tests were carried out the last such run, the newest version first.
+
+    As JSON (`VersionTestsShape`).
+    """
+    newest: dict[str, TrialRun] = {}
+    for run in runs_of(program).filter(whole=True)[:MOST_RUNS]:
+        newest.setdefault(run.digest, run)
+    numbers = editor.find_numbers(program_id=program, digests=newest)
+    return [_version_to_json(number, newest[digest]) for number, digest in sorted(numbers.items(), reverse=True)]
+
+
+def _version_to_json(number: int, run: TrialRun) -> dict[str, Any]:
+    return {
+        "number": number,
+        "status": status_of(run),
+        "passed": run.passed,
+        "total": run.total,
+        "created_at": run.created_at,
+    }

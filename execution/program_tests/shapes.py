@@ -1,0 +1,163 @@
+"""The shapes of what is asked and answered about tests of programs."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Literal
+from uuid import UUID
+
+from ninja import Field, Schema
+
+from execution.program_tests.stored_tests import MOST_TESTS, MOST_TEXT
+from execution.shapes import Cause, OfVersion
+from registry.shapes import Asked
+
+MOST_FILE = 1_000_000
+Status = Literal["queued", "running", "done", "failed", "cancelled"]
+
+
+class TestTextShape(Schema):
+    """A test as it is written; `tag` is its ETag, by which it is written anew."""
+
+    id: UUID
+    name: str
+    text: str
+    tag: str
+
+
+class ExpectationShape(Schema):
+    """What a test expected, on which line of its text, and what was seen; `t_s` is when, in virtual time."""
+
+    expected: str
+    line: int
+    ok: bool
+    saw: str
+    t_s: float | None
+
+
+class TestResultShape(Schema):
+    """What came of a test: on which content of the program, with which seed, how long it took in virtual time.
+
+    `stale` says what has changed since: the program, or the test. An unusable test names what there is not, on a
+    `line` (0: unknown) and `why`; a stopped one was not done when the time for all was over.
+    """
+
+    status: Literal["passed", "failed", "unusable", "stopped"]
+    stale: Literal["program", "test"] | None
+    number: int | None
+    digest: str
+    seed: int
+    duration_s: float
+    at: datetime
+    expectations: list[ExpectationShape]
+    errors: list[str]
+    line: int
+    why: str
+
+
+class ProgramTestShape(Schema):
+    """A test beside a program, and its last result."""
+
+    id: UUID
+    name: str
+    tag: str
+    edited_at: datetime
+    edited_by: str
+    result: TestResultShape | None
+
+
+class TestRunShape(Schema):
+    """Tests carried out together, on a version or on what was drawn (no `number`).
+
+    `rehearsal` is what they are in the queue, by which they are followed and cancelled; `by_itself` is true where they
+    are those of a version that was named.
+    """
+
+    id: UUID
+    rehearsal: UUID | None
+    number: int | None
+    status: Status
+    passed: int
+    total: int
+    by_itself: bool
+    started_by: str
+    mine: bool
+    reason: str
+    cause: Cause | None
+    created_at: datetime
+    ended_at: datetime | None
+
+
+class CoveredConstruct(Schema):
+    """A construct, its line of the script, and for each way through it how many tests took it."""
+
+    step: str
+    line: int
+    ways: dict[str, int]
+
+
+class CoverageShape(Schema):
+    """Which ways through the program so many tests took; `stale` if that was before the program was changed."""
+
+    stale: bool
+    tests: int
+    constructs: list[CoveredConstruct]
+
+
+class ProgramTestsShape(Schema):
+    """The tests of a program, at most `most`; the runs of them that are under way, and the last that is over."""
+
+    most: int
+    tests: list[ProgramTestShape]
+    under_way: list[TestRunShape]
+    last: TestRunShape | None
+    coverage: CoverageShape | None
+
+
+class VersionTestsShape(Schema):
+    """How the last run of all tests on a version's content stands."""
+
+    number: int
+    status: Status
+    passed: int
+    total: int
+    created_at: datetime
+
+
+class TestToWrite(Asked):
+    """The text of a test: one entry of `tests`, as docs/testing-programs.md has it."""
+
+    text: str = Field(max_length=MOST_TEXT)
+
+
+class TestsToImport(Asked):
+    """A file of tests, as `vipo test` reads it; the program and the site that it names are not looked at."""
+
+    text: str = Field(max_length=MOST_FILE)
+
+
+class LineFault(Schema):
+    """Why a text is no test, and on which line (0: unknown)."""
+
+    line: int
+    why: str
+
+
+class TestLookShape(Schema):
+    """What is wrong with the text of a test, if anything."""
+
+    fault: LineFault | None
+
+
+class FirstTextShape(Schema):
+    """The text that a new test begins with; `of_rehearsal` is whether it is made of the program's last rehearsal."""
+
+    text: str
+    of_rehearsal: bool
+
+
+class TestsToRun(Asked):
+    """Which tests are carried out (all, if none are named), on which version (what is drawn now, if none)."""
+
+    tests: list[UUID] | None = Field(None, min_length=1, max_length=MOST_TESTS)
+    version: OfVersion = None

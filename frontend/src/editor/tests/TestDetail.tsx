@@ -1,0 +1,309 @@
+/** One test: its text, what the parser says of it, and what came of it. */
+import { Button } from "@mantine/core";
+import { ArrowLeft, Check, Play, Save, Trash2, X } from "lucide-react";
+import { useEffect, useId, useRef, useState } from "react";
+import { useTranslation } from "react-i18next";
+import { ApiProblem } from "@/api/client";
+import { mayOperate } from "@/api/roles";
+import type { ProgramTest, TestResult } from "@/api/types";
+import { formatSpan } from "@/i18n/format";
+import { LoadProblem, problemText } from "@/shell/LoadProblem";
+import drawer from "../parts/drawer.module.css";
+import { useOpenProgram } from "../state/context";
+import { say } from "../state/ui";
+import classes from "./tests.module.css";
+import { keepDraft, lookAt, openTest, readTest, useTesting, useTestsUi, useTestText } from "./tests";
+import { Status } from "./TestList";
+import { useRun } from "./useRun";
+import type { Fault, YamlView } from "./yamlView";
+
+interface DetailProps {
+  /** The id of a test, or `new`. */
+  opened: string;
+  test: ProgramTest | undefined;
+  most: number;
+}
+
+export function TestDetail({ opened, test, most }: DetailProps) {
+  const { t } = useTranslation();
+  const { program, canEdit } = useOpenProgram();
+  const saved = useTestText(program.id, test);
+  const draft = useTestsUi((ui) => ui.drafts[opened]);
+  const text = draft?.text ?? saved.data?.text;
+  const type = (next: string) => {
+    if (next === saved.data?.text && (draft === undefined || draft.tag === saved.data.tag)) keepDraft(opened, null);
+    else keepDraft(opened, { id: draft?.id ?? test?.id ?? null, text: next, tag: draft?.tag ?? saved.data?.tag ?? "" });
+  };
+  return (
+    <section className={classes.detail} aria-label={test?.name ?? t("tests.new")}>
+      <DetailHead opened={opened} test={test} most={most} />
+      {saved.error ? <LoadProblem error={saved.error} again={() => void saved.refetch()} /> : null}
+      {text === undefined ? null : (
+        <div className={classes.halves}>
+          <YamlText text={text} readOnly={!canEdit} onType={type} />
+          {test?.result ? <Result result={test.result} /> : null}
+        </div>
+      )}
+    </section>
+  );
+}
+
+function DetailHead({ opened, test, most }: DetailProps) {
+  const { t } = useTranslation();
+  const { site } = useOpenProgram();
+  const draft = useTestsUi((ui) => ui.drafts[opened]);
+  const run = useRun();
+  const writing = useWriting(opened, test, most);
+  return (
+    <>
+      <div className={classes.detailHead}>
+        <Button
+          size="compact-sm"
+          variant="subtle"
+          leftSection={<ArrowLeft size={14} aria-hidden="true" />}
+          onClick={() => openTest(null)}
+        >
+          {t("tests.back")}
+        </Button>
+        <h2>{test?.name ?? t("tests.new")}</h2>
+        <div className={classes.acts}>
+          {draft ? (
+            <>
+              <Button size="compact-sm" variant="default" onClick={writing.discard}>
+                {t("tests.discard")}
+              </Button>
+              <Button
+                size="compact-sm"
+                leftSection={<Save size={13} aria-hidden="true" />}
+                loading={writing.isPending}
+                onClick={() => writing.save()}
+              >
+                {t("tests.save")}
+              </Button>
+            </>
+          ) : null}
+          {test && !draft && mayOperate(site.role) ? (
+            <Button
+              size="compact-sm"
+              variant="default"
+              leftSection={<Play size={13} aria-hidden="true" />}
+              loading={run.isPending}
+              onClick={() => run.start({ tests: [test.id] })}
+            >
+              {t("tests.run_this")}
+            </Button>
+          ) : null}
+          {test && !draft ? <Delete test={test} onDelete={writing.remove} /> : null}
+        </div>
+      </div>
+      <Meanwhile opened={opened} test={test} writing={writing} />
+      {writing.problem ? (
+        <p role="alert" className={classes.refusal}>
+          {writing.problem}
+        </p>
+      ) : null}
+    </>
+  );
+}
+
+type Writing = ReturnType<typeof useWriting>;
+
+/** Saving and deleting; a refusal stays beside the words that it is about. */
+function useWriting(opened: string, test: ProgramTest | undefined, most: number) {
+  const { t } = useTranslation();
+  const { program } = useOpenProgram();
+  const act = useTesting(program.id);
+  const [problem, setProblem] = useState("");
+  const refuse = (error: unknown) => {
+    const code = error instanceof ApiProblem ? error.code : "";
+    if (code === "test_name_taken" || code === "tests_full") setProblem(t(`tests.refusal.${code}`, { most }));
+    else if (code !== "changed") setProblem(problemText(error, t("shell.problem.screen")));
+  };
+  const save = (tag?: string) => {
+    const draft = useTestsUi.getState().drafts[opened];
+    if (!draft) return;
+    setProblem("");
+    const written = test ? act.write(test.id, draft.text, tag ?? draft.tag) : act.add(draft.text);
+    void written.then((made) => {
+      const now = useTestsUi.getState().drafts[opened];
+      // What was typed while it was saved is of what is saved now.
+      keepDraft(opened, null);
+      if (now && now.text !== draft.text) keepDraft(made.id, { id: made.id, text: now.text, tag: made.tag });
+      openTest(made.id);
+      say(t("tests.saved"));
+    }, refuse);
+  };
+  const discard = () => {
+    keepDraft(opened, null);
+    setProblem("");
+    if (!test) openTest(null);
+  };
+  const remove = () => {
+    if (test) void act.remove(test.id, test.tag).then(() => openTest(null), refuse);
+  };
+  return { save, discard, remove, problem, isPending: act.isPending };
+}
+
+/** Somebody else has written or deleted what one is writing: nothing is lost, and one decides. */
+function Meanwhile({ opened, test, writing }: { opened: string; test: ProgramTest | undefined; writing: Writing }) {
+  const { t } = useTranslation();
+  const { program } = useOpenProgram();
+  const draft = useTestsUi((ui) => ui.drafts[opened]);
+  if (!draft?.id) return null;
+  if (!test)
+    return (
+      <div role="alert" className={classes.meanwhile}>
+        <p>{t("tests.gone")}</p>
+        <Button size="compact-xs" variant="default" onClick={() => writing.save()}>
+          {t("tests.as_new")}
+        </Button>
+      </div>
+    );
+  if (test.tag === draft.tag) return null;
+  const showTheirs = () =>
+    void readTest(program.id, test.id).then((theirs) => {
+      const text = `${draft.text.trimEnd()}\n\n${theirs.text.replace(/^/gm, "# ").trimEnd()}\n`;
+      keepDraft(opened, { id: test.id, text, tag: theirs.tag });
+    });
+  return (
+    <div role="alert" className={classes.meanwhile}>
+      <p>{t("tests.meanwhile")}</p>
+      <Button size="compact-xs" variant="default" onClick={showTheirs}>
+        {t("tests.theirs")}
+      </Button>
+      <Button size="compact-xs" variant="default" onClick={() => writing.save(test.tag)}>
+        {t("tests.over_theirs")}
+      </Button>
+    </div>
+  );
+}
+
+/** Deleting asks once more in the same place. */
+function Delete({ test, onDelete }: { test: ProgramTest; onDelete: () => void }) {
+  const { t } = useTranslation();
+  const { canEdit } = useOpenProgram();
+  const [sure, setSure] = useState(false);
+  useEffect(() => setSure(false), [test.id]);
+  if (!canEdit) return null;
+  return (
+    <Button
+      size="compact-sm"
+      variant="default"
+      color="red"
+      leftSection={<Trash2 size={13} aria-hidden="true" />}
+      onBlur={() => setSure(false)}
+      onClick={() => (sure ? onDelete() : setSure(true))}
+    >
+      {t(sure ? "tests.delete_sure" : "tests.delete")}
+    </Button>
+  );
+}
+
+const LOOK_AFTER_MS = 400;
+
+function YamlText({ text, readOnly, onType }: { text: string; readOnly: boolean; onType: (text: string) => void }) {
+  const { t } = useTranslation();
+  const { program } = useOpenProgram();
+  const place = useRef<HTMLDivElement>(null);
+  const [view, setView] = useState<YamlView | null>(null);
+  const typed = useRef(onType);
+  const told = useId();
+  const fault = useFault(program.id, text, readOnly);
+  const label = t("tests.text");
+  useEffect(() => {
+    typed.current = onType;
+  }, [onType]);
+  useEffect(() => {
+    let opened: YamlView | undefined;
+    const closing = new AbortController();
+    void import("./yamlView").then(({ openYaml }) => {
+      if (!place.current || closing.signal.aborted) return;
+      const onText = (next: string) => typed.current(next);
+      opened = openYaml(place.current, { label, describedBy: told, readOnly, onType: onText });
+      setView(opened);
+    });
+    return () => {
+      closing.abort();
+      setView(null);
+      opened?.destroy();
+    };
+  }, [label, told, readOnly]);
+  useEffect(() => view?.show(text), [view, text]);
+  useEffect(() => view?.mark(fault), [view, fault]);
+  return (
+    <div className={classes.yaml}>
+      <div ref={place} className={drawer.script} />
+      <p id={told} role="status" className={classes.fault} data-wrong={fault ? true : undefined}>
+        {fault ? (
+          <span lang="en">{`${fault.line > 0 ? `${t("tests.at_line", { line: fault.line })}: ` : ""}${fault.why}`}</span>
+        ) : readOnly ? null : (
+          t("tests.no_fault")
+        )}
+      </p>
+    </div>
+  );
+}
+
+/** What the parser says of a text, asked once nobody types. */
+function useFault(program: string, text: string, readOnly: boolean): Fault | null {
+  const [fault, setFault] = useState<Fault | null>(null);
+  useEffect(() => {
+    if (readOnly) return;
+    let latest = true;
+    const ask = () =>
+      void lookAt(program, text).then(
+        (answer) => latest && setFault(answer.fault),
+        () => {}, // who cannot be asked now is asked when it is saved
+      );
+    const timer = setTimeout(ask, LOOK_AFTER_MS);
+    return () => {
+      latest = false;
+      clearTimeout(timer);
+    };
+  }, [program, text, readOnly]);
+  return fault;
+}
+
+function Result({ result }: { result: TestResult }) {
+  const { t } = useTranslation();
+  const facts = [
+    result.number === null ? t("tests.on_draft") : t("tests.on_version", { number: result.number }),
+    result.duration_s > 0 ? formatSpan(result.duration_s) : "",
+    t("tests.seed", { seed: result.seed }),
+    result.stale ? t(`tests.stale.${result.stale}`) : "",
+  ];
+  return (
+    <section className={classes.result} aria-label={t("tests.result")}>
+      <p>
+        <Status status={result.status} /> {facts.filter(Boolean).join(", ")}
+      </p>
+      {result.status === "stopped" ? <p>{t("tests.stopped_why")}</p> : null}
+      {result.why ? (
+        <p lang="en">{`${result.line > 0 ? `${t("tests.at_line", { line: result.line })}: ` : ""}${result.why}`}</p>
+      ) : null}
+      <ul className={classes.expectations}>
+        {result.expectations.map((each, index) => (
+          <li key={index} data-ok={each.ok || undefined}>
+            {each.ok ? (
+              <Check size={14} aria-label={t("tests.holds")} />
+            ) : (
+              <X size={14} aria-label={t("tests.fails")} />
+            )}
+            <span lang="en">{each.expected}</span>
+            {each.ok ? null : <small lang="en">{t("tests.saw", { what: each.saw })}</small>}
+          </li>
+        ))}
+      </ul>
+      {result.errors.length > 0 ? (
+        <>
+          <h3>{t("tests.errors")}</h3>
+          <ul lang="en">
+            {result.errors.map((each, index) => (
+              <li key={index}>{each}</li>
+            ))}
+          </ul>
+        </>
+      ) : null}
+    </section>
+  );
+}

@@ -1,0 +1,57 @@
+/** Which ways through a program its tests took, counted and in words. */
+import type { TestCoverage } from "@/api/types";
+
+export interface Missed {
+  readonly step: string;
+  readonly way: string;
+}
+
+export interface Figures {
+  readonly steps: { readonly taken: number; readonly all: number };
+  readonly ways: { readonly taken: number; readonly all: number };
+}
+
+const REACHED = "reached";
+type Constructs = TestCoverage["constructs"];
+
+export function figuresOf(constructs: Constructs): Figures {
+  const counted = { steps: { taken: 0, all: 0 }, ways: { taken: 0, all: 0 } };
+  for (const { ways } of constructs) {
+    for (const [way, count] of Object.entries(ways)) {
+      const of = way === REACHED ? counted.steps : counted.ways;
+      of.all += 1;
+      if (count > 0) of.taken += 1;
+    }
+  }
+  return counted;
+}
+
+/** What no test took, in the order of the script; of a step that was never reached, that alone. */
+export function missedOf(constructs: Constructs): Missed[] {
+  return [...constructs]
+    .sort((one, other) => one.line - other.line)
+    .flatMap(({ step, ways }) => {
+      if (ways[REACHED] === 0) return [{ step, way: REACHED }];
+      return Object.entries(ways).flatMap(([way, count]) => (count === 0 ? [{ step, way }] : []));
+    });
+}
+
+type Words = (key: string, values?: Record<string, unknown>) => string;
+
+/** "its condition never held"; a catch names the kinds of failures that it takes. */
+export function wordsOf(way: string, t: Words): string {
+  const [kind, ...kinds] = way.split(" ");
+  if (kind !== "catch") return t(`tests.missed.${way}`);
+  return kinds.length > 0 ? t("tests.missed.catch_of", { kinds: kinds.join(", ") }) : t("tests.missed.catch");
+}
+
+/** For each step how many tests came there at most, and what of it none took. */
+export function marksOf(constructs: Constructs): { step: string; tests: number; missed: string[] }[] {
+  const missed = new Map<string, string[]>();
+  for (const { step, way } of missedOf(constructs)) missed.set(step, [...(missed.get(step) ?? []), way]);
+  return constructs.map(({ step, ways }) => ({
+    step,
+    tests: Math.max(0, ...Object.values(ways)),
+    missed: missed.get(step) ?? [],
+  }));
+}

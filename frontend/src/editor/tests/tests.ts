@@ -1,0 +1,101 @@
+/** A program's tests: read, written, carried out; what changes comes with the site's live feed. */
+import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
+import { create } from "zustand";
+import { api } from "@/api/client";
+import { keys } from "@/api/queries";
+import { useOnce } from "@/api/once";
+import type { ProgramTest, ProgramTests, Rehearsal, TestRun, TestText } from "@/api/types";
+
+/** What somebody writes and has not saved; a new test has no `id`, and no `tag` of what was read. */
+export interface Draft {
+  readonly id: string | null;
+  readonly text: string;
+  readonly tag: string;
+}
+
+export interface TestsUi {
+  /** The test that is open, `new` for one that is not there yet. */
+  readonly opened: string | null;
+  /** By the ids of their tests, or `new`. They stay while the panel is closed. */
+  readonly drafts: Readonly<Record<string, Draft>>;
+  /** What tests take is drawn on the map. */
+  readonly marks: boolean;
+  /** The panel is open, so its texts are here. */
+  readonly shown: boolean;
+}
+
+export const NEW = "new";
+const START: TestsUi = { opened: null, drafts: {}, marks: true, shown: false };
+export const useTestsUi = create<TestsUi>(() => START);
+
+/** Another program: nothing opened, nothing written. */
+export function resetTests(): void {
+  useTestsUi.setState({ opened: null, drafts: {} });
+}
+
+export function openTest(opened: string | null): void {
+  useTestsUi.setState({ opened });
+}
+
+export function keepDraft(key: string, draft: Draft | null): void {
+  useTestsUi.setState(({ drafts }) => {
+    const others = Object.entries(drafts).filter(([each]) => each !== key);
+    return { drafts: Object.fromEntries(draft ? [...others, [key, draft] as const] : others) };
+  });
+}
+
+const pathOf = (program: string) => `/programs/${program}`;
+export const exportPath = (program: string) => `/api${pathOf(program)}/tests/file`;
+
+export const useTests = (program: string) =>
+  useQuery({
+    queryKey: keys.tests(program),
+    queryFn: () => api.get<ProgramTests>(`${pathOf(program)}/tests`),
+    staleTime: 0,
+  });
+
+export const useTestText = (program: string, test: ProgramTest | undefined) =>
+  useQuery({
+    queryKey: ["test-text", test?.id, test?.tag],
+    queryFn: () => api.get<TestText>(`${pathOf(program)}/tests/${test?.id}`),
+    enabled: test !== undefined,
+    staleTime: Infinity,
+  });
+
+/** How far tests are that were begun; the site's feed keeps it up to date. */
+export const useTestProgress = (rehearsal: string | null) =>
+  useQuery({
+    queryKey: keys.rehearsal(rehearsal ?? ""),
+    queryFn: () => api.get<Rehearsal>(`/rehearsals/${rehearsal}`),
+    enabled: rehearsal !== null,
+  });
+
+/** What is wrong with a text, as the parser says it. */
+export const lookAt = (program: string, text: string) =>
+  api.post<{ fault: { line: number; why: string } | null }>(`${pathOf(program)}/tests/look`, { text });
+
+export const readTest = (program: string, id: string) => api.get<TestText>(`${pathOf(program)}/tests/${id}`);
+
+/** What one does with a program's tests; all is read anew after each. */
+export function useTesting(program: string) {
+  const queries = useQueryClient();
+  const begin = useOnce();
+  const { mutateAsync, isPending } = useMutation({
+    mutationFn: (act: () => Promise<unknown>) => act(),
+    onSettled: () => queries.invalidateQueries({ queryKey: keys.tests(program) }),
+  });
+  const path = pathOf(program);
+  const done = <T>(act: () => Promise<T>) => mutateAsync(act) as Promise<T>;
+  return {
+    isPending,
+    first: (of: "nothing" | "rehearsal") =>
+      api.get<{ text: string; of_rehearsal: boolean }>(`${path}/tests/first?of=${of}`),
+    add: (text: string) => done(() => api.post<TestText>(`${path}/tests`, { text })),
+    write: (id: string, text: string, tag: string) =>
+      done(() => api.put<TestText>(`${path}/tests/${id}`, { text }, tag)),
+    remove: (id: string, tag: string) => done(() => api.delete(`${path}/tests/${id}`, tag)),
+    bringIn: (text: string) => done(() => api.post<TestText[]>(`${path}/tests/import`, { text })),
+    run: (asked: { tests?: string[]; version?: number }) => done(() => begin<TestRun>(`${path}/test-runs`, asked)),
+    cancel: (rehearsal: string) => done(() => api.post(`/rehearsals/${rehearsal}/cancel`)),
+  };
+}
