@@ -24,6 +24,7 @@ from editor.documents.knowledge import MOST_BYTES as MOST_SNAPSHOT_BYTES
 from editor.library.routes import router as library_router
 from editor.programs.access import program_for
 from editor.programs.views import ProgramView
+from editor.promotions.routes import router as promotions_router
 from editor.reviews.routes import router as reviews_router
 from editor.rooms.writing import ensure_stored, read_content, write_document, write_script
 from editor.shapes import (
@@ -50,6 +51,7 @@ router.add_router("", versions_router)
 router.add_router("", comments_router)
 router.add_router("", reviews_router)
 router.add_router("", library_router)
+router.add_router("", promotions_router)
 
 
 MOST_DOCUMENT = 8 * 1024 * 1024

@@ -150,7 +150,9 @@ def _store_parts(version: LibraryVersion) -> None:
     held = {(str(function), number) for function, number in held_by(version.definition)}
     ids = [function for function, _ in held if _is_id(function)]
     known = {str(pk) for pk in LibraryFunction.objects.filter(pk__in=ids).values_list("pk", flat=True)}
-    parts = [LibraryPart(function_id=one, number=n, holder=version) for one, n in sorted(held) if one in known and n > 0]
+    parts = [
+        LibraryPart(function_id=one, number=n, holder=version) for one, n in sorted(held) if one in known and n > 0
+    ]
     LibraryPart.objects.bulk_create(parts, ignore_conflicts=True)
 
 

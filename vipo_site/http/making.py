@@ -44,6 +44,8 @@ MADE = {
     "start_thread": Place("show_thread", ("program",), {"thread": "id"}),
     "answer_thread": Place("show_thread", ("program", "thread"), {}),
     "save_function": Place("show_function_version", (), {"function": "id", "number": "version"}),
+    "fork_function": Place("show_function_version", (), {"function": "id", "number": "version"}),
+    "promote_program": Place("show_program", (), {"program": "id"}),
     "start_run": Place("get_run", (), {"run": "id"}),
     "start_rehearsal": Place("get_rehearsal", (), {"rehearsal": "id"}),
     "call_method": Place("get_call", ("site",), {"call": "id"}),

@@ -76,9 +76,7 @@ def surroundings_from_json(body: object, floor: FloorFacts | None = None) -> Sur
 def _library_from_json(body: Mapping[str, Any]) -> tuple[str, LibraryFacts]:
     name = body.get("id")
     try:
-        versions = {
-            int(version["number"]): signature_from_json(version) for version in _listed(body, "versions")
-        }
+        versions = {int(version["number"]): signature_from_json(version) for version in _listed(body, "versions")}
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise UnreadableSite(f"The versions of library function {name} cannot be read: {error}.") from error
     if not isinstance(name, str) or not name:

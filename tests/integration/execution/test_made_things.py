@@ -49,7 +49,11 @@ def make_each(client: Client) -> dict[str, Any]:
     person = {"code": code, "name": "Nora Lind", "email": "nora@vipo.example", "password": "a-horse-in-the-rain-9"}
     threads = f"/api/programs/{task}/threads"
     thread = post_json(client, threads, {"text": "Why wait?", "anchor": {"kind": "program"}})
+    saved = post_json(client, f"{AT_SITE}/library", function)
+    registry.create_site(name="Shed", slug="shed")
+    registry.set_member(site="shed", email=find_person("admin").email, role="author")
     return {
+        "promote_program": post_json(client, f"/api/programs/{task}/promotion", {"site": "shed", "name": "Moved"}),
         "make_invitation": invitation,
         "join_as_new": post_json(Client(), "/api/invitations/join", person),
         "upload_site": client.post(
@@ -80,7 +84,10 @@ def make_each(client: Client) -> dict[str, Any]:
         "copy_version": post_json(client, f"/api/programs/{task}/versions/1/copy", {"name": "Copy"}),
         "start_thread": thread,
         "answer_thread": post_json(client, f"{threads}/{thread.json()['id']}/comments", {"text": "For the paint."}),
-        "save_function": post_json(client, f"{AT_SITE}/library", function),
+        "save_function": saved,
+        "fork_function": post_json(
+            client, f"{AT_SITE}/library/forks", {"function": saved.json()["id"], "name": "Greet again"}
+        ),
         "start_rehearsal": post_json(client, f"/api/programs/{task}/rehearsals"),
         "call_method": post_json(
             client, f"{AT_SITE}/devices/paintMixer01/call", {"method": "mixPaint", "args": {"time": 5}}

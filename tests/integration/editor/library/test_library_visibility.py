@@ -155,7 +155,12 @@ def test_programs_are_told_of_newer_versions_of_what_their_site_sees(program: st
 def test_functions_from_before_keep_their_site_and_are_their_first_savers(program: str) -> None:
     save("author", program)
     LibraryVersion.objects.create(
-        function=LibraryFunction.objects.get(), number=2, author=find_person("admin"), definition={}, script="", signature={"parameters": []}
+        function=LibraryFunction.objects.get(),
+        number=2,
+        author=find_person("admin"),
+        definition={},
+        script="",
+        signature={"parameters": []},
     )
     LibraryFunction.objects.update(author=None)
     import_module("editor.migrations.0009_library_visibility").name_authors(apps, None)
