@@ -8,12 +8,11 @@ from __future__ import annotations
 import base64
 import binascii
 from collections.abc import Mapping
-from datetime import datetime
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 from uuid import UUID
 
 from django.http import HttpRequest, HttpResponse
-from ninja import Field, Query, Router, Schema
+from ninja import Field, Query, Router
 from ninja.params.functions import Header
 from ninja.responses import Status
 from pydantic import ValidationError
@@ -28,15 +27,12 @@ from editor.promotions.routes import router as promotions_router
 from editor.reviews.routes import router as reviews_router
 from editor.rooms.writing import ensure_stored, read_content, write_document, write_script
 from editor.shapes import (
-    Author,
     Compiled,
-    Definition,
     Document,
     DocumentShape,
     DrawnScriptShape,
     ExpressionShape,
     ExpressionToRead,
-    Parameters,
     ProgramName,
     ProgramShape,
 )

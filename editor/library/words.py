@@ -23,7 +23,7 @@ MOST_WORDS: Final = 10
 MOST_LETTERS: Final = 8_000
 _WORD = re.compile(r"\w+")
 _HUMP = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|_")
-_ENDINGS = ("ing", "ed", "es", "en", "er", "st", "s", "e", "t", "n")
+_ENDINGS = ("ies", "ing", "ed", "es", "en", "er", "st", "s", "e", "t", "n")
 _SHORTEST_STEM: Final = 3
 _GERMAN: Mapping[str, str] = {
     "accept": "annehmen",
