@@ -6,6 +6,7 @@ import { Avatar } from "@/design/Avatar";
 import { Chip, type Tone } from "@/design/Chip";
 import { unitSign } from "@/i18n/units";
 import { nameOf } from "../people";
+import { FitLine } from "./Fit";
 import { FunctionPicture } from "./FunctionPicture";
 import { VisibilitySign } from "./Sharing";
 import styles from "./library.module.css";
@@ -54,6 +55,7 @@ export function FunctionCard({ slug, item, chosen }: { slug: string; item: Libra
           ))}
         </div>
         <p>{item.description}</p>
+        <FitLine item={item} />
         <div className={styles.cardFoot}>
           <Avatar name={author || "VIPO"} size={20} />
           <span>{item.site === slug ? author : [author, item.site].filter(Boolean).join(", ")}</span>

@@ -27,9 +27,9 @@ export function Sharing({ item }: { item: LibraryFunction }) {
   const queries = useQueryClient();
   const change = useMutation({
     mutationFn: (visibility: Visibility) => api.patch<LibraryFunction>(`/library/${item.id}`, { visibility }),
-    onSuccess: (changed) => {
-      queries.setQueryData(keys.libraryFunction(item.id), changed);
-      return queries.invalidateQueries({ queryKey: ["library"] });
+    onSuccess: async () => {
+      await queries.invalidateQueries({ queryKey: keys.libraryFunction(item.id) });
+      await queries.invalidateQueries({ queryKey: ["library"] });
     },
   });
   const label = t("pages.library.visibleTo");
