@@ -5,6 +5,7 @@ from editor.documents.store import Change, get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram, NotApproved
 from editor.library.functions import Said, change_function, save_function
 from editor.library.queries import LibraryView, get_function, search_library
+from editor.library.seeds import seed_library
 from editor.programs.checking import build_surroundings, find_zones
 from editor.programs.drawn_script import DrawnScript
 from editor.programs.floor_use import ProgramTrouble, list_program_troubles
@@ -77,6 +78,7 @@ __all__ = [
     "restore_rows",
     "save_function",
     "search_library",
+    "seed_library",
     "seed_programs",
     "show_mending",
 ]
