@@ -6,11 +6,15 @@ import { unitSign } from "@/i18n/units";
 const ABILITIES = ["methods", "gives", "takes", "readings"] as const;
 const TOLD_BY_WHOM: readonly string[] = ["needs_new", "needs_more"];
 
+/** All that somebody must be able to do: “lift, take box”. */
+export function abilityWords(t: TFunction, need: NeedOfDevice): string {
+  return ABILITIES.flatMap((kind) => need[kind].map((name) => t(`library.ability.${kind}`, { name }))).join(", ");
+}
+
 /** A need as part of a sentence: “a robot that can lift”. */
 export function needWords(t: TFunction, need: NeedOfDevice): string {
-  const abilities = ABILITIES.flatMap((kind) => need[kind].map((name) => t(`library.ability.${kind}`, { name })));
-  const key = abilities.length > 0 ? need.of : `${need.of}_any`;
-  return t(`library.need.${key}`, { name: need.name, list: abilities.join(", ") });
+  const list = abilityWords(t, need);
+  return t(`library.need.${list ? need.of : `${need.of}_any`}`, { name: need.name, list });
 }
 
 /** “Lacks a robot that can lift and 2 more”; empty where nothing is lacking or nobody has looked. */
