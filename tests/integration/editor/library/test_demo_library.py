@@ -30,7 +30,9 @@ def test_each_function_is_sound_on_the_devices_of_the_factory(function: dict[str
         call = step("call", function=definition["id"], args=arguments)
         functions = {**definition["functions"], definition["id"]: body}
         before = step("move", order="0V", role="robot", to={"device": "itemInventory01"})
-        drawn = document({**definition["steps"], "before": before, "theCall": call}, functions=functions, roles=definition["roles"])
+        drawn = document(
+            {**definition["steps"], "before": before, "theCall": call}, functions=functions, roles=definition["roles"]
+        )
         drawn["format"] = definition["format"]
         found = [each.code for each in compile_document(drawn, factory()).diagnostics if each.severity == "error"]
         assert found == []
