@@ -104,7 +104,7 @@ def test_a_program_is_made_there_bound_and_what_has_no_match_is_a_marked_hole(ha
     marked = {each["step"] for each in editor.get_compiled(program_id=made["id"])["diagnostics"]}
     assert {"cure", "wait", "aside", "home"} <= marked
     told = [each["code"] for each in editor.get_compiled(program_id=made["id"])["diagnostics"] if each["step"] == "mix"]
-    assert told == ["device_offline"]
+    assert told == ["offline_device"]
 
 
 def test_the_origin_is_kept_and_shown_to_who_sees_its_site(hall: str) -> None:
