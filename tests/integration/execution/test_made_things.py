@@ -53,7 +53,6 @@ def make_each(client: Client) -> dict[str, Any]:
     registry.create_site(name="Shed", slug="shed")
     registry.set_member(site="shed", email=find_person("admin").email, role="author")
     return {
-        "promote_program": post_json(client, f"/api/programs/{task}/promotion", {"site": "shed", "name": "Moved"}),
         "make_invitation": invitation,
         "join_as_new": post_json(Client(), "/api/invitations/join", person),
         "upload_site": client.post(
@@ -92,6 +91,7 @@ def make_each(client: Client) -> dict[str, Any]:
         "call_method": post_json(
             client, f"{AT_SITE}/devices/paintMixer01/call", {"method": "mixPaint", "args": {"time": 5}}
         ),
+        "promote_program": post_json(client, f"/api/programs/{task}/promotion", {"site": "shed", "name": "Moved"}),
         "start_run": post_json(client, f"/api/programs/{task}/runs"),
     }
 
