@@ -26,7 +26,7 @@ import styles from "./library.module.css";
 
 function Parameters({ item }: { item: LibraryFunction }) {
   const { t } = useTranslation();
-  if (item.parameters.length === 0) return <p className={pages.sub}>{t("pages.library.noParameters")}</p>;
+  if (item.parameters.length === 0) return <p className={pages.sub}>{t("library.noParameters")}</p>;
   return (
     <Panel className={pages.scroll}>
       <table className={pages.table}>
@@ -34,7 +34,7 @@ function Parameters({ item }: { item: LibraryFunction }) {
           <tr>
             {["parameter", "type", "default"].map((column) => (
               <th key={column} scope="col">
-                {t(`pages.library.column.${column}`)}
+                {t(`library.column.${column}`)}
               </th>
             ))}
           </tr>
@@ -48,9 +48,7 @@ function Parameters({ item }: { item: LibraryFunction }) {
               <td>
                 <ParameterType parameter={parameter} />
               </td>
-              <td>
-                {parameter.default == null ? t("pages.library.asks") : valueWords(JSON.stringify(parameter.default))}
-              </td>
+              <td>{parameter.default == null ? t("library.asks") : valueWords(JSON.stringify(parameter.default))}</td>
             </tr>
           ))}
         </tbody>
@@ -72,11 +70,11 @@ function UseInProgram({ slug, item }: { slug: string; item: LibraryFunction }) {
       <Menu position="top-end" width={240}>
         <Menu.Target>
           <Button leftSection={<Download size={16} />} disabled={programs.length === 0}>
-            {t("pages.library.use")}
+            {t("library.use")}
           </Button>
         </Menu.Target>
         <Menu.Dropdown>
-          <Menu.Label>{t("pages.library.chooseProgram")}</Menu.Label>
+          <Menu.Label>{t("library.chooseProgram")}</Menu.Label>
           {programs.map((program) => (
             <Menu.Item key={program.id} component={Link} to={`/programs/${program.id}?import=${item.id}`}>
               {program.name}
@@ -121,10 +119,10 @@ function Body({ slug, item }: { slug: string; item: LibraryFunction }) {
       {item.script ? (
         <section aria-labelledby="script">
           <h3 id="script" className={styles.section}>
-            {t("pages.library.script")}
+            {t("library.script")}
           </h3>
           <Panel className={styles.script}>
-            <SourceView text={item.script} dialect="script" label={t("pages.library.script")} />
+            <SourceView text={item.script} dialect="script" label={t("library.script")} />
           </Panel>
         </section>
       ) : null}
@@ -148,10 +146,10 @@ export function FunctionDetail({ slug, item }: { slug: string; item: LibraryFunc
           <h2>{shown.name}</h2>
           <p>
             {[
-              t("pages.library.version", { version: shown.version }),
+              t("library.version", { version: shown.version }),
               nameOf(shown.author),
               shown.site === slug ? "" : shown.site,
-              t("pages.library.updated", { ago: formatAgo(shown.updated_at, now) }),
+              t("library.updated", { ago: formatAgo(shown.updated_at, now) }),
             ]
               .filter(Boolean)
               .join(", ")}

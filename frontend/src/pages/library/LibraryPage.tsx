@@ -22,11 +22,7 @@ function EmptyLibrary({ slug }: { slug: string }) {
   const { t } = useTranslation();
   return (
     <Panel>
-      <EmptyState
-        icon={<SquareFunction size={20} />}
-        title={t("pages.library.none")}
-        text={t("pages.library.noneText")}
-      >
+      <EmptyState icon={<SquareFunction size={20} />} title={t("library.none")} text={t("library.noneText")}>
         <Button component={Link} to={`/sites/${slug}/programs`}>
           {t("pages.runs.toPrograms")}
         </Button>
@@ -52,7 +48,7 @@ export function LibraryPage() {
   return (
     <PageShell
       title={t("shell.nav.library")}
-      chips={found.data ? <Chip>{t("pages.library.functions", { count: items.length })}</Chip> : null}
+      chips={found.data ? <Chip>{t("library.functions", { count: items.length })}</Chip> : null}
       detail={chosen ? <FunctionDetail key={chosen.id} slug={slug} item={chosen} /> : null}
     >
       <div className={pages.stack}>
@@ -60,8 +56,8 @@ export function LibraryPage() {
           <TextInput
             className={pages.search}
             leftSection={<Search size={16} aria-hidden="true" />}
-            aria-label={t("pages.library.search")}
-            placeholder={t("pages.library.search")}
+            aria-label={t("library.search")}
+            placeholder={t("library.search")}
             value={typed}
             onChange={(event) => setTyped(event.target.value)}
           />

@@ -42,7 +42,7 @@ function VersionList({ versions }: { versions: readonly LibraryVersion[] }) {
       {versions.map((version) => (
         <li key={version.number}>
           <div className={styles.versionHead}>
-            <Chip mono>{t("pages.library.version", { version: version.number })}</Chip>
+            <Chip mono>{t("library.version", { version: version.number })}</Chip>
             <Verdict reasons={version.reasons} />
             <span>{[nameOf(version.author), formatAgo(version.created_at, now)].filter(Boolean).join(", ")}</span>
           </div>
@@ -89,7 +89,7 @@ function Compared({ item, versions }: { item: LibraryFunction; versions: readonl
   });
   const choices = numbers.map((number) => ({
     value: String(number),
-    label: t("pages.library.version", { version: number }),
+    label: t("library.version", { version: number }),
   }));
   return (
     <section className={styles.compared} aria-labelledby="compared">

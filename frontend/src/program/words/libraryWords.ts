@@ -36,7 +36,7 @@ export function reasonWords(t: TFunction, reason: FunctionReason): string {
 function saidOf(t: TFunction, code: FunctionReason["code"], text: string): string {
   if (code.endsWith("_unit")) return text ? unitSign(text) : t("library.noUnit");
   if (code.endsWith("_type") || code === "parameter_wanted" || code === "result_added" || code === "parameter_gone")
-    return text ? t(`pages.library.type.${text}`, { defaultValue: text }) : "";
+    return text ? t(`library.type.${text}`, { defaultValue: text }) : "";
   return code.startsWith("default") || code === "parameter_added" ? valueWords(text) : text;
 }
 
