@@ -104,7 +104,7 @@ def test_a_program_goes_to_another_site_and_what_has_no_match_is_marked(sign_in:
         opened(page)
         expect(problems(page).first).to_be_visible()
         made = page.url.rpartition("/")[2]
-        page.goto(f"/sites/{slug}/programs/{made}/history")
+        page.goto(f"/sites/{slug}/history/{made}")
         expect(page.get_by_role("link", name=re.compile("^Made from Paint order, version"))).to_be_visible()
     finally:
         page.goto(f"{SITE}/programs")  # so that the next page of this person begins there
