@@ -51,6 +51,7 @@ def _use(settings: dict[str, Any]) -> None:
 
 
 def _asked(database: str) -> Iterator[dict[str, object]]:
+    from django.db import connection
     from django.test import Client
 
     from registry import services as registry
@@ -59,6 +60,8 @@ def _asked(database: str) -> Iterator[dict[str, object]]:
     author = registry.create_user(email="ada@vipo.example", password="a long password", display_name="Ada Author")
     registry.set_member(site="hall", email="ada@vipo.example", role="author")
     _fill(author)
+    with connection.cursor() as cursor:
+        cursor.execute("ANALYZE")  # as databases do by themselves, some time after so much was written
     client = Client()
     client.force_login(author)
     for query in QUERIES:

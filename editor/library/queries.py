@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Any
 from uuid import UUID
 
-from django.db.models import Count, Exists, F, OuterRef, Prefetch, QuerySet, Subquery
-from django.db.models.functions import Coalesce
+from django.db.models import Count, F, Prefetch, QuerySet
 
 from editor.documents.shared_document import migrate_document
 from editor.errors import NoSuchProgram
@@ -99,24 +98,24 @@ def search_library(
     Raises BadMark.
     """
     newest = LibraryVersion.objects.select_related("author").filter(number=F("function__last_version"))
-    rows = _counted(user).filter(last_version__gt=0)
+    rows = _seen(user).filter(last_version__gt=0)
     if site:
         rows = rows.filter(site__slug=site)
     for stem in stems_of(query):
         rows = rows.filter(found_by__contains=f" {stem}")
     rows = rows.prefetch_related(Prefetch("versions", queryset=newest, to_attr="newest"))
-    devices = find_devices(site=fits) if fits else None
-    reader = _Reader(user, devices)
-    return registry.take_part(
-        rows=rows, by="name", part=part, view=lambda row: reader.view(row, vars(row)["newest"][0])
-    )
+    found = registry.take_part(rows=rows, by="name", part=part, view=lambda row: row)
+    reader = _Reader(user, find_devices(site=fits) if fits else None, found)
+    shown: Listed[LibraryView] = Listed(reader.view(row, vars(row)["newest"][0]) for row in found)
+    shown.rest = found.rest
+    return shown
 
 
 def get_function(*, function_id: UUID | str, user: Any, version: int | None = None, fits: str = "") -> LibraryView:
     """Return a function that somebody sees, as of a version or the newest. Raises NoSuchProgram."""
     row = _row(function_id, user)
     found = _version(row, row.last_version if version is None else version)
-    view = _Reader(user, find_devices(site=fits) if fits else None).view(row, found)
+    view = _Reader(user, find_devices(site=fits) if fits else None, [row]).view(row, found)
     before = row.versions.filter(number=found.number - 1).first()
     return replace(view, reasons=None if before is None else _reasons(before, found))
 
@@ -143,7 +142,7 @@ def compare_function(*, function_id: UUID | str, user: Any, old: int, new: int |
     """Compare two versions of a function; without `new` with the newest. Raises NoSuchProgram."""
     row = _row(function_id, user)
     sides = [_version(row, old), _version(row, row.last_version if new is None else new)]
-    reader = _Reader(user, None)
+    reader = _Reader(user, None, [row])
     views = [reader.view(row, side) for side in sides]
     return VersionsCompared(views[0], views[1], _reasons(sides[0], sides[1]))
 
@@ -153,20 +152,14 @@ def _reasons(old: LibraryVersion, new: LibraryVersion) -> tuple[Reason, ...]:
 
 
 def _row(function_id: UUID | str, user: Any) -> LibraryFunction:
-    row = _counted(user).filter(pk=function_id).first()
+    row = _seen(user).filter(pk=function_id).first()
     if row is None:
         raise NoSuchProgram(GONE)
     return row
 
 
-def _counted(user: Any) -> QuerySet[LibraryFunction]:
-    """Return what somebody sees, each counted by a query of its own: joined, all columns of all rows were grouped."""
-    uses = LibraryUse.objects.filter(function=OuterRef("pk")).order_by().values("function")
-    count = Coalesce(Subquery(uses.annotate(count=Count("pk")).values("count")), 0)
-    seen = LibraryFunction.objects.filter(seen_by(user))
-    origin = Exists(seen.filter(pk=OuterRef("origin_id")))
-    rows: QuerySet[LibraryFunction] = seen.annotate(used_in=count, sees_origin=origin)
-    return rows.select_related("site", "origin__site").defer("found_by", "origin__found_by")
+def _seen(user: Any) -> QuerySet[LibraryFunction]:
+    return LibraryFunction.objects.select_related("site").filter(seen_by(user)).defer("found_by")
 
 
 def _version(row: LibraryFunction, number: int) -> LibraryVersion:
@@ -177,10 +170,18 @@ def _version(row: LibraryFunction, number: int) -> LibraryVersion:
 
 
 class _Reader:
-    """What somebody reads of functions: what they may change, which origins they see, how it fits their devices."""
+    """What somebody reads of these functions: what they may change, which origins they see, how it fits their devices.
 
-    def __init__(self, user: Any, devices: Mapping[str, DeviceFacts] | None) -> None:
+    What is counted and looked up is asked for all of them at once, and for no others: in one query with the search, a
+    database works it out for everything that is found.
+    """
+
+    def __init__(self, user: Any, devices: Mapping[str, DeviceFacts] | None, rows: Sequence[LibraryFunction]) -> None:
         self._devices, self._may_change = devices, changer(user)
+        uses = LibraryUse.objects.filter(function__in=[row.pk for row in rows]).order_by().values("function")
+        self._uses = dict(uses.annotate(count=Count("pk")).values_list("function", "count"))
+        wanted = {row.origin_id for row in rows if row.origin_id is not None}
+        self._origins = {row.pk: row for row in _seen(user).filter(pk__in=wanted)} if wanted else {}
 
     def view(self, row: LibraryFunction, version: LibraryVersion) -> LibraryView:
         definition = migrate_document(version.definition)
@@ -194,19 +195,18 @@ class _Reader:
             version=version.number,
             author=view_author(version.author),
             parameters=tuple(definition["function"].get("parameters") or ()),
-            used_in=getattr(row, "used_in", 0),
+            used_in=self._uses.get(row.pk, 0),
             updated_at=row.updated_at,
             script=version.script,
             definition=definition,
             visibility=row.visibility,
             mine=self._may_change(row),
             lacks=None if self._devices is None else find_lacks(needs, self._devices),
-            origin=_origin(row),
+            origin=self._origin(row),
         )
 
-
-def _origin(row: LibraryFunction) -> OriginView | None:
-    origin = row.origin
-    if origin is None or not vars(row)["sees_origin"]:
-        return None
-    return OriginView(origin.pk, origin.name, origin.site.slug, row.origin_version, origin.last_version)
+    def _origin(self, row: LibraryFunction) -> OriginView | None:
+        origin = self._origins.get(row.origin_id) if row.origin_id is not None else None
+        if origin is None:
+            return None
+        return OriginView(origin.pk, origin.name, origin.site.slug, row.origin_version, origin.last_version)

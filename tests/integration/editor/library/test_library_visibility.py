@@ -133,10 +133,10 @@ def test_a_list_costs_the_same_however_many_functions_there_are(
     for number in range(3):
         said = editor.Said(f"F{number}", visibility="everyone")
         editor.save_function(site=hall, program_id=program, function="f", said=said, user=author)
-    with django_assert_num_queries(6):
+    with django_assert_num_queries(7):
         editor.search_library(user=author)
     editor.save_function(site=hall, program_id=program, function="f", said=editor.Said("F9"), user=author)
-    with django_assert_num_queries(6):
+    with django_assert_num_queries(7):
         assert len(editor.search_library(user=author)) == 4
 
 
