@@ -20,12 +20,12 @@ _PLACES_OF: Final = {"source": "gives", "target": "takes"}
 
 
 def find_needs(body: Json, devices: Mapping[str, DeviceFacts], main: str = "") -> tuple[Need, ...]:
-    """Return what {steps, functions, roles} need, in the order of their steps.
+    """Return what {steps, functions, roles} need, by whom it is of and name: steps are in no order of their own.
 
     `main` is the function whose parameters are open; those of others are followed to what they are called with. Of
     devices that are not known here it is told by their steps whether they are robots.
     """
-    return tuple(_Needs(body).needs(devices, main))
+    return tuple(sorted(_Needs(body).needs(devices, main), key=lambda need: (need.of, need.name, need.device)))
 
 
 def find_places(body: Json) -> tuple[str, ...]:

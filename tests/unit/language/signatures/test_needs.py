@@ -44,9 +44,9 @@ def test_steps_say_what_robots_and_machines_must_be_able_to_do() -> None:
         "low": step("wait", BODY, until={"op": ">", "args": [{"property": [{"role": "porter"}, "battery"]}, 20]}),
     }
     assert needs_of(definition(steps, roles={"porter": {"name": "Porter", "can": ["honk"]}})) == (
-        Need("robot", "Porter", methods=("blink", "drop", "honk", "pick"), readings=("battery",)),
         Need("machine", "Paint Inventory", "paintInventory01", gives=("can",)),
         Need("machine", "Paint Mixer B", "paintMixer02", ("mixPaint",), (), ("can",), ("temperature",)),
+        Need("robot", "Porter", methods=("blink", "drop", "honk", "pick"), readings=("battery",)),
     )
 
 

@@ -19,7 +19,7 @@ FUNCTIONS = 10_000
 QUERIES = ("mix paint", "mischen", "carry box oven", "transportieren", "zzz", "")
 _VERBS = ("fetch", "mix", "cure", "press", "wash", "weigh", "sort", "pack", "scan", "drill")
 _THINGS = ("Box", "Paint", "Pallet", "Can", "Door", "Shelf", "Sample", "Order", "Part", "Tray")
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def measure() -> Iterator[dict[str, object]]:
