@@ -29,7 +29,7 @@ Code = Literal[
     "needs_new",
     "needs_more",
     "needs_less",
-    "needs_other",
+    "needs_instead",
     "needs_gone",
 ]
 BREAKING: frozenset[Code] = frozenset(
@@ -133,7 +133,7 @@ def _of_needs(old: tuple[Need, ...], new: tuple[Need, ...]) -> Iterator[Reason]:
         else:
             left.remove(stood_for)
             if need.of != "robot":
-                yield Reason("needs_other", need.name, stood_for.name, need.name, need.of)
+                yield Reason("needs_instead", need.name, stood_for.name, need.name, need.of)
     yield from (Reason("needs_gone", need.name, _listed(need.abilities), "", need.of) for need in left)
 
 

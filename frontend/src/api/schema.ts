@@ -4685,7 +4685,7 @@ export interface components {
         ReasonShape: {
             breaks: boolean;
             /** @enum {string} */
-            code: "parameter_added" | "parameter_wanted" | "parameter_gone" | "parameter_type" | "parameter_unit" | "default_gone" | "default_added" | "default_changed" | "result_added" | "result_gone" | "result_type" | "result_unit" | "needs_new" | "needs_more" | "needs_less" | "needs_other" | "needs_gone";
+            code: "parameter_added" | "parameter_wanted" | "parameter_gone" | "parameter_type" | "parameter_unit" | "default_gone" | "default_added" | "default_changed" | "result_added" | "result_gone" | "result_type" | "result_unit" | "needs_new" | "needs_more" | "needs_less" | "needs_instead" | "needs_gone";
             name: string;
             new: string;
             /** @enum {string} */

@@ -40,7 +40,7 @@ def with_needs(*needs: Need) -> Signature:
         (replace(BEFORE, result=Port("", "integer", "DEG_C")), []),
         (with_needs(CARRIER, GIVEN), ["needs_gone"]),
         (with_needs(replace(OVEN, takes=()), CARRIER, GIVEN), ["needs_less"]),
-        (with_needs(replace(OVEN, name="Kiln", device="kiln1"), CARRIER, GIVEN), ["needs_other"]),
+        (with_needs(replace(OVEN, name="Kiln", device="kiln1"), CARRIER, GIVEN), ["needs_instead"]),
         (with_needs(OVEN, replace(CARRIER, name="Porter"), GIVEN), []),
     ],
 )
