@@ -23,6 +23,7 @@ NAMES = (
     "start",
     "paths",
     "versions",
+    "library",
     "runs",
     "canvas",
 )

@@ -1,4 +1,4 @@
-"""The editor over HTTP: programs and the library; versions have a room of their own.
+"""The editor over HTTP: programs; versions, comments, reviews and the library have rooms of their own.
 
 Documents are edited over the socket, or replaced as a whole.
 """
@@ -8,12 +8,11 @@ from __future__ import annotations
 import base64
 import binascii
 from collections.abc import Mapping
-from datetime import datetime
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 from uuid import UUID
 
 from django.http import HttpRequest, HttpResponse
-from ninja import Field, Query, Router, Schema
+from ninja import Field, Query, Router
 from ninja.params.functions import Header
 from ninja.responses import Status
 from pydantic import ValidationError
@@ -21,20 +20,19 @@ from pydantic import ValidationError
 from editor import services
 from editor.comments.routes import router as comments_router
 from editor.documents.knowledge import MOST_BYTES as MOST_SNAPSHOT_BYTES
-from editor.programs.access import program_for, require_here
-from editor.programs.views import LibraryView, ProgramView
+from editor.library.routes import router as library_router
+from editor.programs.access import program_for
+from editor.programs.views import ProgramView
+from editor.promotions.routes import router as promotions_router
 from editor.reviews.routes import router as reviews_router
 from editor.rooms.writing import ensure_stored, read_content, write_document, write_script
 from editor.shapes import (
-    Author,
     Compiled,
-    Definition,
     Document,
     DocumentShape,
     DrawnScriptShape,
     ExpressionShape,
     ExpressionToRead,
-    Parameters,
     ProgramName,
     ProgramShape,
 )
@@ -48,6 +46,8 @@ router = Router(tags=["editor"])
 router.add_router("", versions_router)
 router.add_router("", comments_router)
 router.add_router("", reviews_router)
+router.add_router("", library_router)
+router.add_router("", promotions_router)
 
 
 MOST_DOCUMENT = 8 * 1024 * 1024
@@ -74,16 +74,6 @@ class ProgramsAsked(PartAsked):
     q: Line = Field("", max_length=200)
 
 
-Visibility = Literal["me", "site", "everyone"]
-
-
-class LibraryAsked(PartAsked):
-    """Which functions are asked for: those whose name or description has all words of `q`, of one site if named."""
-
-    q: Line = Field("", max_length=200)
-    site: Line = Field("", max_length=100)
-
-
 class Seen(Asked):
     """How far somebody has seen a program."""
 
@@ -101,41 +91,6 @@ class ScriptText(Asked):
         None, description="The document that it is drawn over; the current one if none."
     )
     shown: Annotated[str | None, Repaired()] = Field(None, description="The script from which the text was edited.")
-
-
-class FunctionToSave(Asked):
-    """A function of a program that shall go into the library."""
-
-    program: UUID
-    function: Line = Field(max_length=100)
-    name: Line = Field(max_length=200)
-    description: str = Field("", max_length=500)
-    visibility: Visibility | None = Field(None, description="Who sees it; as it was, if left out: the site at first.")
-
-
-class FunctionChange(Asked):
-    """What of a library function shall be otherwise; what is left out stays."""
-
-    visibility: Visibility | None = None
-    description: str | None = Field(None, max_length=500)
-
-
-class LibraryShape(Schema):
-    """A library function at one of its versions; `mine` is whether who asks may change it."""
-
-    id: UUID
-    site: str
-    name: str
-    description: str
-    version: int
-    author: Author | None
-    parameters: Parameters
-    used_in: int
-    updated_at: datetime
-    script: str
-    definition: Definition
-    visibility: Visibility
-    mine: bool
 
 
 @router.get("/sites/{slug}/programs", response=list[ProgramShape])
@@ -278,52 +233,3 @@ def wait_until_stored(request: HttpRequest, program: UUID, body: Seen) -> Status
         raise services.BadRequest("What was seen is not base64. Send Y.encodeSnapshot(…) in base64.") from error
     ensure_stored(program_id=program, seen=seen)
     return Status(204, None)
-
-
-@router.get("/library", response=list[LibraryShape])
-def search_library(request: HttpRequest, response: HttpResponse, asked: Query[LibraryAsked]) -> list[LibraryView]:
-    """Search the functions that the asker sees by name and description: those of one site, or all.
-
-    The header `Link` names the next part.
-    """
-    if asked.site:
-        require(request.user, asked.site, "viewer")
-    found = services.search_library(user=signed_in(request), site=asked.site, query=asked.q, part=asked.part())
-    return tell_rest(request, response, found)
-
-
-@router.post("/sites/{slug}/library", response={201: LibraryShape})
-def save_function(request: HttpRequest, slug: str, body: FunctionToSave) -> Status[LibraryView]:
-    """Save a program's function into the library; under a name of the asker's own, as its next version."""
-    require(request.user, slug, "author")
-    saved = services.save_function(
-        site=slug,
-        program_id=body.program,
-        function=body.function,
-        said=services.Said(body.name, body.description, body.visibility),
-        user=request.user,
-    )
-    return Status(201, saved)
-
-
-@router.get("/library/{function}", response=LibraryShape)
-def show_function(request: HttpRequest, function: UUID) -> LibraryView:
-    """Show the newest version of a library function."""
-    return services.get_function(function_id=function, user=signed_in(request))
-
-
-@router.patch("/library/{function}", response=LibraryShape)
-def change_function(request: HttpRequest, function: UUID, body: FunctionChange) -> LibraryView:
-    """Change who sees a library function, or what is said of it; its author does so, or an admin of its site."""
-    user = signed_in(request)
-    found = services.get_function(function_id=function, user=user)
-    require_here(user, found.site, "author")
-    return services.change_function(
-        function_id=function, user=user, visibility=body.visibility, description=body.description
-    )
-
-
-@router.get("/library/{function}/versions/{number}", response=LibraryShape)
-def show_function_version(request: HttpRequest, function: UUID, number: int) -> LibraryView:
-    """Show a library function as it was saved under a number."""
-    return services.get_function(function_id=function, user=signed_in(request), version=number)

@@ -21,6 +21,9 @@ class Program(models.Model):
     stored_to = models.CharField(max_length=40, blank=True, default="")
     """The entry of the room's stream up to which every change is in the rows."""
     last_version = models.PositiveIntegerField(default=0)
+    origin = models.ForeignKey("self", null=True, on_delete=models.SET_NULL, related_name="+")
+    origin_version = models.PositiveIntegerField(default=0)
+    """The program of another site that it was made from, at which version of that."""
     drawn_by = models.JSONField(default=dict)
     """Who has changed it since its last version: each person's id as text, and the number of their last row."""
     kinds = models.JSONField(default=list)
@@ -131,6 +134,11 @@ class LibraryFunction(models.Model):
     visibility = models.CharField(max_length=10, default="site", choices=Visibility.choices)
     description = models.CharField(max_length=500, blank=True)
     last_version = models.PositiveIntegerField(default=0)
+    origin = models.ForeignKey("self", null=True, on_delete=models.SET_NULL, related_name="forks")
+    origin_version = models.PositiveIntegerField(default=0)
+    """What it was made from, at which version of that."""
+    found_by = models.TextField(blank=True, default="")
+    """All words that it is found by, as `editor.library.words` folds them."""
     updated_at = models.DateTimeField(auto_now=True)
 
     class Meta:
@@ -148,6 +156,8 @@ class LibraryVersion(models.Model):
     author = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
     definition = models.JSONField()
     script = models.TextField()
+    signature = models.JSONField(default=dict)
+    """What it is to who calls it, as `editor.language.site.signature` writes it."""
     created_at = models.DateTimeField(auto_now_add=True)
 
     class Meta:
@@ -161,11 +171,28 @@ class LibraryUse(models.Model):
 
     function = models.ForeignKey(LibraryFunction, on_delete=models.CASCADE, related_name="uses")
     program = models.ForeignKey(Program, on_delete=models.CASCADE, related_name="library_uses")
+    versions = models.JSONField(default=list)
+    """The numbers of the versions that it holds, in order; empty until it is next checked."""
 
     class Meta:
         """Counted once for each program."""
 
         constraints = [models.UniqueConstraint(fields=["function", "program"], name="one_use_per_program")]
+
+
+class LibraryPart(models.Model):
+    """That a version of a library function holds another function of the library, at a version of that."""
+
+    function = models.ForeignKey(LibraryFunction, on_delete=models.CASCADE, related_name="parts")
+    number = models.PositiveIntegerField()
+    holder = models.ForeignKey(LibraryVersion, on_delete=models.CASCADE, related_name="holds")
+
+    class Meta:
+        """Counted once for each version of either."""
+
+        constraints = [
+            models.UniqueConstraint(fields=["function", "number", "holder"], name="one_part_per_library_version")
+        ]
 
 
 class CommentThread(models.Model):

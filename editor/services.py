@@ -3,6 +3,9 @@
 from editor.documents.mending import Mending, mend_program, restore_rows, show_mending
 from editor.documents.store import Change, get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram, NotApproved
+from editor.library.functions import Said, change_function, save_function
+from editor.library.queries import LibraryView, get_function, search_library
+from editor.library.seeds import seed_library
 from editor.programs.checking import build_surroundings, find_zones
 from editor.programs.contents import (
     ContentView,
@@ -18,7 +21,6 @@ from editor.programs.contents import (
 )
 from editor.programs.drawn_script import DrawnScript
 from editor.programs.floor_use import ProgramTrouble, list_program_troubles
-from editor.programs.library import Said, change_function, get_function, save_function, search_library
 from editor.programs.one_line import ExpressionView, print_expression, read_expression
 from editor.programs.programs import (
     create_program,
@@ -40,7 +42,7 @@ from editor.programs.versions import (
     name_version,
     pin_version,
 )
-from editor.programs.views import AuthorView, LibraryView, ProgramView, VersionView, WholeVersionView
+from editor.programs.views import AuthorView, ProgramView, VersionView, WholeVersionView
 from editor.reviews.gate import Permit, admit_start
 
 __all__ = [
@@ -97,6 +99,7 @@ __all__ = [
     "restore_rows",
     "save_function",
     "search_library",
+    "seed_library",
     "seed_programs",
     "show_mending",
     "take_version_to_test",

@@ -239,12 +239,14 @@ class DrawnScriptShape(Schema):
 
 
 class DefinitionShape(Schema):
-    """What a library function holds; `functions` are those that it calls."""
+    """What a library function holds; `functions` are those that it calls, `roles` and `zones` those that it names."""
 
     id: str = ""
     function: FunctionShape
     functions: dict[str, FunctionShape] = {}
     steps: dict[str, StepShape]
+    roles: dict[str, RoleShape] = {}
+    zones: dict[str, ZoneShape] = {}
 
 
 StepKinds = Annotated[list[str], Unchecked(list[StepKind])]

@@ -172,8 +172,8 @@ _FUNCTIONS: Final = {
     "perhaps_no_robot_yet": "Some ways to this step let the role do something before, and others do not.",
     "may_be_unset": "Some ways to this step set the variable and others do not.",
     "version_gone": "The function was copied from a version that the library no longer has.",
-    "newer_version": "The library has a newer version with the same parameters.",
-    "signature_changed": "The library has a newer version with other parameters, so the calls have to be looked at.",
+    "newer_version": "The library has a newer version that is compatible: what calls this one may call it.",
+    "signature_changed": "The library has a newer version that is breaking: calls and devices have to be looked at.",
 }
 _AT_ONCE: Final = {
     "needed_out_of_range": "A Parallel is to end with more branches than it has, or with none.",

@@ -13,7 +13,7 @@ from uuid import UUID
 from django.db.models import Q
 
 from editor.errors import NoSuchProgram
-from editor.language.reading.well_formed import well_formed_function
+from editor.language.site.signature import Signature, signature_from_json
 from editor.language.site.surroundings import (
     DeviceFacts,
     FloorFacts,
@@ -29,19 +29,25 @@ from registry import services as registry
 from registry.floorplan.plan import FloorPlan, machine_beside
 from vipo_device.protocol.description import Description, Pose
 
+MOST_NUMBER = 1_000_000_000
 _CHANGES_THAT_MATTER = ("lifecycle", "name", "methods", "gives", "takes", "capacity")
 
 
 def build_surroundings(*, site: str) -> Surroundings:
     """Return what the programs of a site are checked against: its devices, places and floor, as they are now."""
-    views = registry.list_devices(site=site)
-    machines = [view.canonical for view in views if view.kind == "machine" and view.lifecycle == "approved"]
-    devices = {view.id: _facts(view, machines) for view in views}
+    devices = find_devices(site=site)
     places = {
         place.id: PlaceFacts(place.id, place.name, _kind(place.kind), place.x, place.y, place.theta)
         for place in registry.list_places(site=site)
     }
     return Surroundings(devices, places, _floor(site), _library(site), find_zones(site=site))
+
+
+def find_devices(*, site: str) -> dict[str, DeviceFacts]:
+    """Return the devices of a site by id, as they are now."""
+    views = registry.list_devices(site=site)
+    machines = [view.canonical for view in views if view.kind == "machine" and view.lifecycle == "approved"]
+    return {view.id: _facts(view, machines) for view in views}
 
 
 def find_zones(*, site: str) -> tuple[ZoneFacts, ...]:
@@ -52,7 +58,7 @@ def find_zones(*, site: str) -> tuple[ZoneFacts, ...]:
 
 
 def _library(site: str) -> dict[str, LibraryFacts]:
-    """Return the functions that the site sees, with what each version is given.
+    """Return the functions that the site sees, with what each version is to who calls it.
 
     They are those that its members see, and of other sites those for everyone that its programs hold. What a single
     person sees says nothing to the others.
@@ -60,15 +66,13 @@ def _library(site: str) -> dict[str, LibraryFacts]:
     own = Q(site__slug=site) & ~Q(visibility="me")
     held = Q(visibility="everyone", pk__in=LibraryUse.objects.filter(program__site__slug=site).values("function"))
     rows = LibraryVersion.objects.filter(function__in=LibraryFunction.objects.filter(own | held)).values_list(
-        "function_id", "function__name", "number", "definition__function__parameters"
+        "function_id", "function__name", "number", "signature"
     )
     names: dict[str, str] = {}
-    versions: dict[str, dict[int, tuple[tuple[str, str], ...]]] = {}
-    for function, name, number, parameters in rows:
+    versions: dict[str, dict[int, Signature]] = {}
+    for function, name, number, signature in rows:
         names[str(function)] = name
-        listed = well_formed_function({"parameters": parameters}).get("parameters") or ()
-        given = tuple((str(item.get("name", "")), str(item.get("type", ""))) for item in listed)
-        versions.setdefault(str(function), {})[number] = given
+        versions.setdefault(str(function), {})[number] = signature_from_json(signature)
     return {function: LibraryFacts(name, versions[function]) for function, name in names.items()}
 
 
@@ -160,24 +164,28 @@ def _without_pose(description: Description) -> Description:
     return replace(description, pose=Pose(0, 0)) if description.kind == "robot" else description
 
 
-def _store_uses(program: Program, sources: Iterable[str]) -> None:
-    """Store which library functions the program holds, of whatever site."""
-    wanted = _ids(sources)
-    known = {str(pk) for pk in program.library_uses.values_list("function_id", flat=True)}
-    if wanted == known:
+def _store_uses(program: Program, sources: Iterable[tuple[str, int]]) -> None:
+    """Store which library functions the program holds, of whatever site, and at which versions."""
+    wanted = _versions_by_id(sources)
+    known = {str(use.function_id): use for use in program.library_uses.all()}
+    if wanted == {name: use.versions for name, use in known.items()}:
         return
-    program.library_uses.exclude(function_id__in=[w for w in wanted if w in known]).delete()
-    there = LibraryFunction.objects.filter(pk__in=wanted - known).values_list("pk", flat=True)
-    LibraryUse.objects.bulk_create([LibraryUse(function_id=pk, program=program) for pk in there], ignore_conflicts=True)
+    program.library_uses.exclude(function_id__in=[name for name in wanted if name in known]).delete()
+    there = LibraryFunction.objects.filter(pk__in=wanted.keys() - known).values_list("pk", flat=True)
+    fresh = [LibraryUse(function_id=pk, program=program, versions=wanted[str(pk)]) for pk in there]
+    LibraryUse.objects.bulk_create(fresh, ignore_conflicts=True)
+    for name, use in known.items():
+        if name in wanted and use.versions != wanted[name]:
+            program.library_uses.filter(pk=use.pk).update(versions=wanted[name])
 
 
-def _ids(sources: Iterable[str]) -> set[str]:
-    """Return those of the texts that can be ids, in the form in which ids are written: a document holds any text."""
-    found = set()
-    for source in sources:
+def _versions_by_id(sources: Iterable[tuple[str, int]]) -> dict[str, list[int]]:
+    """Return the versions by those texts that can be ids, in the form in which ids are written."""
+    found: dict[str, set[int]] = {}
+    for source, number in sources:
         with suppress(ValueError):
-            found.add(str(UUID(source)))
-    return found
+            found.setdefault(str(UUID(source)), set()).update([number] if 0 < number < MOST_NUMBER else [])
+    return {name: sorted(numbers) for name, numbers in found.items()}
 
 
 class DeviceWatch:

@@ -13,13 +13,13 @@ from editor.language import Compiled
 class Summary:
     """What lists show: the kinds of its steps, the devices and places that it names, and its errors and warnings.
 
-    `sources` are the functions of the site's library that it has taken in.
+    `sources` are the functions of the library that it has taken in, each with the number of a version.
     """
 
     kinds: tuple[str, ...]
     devices: tuple[str, ...]
     places: tuple[str, ...]
-    sources: tuple[str, ...]
+    sources: tuple[tuple[str, int], ...]
     errors: int
     warnings: int
 
@@ -72,7 +72,11 @@ _HOLD_MORE = (dict, list)
 """What of plain JSON something else can stand in."""
 
 
-def _sources(document: Mapping[str, Any]) -> set[str]:
+def _sources(document: Mapping[str, Any]) -> set[tuple[str, int]]:
     functions = document.get("functions", {}).values()
     sources = [f.get("source") for f in functions if isinstance(f, dict)]
-    return {str(s["library"]) for s in sources if isinstance(s, dict) and "library" in s}
+    return {(str(s["library"]), _number(s.get("version"))) for s in sources if isinstance(s, dict) and "library" in s}
+
+
+def _number(version: object) -> int:
+    return version if isinstance(version, int) and not isinstance(version, bool) else 0

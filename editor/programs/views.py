@@ -66,28 +66,6 @@ class WholeVersionView(VersionView):
     script: str
 
 
-@dataclass(frozen=True, slots=True)
-class LibraryView:
-    """A library function, with one of its versions; `definition` is {function, functions, steps}.
-
-    `visibility` says who sees it: me (its author), site, everyone. `mine` is whether who asked may change it.
-    """
-
-    id: UUID
-    site: str
-    name: str
-    description: str
-    version: int
-    author: AuthorView | None
-    parameters: tuple[Mapping[str, Any], ...]
-    used_in: int
-    updated_at: datetime
-    script: str
-    definition: Mapping[str, Any]
-    visibility: str
-    mine: bool
-
-
 def view_author(user: Any) -> AuthorView | None:
     """Return the view of a user's row, or None."""
     return AuthorView(user.pk, user.display_name, user.initials) if user is not None else None

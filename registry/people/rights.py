@@ -58,6 +58,7 @@ DEEDS = (
         "viewer",
         "read",
         """list_asked_reviews show_review show_review_rule show_function
+        list_function_versions compare_function list_function_uses show_program_origin
         show_function_version show_program show_compiled show_document show_script show_version
         list_versions export_version compare_versions wait_until_stored get_rehearsal list_rehearsals get_run
         list_events list_armed get_call list_questions plan_route plan_routes list_runs show_site list_alerts
@@ -98,8 +99,9 @@ DEEDS = (
         "author",
         "run",
         """delete_program rename_program draw_script pin_version name_version copy_version look_at_restoring
-        restore_version make_changes save_function change_function create_program put_document put_script
-        add_test look_at_test show_first_text import_tests write_test delete_test""",
+        restore_version make_changes save_function fork_function change_function create_program put_document
+        put_script look_at_promotion promote_program add_test look_at_test show_first_text import_tests write_test
+        delete_test""",
     ),
     _deed(
         "equip",

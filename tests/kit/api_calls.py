@@ -47,6 +47,9 @@ BODIES: dict[str, dict[str, Any]] = {
     "withdraw_topic": {"topic": "a"},
     "wait_until_stored": {"seen": ""},
     "save_function": {"program": "{program}", "function": "f", "name": "F"},
+    "look_at_promotion": {"site": "{slug}"},
+    "promote_program": {"site": "{slug}", "name": "Elsewhere"},
+    "fork_function": {"function": "{function}", "name": "F anew"},
     "change_function": {"visibility": "everyone"},
     "add_test": {"text": "name: It is quick\nthen:\n- within_s: 60\n"},
     "look_at_test": {"text": ""},
@@ -85,6 +88,7 @@ BODIES: dict[str, dict[str, Any]] = {
 }
 """What is sent, where an empty object does not say enough; a name in braces stands for an id."""
 QUERIES = {"ask": "?query=ASK+%7B%7D", "show_property_history": "?property=jobStatus", "compare_versions": "?old=1"}
+QUERIES |= {"compare_function": "?old=1"}
 
 
 def make_one_of_each(slug: str) -> dict[str, str]:

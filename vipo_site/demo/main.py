@@ -167,6 +167,7 @@ def prepare_database() -> None:
     from editor import services as editor
 
     editor.seed_programs(site="painting-factory")
+    editor.seed_library(site="painting-factory")
 
 
 def start_workers() -> list[Part]:

@@ -49,6 +49,8 @@ MADE = {
     "import_tests": Place("list_tests", ("program",), {}),
     "run_tests": Place("get_rehearsal", (), {"rehearsal": "rehearsal"}),
     "save_function": Place("show_function_version", (), {"function": "id", "number": "version"}),
+    "fork_function": Place("show_function_version", (), {"function": "id", "number": "version"}),
+    "promote_program": Place("show_program", (), {"program": "id"}),
     "start_run": Place("get_run", (), {"run": "id"}),
     "start_rehearsal": Place("get_rehearsal", (), {"rehearsal": "id"}),
     "call_method": Place("get_call", ("site",), {"call": "id"}),

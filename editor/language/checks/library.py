@@ -8,6 +8,7 @@ from editor.language.checks.context import Context
 from editor.language.document.outline import mapping
 from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
+from editor.language.signatures.compatibility import breaks
 from editor.language.site.surroundings import LibraryFacts
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
@@ -57,10 +58,10 @@ def _check_version(
     newest = max(facts.versions)
     if newest == version:
         return
-    if facts.versions[newest] == facts.versions[version]:
-        value = {"function": function.id, "library": library, "version": newest}
-        fix = Fix("use_version", step, "source.version", value, {"value": newest})
+    value = {"function": function.id, "library": library, "version": newest}
+    fix = Fix("use_version", step, "source.version", value, {"value": newest})
+    if not breaks(facts.versions[version], facts.versions[newest]):
         context.report_step(step, "newer_version", "source", {**name, "newest": newest}, fix)
     else:
-        takes = Options(tuple(given for given, _ in facts.versions[newest]))
-        context.report_step(step, "signature_changed", "source", {**name, "newest": newest, "parameters": takes})
+        takes = Options(tuple(port.name for port in facts.versions[newest].parameters))
+        context.report_step(step, "signature_changed", "source", {**name, "newest": newest, "parameters": takes}, fix)

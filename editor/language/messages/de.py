@@ -208,8 +208,9 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     ),
     "newer_version": "Die Bibliothek hat Version {newest} von {function}; dieses Programm verwendet Version {version}.",
     "signature_changed": (
-        "Version {newest} von {function} in der Bibliothek braucht andere Werte: "
-        "{parameters}. Holen Sie sie und geben Sie diese neu ein."
+        "Version {newest} von {function} in der Bibliothek passt nicht ohne Weiteres: Sie nimmt andere Werte, gibt "
+        "einen anderen zurück oder braucht andere Geräte. Sie nimmt: {parameters}. Sehen Sie sie in der Bibliothek an, "
+        "bevor Sie sie holen."
     ),
     # values: units, zones and ranges
     "unknown_unit": "{unit} ist keine Einheit, die VIPO kennt. Wählen Sie eine andere.",

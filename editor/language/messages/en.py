@@ -231,8 +231,8 @@ TEXTS: Final[Mapping[str, Text]] = {
     ),
     "signature_changed": (
         "warning",
-        "Version {newest} of {function} in the library takes other values: {parameters}. "
-        "Bring it in and enter them anew.",
+        "Version {newest} of {function} in the library does not fit as it is: it takes other values, gives back "
+        "another, or needs other devices. It takes: {parameters}. Look at it in the library before you bring it in.",
     ),
     # values: units, zones and ranges
     "unknown_unit": ("error", "{unit} is not a unit that VIPO knows. Choose another."),

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from editor.language.site.signature import signature_from_json, signature_to_json
 from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings, ZoneFacts
 from vipo_device.protocol.description import description_from_json, description_to_json
 
@@ -34,8 +35,7 @@ def surroundings_to_json(surroundings: Surroundings) -> dict[str, Any]:
 
 def _library_to_json(name: str, facts: LibraryFacts) -> dict[str, Any]:
     versions = [
-        {"number": number, "parameters": [{"name": given, "type": kind} for given, kind in parameters]}
-        for number, parameters in sorted(facts.versions.items())
+        {"number": number, **signature_to_json(signature)} for number, signature in sorted(facts.versions.items())
     ]
     return {"id": name, "name": facts.name, "versions": versions}
 
@@ -76,11 +76,8 @@ def surroundings_from_json(body: object, floor: FloorFacts | None = None) -> Sur
 def _library_from_json(body: Mapping[str, Any]) -> tuple[str, LibraryFacts]:
     name = body.get("id")
     try:
-        versions = {
-            int(version["number"]): tuple((str(given["name"]), str(given["type"])) for given in version["parameters"])
-            for version in _listed(body, "versions")
-        }
-    except (KeyError, TypeError, ValueError) as error:
+        versions = {int(version["number"]): signature_from_json(version) for version in _listed(body, "versions")}
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise UnreadableSite(f"The versions of library function {name} cannot be read: {error}.") from error
     if not isinstance(name, str) or not name:
         raise UnreadableSite("A function of the library needs an id.")

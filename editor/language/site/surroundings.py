@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final, Literal, Protocol
 
+from editor.language.site.signature import Signature
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
 
 ZoneRule = Literal["keep_out", "one_at_a_time", "slow"]
@@ -101,10 +102,10 @@ NOBODY: Final[CrewFacts] = _Nobody()
 
 @dataclass(frozen=True, slots=True)
 class LibraryFacts:
-    """A function of the site's library: what each of its versions is given, as (name, type) pairs."""
+    """A function of the library: what each of its versions is to who calls it."""
 
     name: str
-    versions: Mapping[int, tuple[tuple[str, str], ...]] = field(default_factory=dict)
+    versions: Mapping[int, Signature] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

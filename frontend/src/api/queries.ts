@@ -47,8 +47,8 @@ export const keys = {
   alerts: (slug: string) => ["alerts", slug] as const,
   overAlerts: (slug: string) => ["over-alerts", slug] as const,
   runEvents: (id: string) => ["run-events", id] as const,
-  library: (q: string) => ["library", q] as const,
-  libraryFunction: (id: string) => ["library-function", id] as const,
+  library: (q: string, fits: string) => ["library", q, fits] as const,
+  libraryFunction: (id: string, ...more: readonly (string | number)[]) => ["library-function", id, ...more] as const,
   rehearsal: (id: string) => ["rehearsal", id] as const,
   findings: (slug: string) => ["findings", slug] as const,
   operations: (slug: string) => ["operations", slug] as const,
@@ -213,16 +213,16 @@ export const useRun = (id: Maybe) =>
 export const useRunEvents = (id: Maybe) =>
   useQuery({ queryKey: keys.runEvents(id ?? ""), queryFn: id ? () => getRunEvents(id) : skipToken });
 /** What was found last stays until the next answer is there: a list that goes while people type cannot be pressed. */
-export const useLibrary = (q: string) =>
+export const useLibrary = (q: string, fits = "") =>
   useQuery({
-    queryKey: keys.library(q),
-    queryFn: () => api.all<LibraryFunction>(`/library?q=${encodeURIComponent(q)}`),
+    queryKey: keys.library(q, fits),
+    queryFn: () => api.all<LibraryFunction>(`/library?q=${encodeURIComponent(q)}&fits=${encodeURIComponent(fits)}`),
     placeholderData: keepPreviousData,
   });
-export const useLibraryFunction = (id: Maybe) =>
+export const useLibraryFunction = (id: Maybe, fits = "") =>
   useGet<LibraryFunction>(
-    keys.libraryFunction(id ?? ""),
-    at(id, (f) => `/library/${f}`),
+    keys.libraryFunction(id ?? "", fits),
+    at(id, (f) => `/library/${f}?fits=${encodeURIComponent(fits)}`),
   );
 export const useRehearsal = (id: Maybe) =>
   useGet<Rehearsal>(

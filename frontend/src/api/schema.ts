@@ -133,7 +133,7 @@ export interface paths {
         };
         /**
          * Search Library
-         * @description Search the functions that the asker sees by name and description: those of one site, or all.
+         * @description Search the functions that the asker sees by name, description and what they do: those of one site, or all.
          *
          *     The header `Link` names the next part.
          */
@@ -168,6 +168,66 @@ export interface paths {
          * @description Change who sees a library function, or what is said of it; its author does so, or an admin of its site.
          */
         patch: operations["change_function"];
+        trace?: never;
+    };
+    "/api/library/{function}/comparison": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Compare Function
+         * @description Compare two versions of a library function, without `new` with the newest: compatible or breaking, and why.
+         */
+        get: operations["compare_function"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/library/{function}/uses": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Function Uses
+         * @description List the programs and functions that hold a library function, as far as the asker sees them.
+         */
+        get: operations["list_function_uses"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/library/{function}/versions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Function Versions
+         * @description List the last 200 versions of a library function, the newest first, each with what it changed for callers.
+         */
+        get: operations["list_function_versions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
         trace?: never;
     };
     "/api/library/{function}/versions/{number}": {
@@ -550,6 +610,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/programs/{program}/origin": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Program Origin
+         * @description Show which program of another site a program was made from, and how far that has gone on.
+         */
+        get: operations["show_program_origin"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/programs/{program}/people": {
         parameters: {
             query?: never;
@@ -564,6 +644,46 @@ export interface paths {
         get: operations["list_people_to_mention"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/promotion": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Promote Program
+         * @description Make a program anew at another site where the asker draws, as it is now; what has no match becomes a hole.
+         */
+        post: operations["promote_program"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/promotion/look": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Look At Promotion
+         * @description Tell who at another site can stand for the devices and places of a program; nothing is made.
+         */
+        post: operations["look_at_promotion"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2306,6 +2426,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/library/forks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Fork Function
+         * @description Make a function that the asker sees anew at a site; it keeps which one it was made from.
+         */
+        post: operations["fork_function"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/map": {
         parameters: {
             query?: never;
@@ -3412,6 +3552,16 @@ export interface components {
             initials: string;
             name: string;
         };
+        /** @description A device or place that a program names, with who may stand for it, the best first; null: nobody fits. */
+        BindingShape: {
+            candidates: components["schemas"]["CandidateShape"][];
+            id: string;
+            /** @enum {string} */
+            kind: "device" | "place";
+            name: string;
+            need: components["schemas"]["NeedShape"] | null;
+            proposed: string | null;
+        };
         /** @description How a program comes in to MQTT by a token, its password, and what it may hear; `address` is empty if unknown. */
         BrokerWay: {
             address: string;
@@ -3457,6 +3607,12 @@ export interface components {
             /** @enum {string} */
             status: "pending" | "sent" | "accepted" | "running" | "done" | "failed" | "rejected" | "cancelled" | "timed_out";
             why: string;
+        };
+        /** @description A device or place of the other site; `fits`: it can all that the steps want. */
+        CandidateShape: {
+            fits: boolean;
+            id: string;
+            name: string;
         };
         /** @description Why something ended or was not done, for screens to say in their language (execution/reasons.py). */
         Cause: {
@@ -3594,7 +3750,7 @@ export interface components {
             name: string;
             roles: ("viewer" | "commenter" | "operator" | "author" | "admin")[];
         };
-        /** @description What a library function holds; `functions` are those that it calls. */
+        /** @description What a library function holds; `functions` are those that it calls, `roles` and `zones` those that it names. */
         DefinitionShape: {
             function: components["schemas"]["FunctionShape"];
             /** @default {} */
@@ -3603,8 +3759,16 @@ export interface components {
             };
             /** @default  */
             id: string;
+            /** @default {} */
+            roles: {
+                [key: string]: components["schemas"]["RoleShape"];
+            };
             steps: {
                 [key: string]: components["schemas"]["StepShape"];
+            };
+            /** @default {} */
+            zones: {
+                [key: string]: components["schemas"]["ZoneShape"];
             };
         };
         /** @description An account that the demo shows on its sign-in page. */
@@ -3855,6 +4019,11 @@ export interface components {
             of_rehearsal: boolean;
             text: string;
         };
+        /** @description For which site's devices it is worked out what they cannot do. */
+        FitAsked: {
+            /** @default  */
+            fits: string;
+        };
         /** @description A change that mends a problem: `field` of the step becomes `value`. */
         FixShape: {
             field: string;
@@ -3880,12 +4049,29 @@ export interface components {
             description?: string | null;
             visibility?: ("me" | "site" | "everyone") | null;
         };
+        /** @description Two versions of a function, and what is otherwise for who calls it. */
+        FunctionComparisonShape: {
+            new: components["schemas"]["LibraryShape"];
+            old: components["schemas"]["LibraryShape"];
+            reasons: components["schemas"]["ReasonShape"][];
+        };
         /** @description A function; its body is the steps whose parent is its id. */
         FunctionShape: {
             name: string;
             parameters: components["schemas"]["ParameterDefinition"][];
             result?: components["schemas"]["ResultShape"] | null;
             source?: components["schemas"]["LibrarySource"] | null;
+        };
+        /** @description A function of the library that shall be made anew at a site, as it is at a version, or the newest. */
+        FunctionToFork: {
+            /** @default  */
+            description: string;
+            /** Format: uuid */
+            function: string;
+            name: string;
+            version?: number | null;
+            /** @description Who sees it; the site, if left out. */
+            visibility?: ("me" | "site" | "everyone") | null;
         };
         /** @description A function of a program that shall go into the library. */
         FunctionToSave: {
@@ -3897,6 +4083,15 @@ export interface components {
             program: string;
             /** @description Who sees it; as it was, if left out: the site at first. */
             visibility?: ("me" | "site" | "everyone") | null;
+        };
+        /** @description A function of the library whose newest version holds another, and at which versions of that. */
+        FunctionUseShape: {
+            /** Format: uuid */
+            id: string;
+            name: string;
+            site: string;
+            version: number;
+            versions: number[];
         };
         /** @description A site's invitations, the newest first; `can_mail` says whether the server may send them by e-mail. */
         InvitationList: {
@@ -3939,10 +4134,16 @@ export interface components {
             holder: string;
             job: string;
         };
-        /** @description Which functions are asked for: those whose name or description has all words of `q`, of one site if named. */
+        /**
+         * @description Which functions are asked for: those that all words of `q` fit, by name or by what they do; of one site if named.
+         *
+         *     With `fits`, the name of a site, each tells what the devices there cannot do of it.
+         */
         LibraryAsked: {
             /** @default  */
             before: string;
+            /** @default  */
+            fits: string;
             /** @default 200 */
             limit: number;
             /** @default  */
@@ -3957,9 +4158,15 @@ export interface components {
             description: string;
             /** Format: uuid */
             id: string;
+            /** @description What no device of the site named by `fits` can do of it; null where none is named. */
+            lacks: components["schemas"]["NeedShape"][] | null;
             mine: boolean;
             name: string;
+            /** @description What it was made from, if the asker sees that. */
+            origin: components["schemas"]["OriginShape"] | null;
             parameters: components["schemas"]["ParameterDefinition"][];
+            /** @description What is otherwise since the version before; null for the first version, and in lists. */
+            reasons: components["schemas"]["ReasonShape"][] | null;
             script: string;
             site: string;
             /** Format: date-time */
@@ -3973,6 +4180,14 @@ export interface components {
         LibrarySource: {
             library: string;
             version: number;
+        };
+        /** @description A version of a function; `reasons` is what is otherwise since the one before it, null for the first. */
+        LibraryVersionShape: {
+            author: components["schemas"]["Author"] | null;
+            /** Format: date-time */
+            created_at: string;
+            number: number;
+            reasons: components["schemas"]["ReasonShape"][] | null;
         };
         /** @description Why a text is no test, and on which line (0: unknown). */
         LineFault: {
@@ -4137,6 +4352,10 @@ export interface components {
             version: number;
             width: number;
         };
+        /** @description What a program was made from; null if from nothing, or from what the asker does not see. */
+        MaybeOriginShape: {
+            origin: components["schemas"]["ProgramOriginShape"] | null;
+        };
         /** @description Who asks, whether they may make a site, and what their next request needs. */
         Me: {
             csrf: string;
@@ -4199,6 +4418,16 @@ export interface components {
         /** @description A named place of the map. */
         NamedPlace: {
             place: string;
+        };
+        /** @description What no device of a site can: `of` says whether a robot, a machine or a device that is given must. */
+        NeedShape: {
+            gives: string[];
+            methods: string[];
+            name: string;
+            /** @enum {string} */
+            of: "robot" | "machine" | "parameter";
+            readings: string[];
+            takes: string[];
         };
         /** @description A device's new key, told this once; `taken` says whether the device has it already. */
         NewCredential: {
@@ -4316,6 +4545,15 @@ export interface components {
             x: number;
             y: number;
             yaw: number;
+        };
+        /** @description What a function was made from, at which version of it, and which is its newest now. */
+        OriginShape: {
+            /** Format: uuid */
+            id: string;
+            name: string;
+            newest: number;
+            site: string;
+            version: number;
         };
         /** @description A command to which its device has said nothing for `waits_s`; without `run` it is a person's call. */
         OverdueShape: {
@@ -4534,6 +4772,15 @@ export interface components {
         ProgramName: {
             name: string;
         };
+        /** @description What a program was made from, at which version of it, and which is its newest now. */
+        ProgramOriginShape: {
+            /** Format: uuid */
+            id: string;
+            name: string;
+            newest: number;
+            site: string;
+            version: number;
+        };
         /** @description A program as lists show it. */
         ProgramShape: {
             devices: string[];
@@ -4568,6 +4815,23 @@ export interface components {
             tests: components["schemas"]["ProgramTestShape"][];
             under_way: components["schemas"]["TestRunShape"][];
         };
+        /** @description A program for another site: its name there, and who stands for whom; null leaves a hole. */
+        ProgramToPromote: {
+            /** @default {} */
+            chosen: {
+                [key: string]: string | null;
+            };
+            name: string;
+            site: string;
+        };
+        /** @description A program that holds a function, and at which versions. */
+        ProgramUseShape: {
+            /** Format: uuid */
+            id: string;
+            name: string;
+            site: string;
+            versions: number[];
+        };
         /** @description Which programs are asked for: those whose names have all words of `q`. */
         ProgramsAsked: {
             /** @default  */
@@ -4576,6 +4840,12 @@ export interface components {
             limit: number;
             /** @default  */
             q: string;
+        };
+        /** @description What has to be bound; points are left open and zones left out, as they are of this site's map. */
+        PromotionLookShape: {
+            bindings: components["schemas"]["BindingShape"][];
+            points: number;
+            zones: number;
         };
         /** @description How a device's property is written behind the device's name and a dot. */
         PropertyName: {
@@ -4629,6 +4899,21 @@ export interface components {
             name: string;
             oldest_s: number | null;
             waiting: number;
+        };
+        /**
+         * @description Something that is otherwise for who calls a newer version; `breaks`: calls that stand may not hold.
+         *
+         *     `name` is the value's, role's or device's; `old` and `new` are types, units, defaults as JSON, or abilities.
+         */
+        ReasonShape: {
+            breaks: boolean;
+            /** @enum {string} */
+            code: "parameter_added" | "parameter_wanted" | "parameter_gone" | "parameter_type" | "parameter_unit" | "default_gone" | "default_added" | "default_changed" | "result_added" | "result_gone" | "result_type" | "result_unit" | "needs_new" | "needs_more" | "needs_less" | "needs_instead" | "needs_gone";
+            name: string;
+            new: string;
+            /** @enum {string} */
+            of: "" | "robot" | "machine" | "parameter";
+            old: string;
         };
         /** @description Ten codes that stand in for the app, each once; told this once. */
         RecoveryCodes: {
@@ -5040,6 +5325,10 @@ export interface components {
             email: string;
             password: string;
         };
+        /** @description To which site a program shall go. */
+        SiteAsked: {
+            site: string;
+        };
         /** @description A site as its member sees it. */
         SiteShape: {
             has_map: boolean;
@@ -5267,6 +5556,12 @@ export interface components {
             device: string;
             replaces: number;
             version: number;
+        };
+        /** @description Who holds a function, as far as the asker sees them; `hidden` is how many more programs there are. */
+        UsesShape: {
+            functions: components["schemas"]["FunctionUseShape"][];
+            hidden: number;
+            programs: components["schemas"]["ProgramUseShape"][];
         };
         Value: string | boolean | number | unknown[] | components["schemas"]["ParameterUse"] | components["schemas"]["Quantity"] | components["schemas"]["Whereabouts"] | components["schemas"]["ZoneUse"] | components["schemas"]["PropertyUse"] | components["schemas"]["Operation"] | null;
         /** @description At the path stands `new` instead of `old`; what is left out is absent there. */
@@ -5845,6 +6140,7 @@ export interface operations {
                 before?: string;
                 q?: string;
                 site?: string;
+                fits?: string;
             };
             header?: never;
             path?: never;
@@ -5882,7 +6178,9 @@ export interface operations {
     };
     show_function: {
         parameters: {
-            query?: never;
+            query?: {
+                fits?: string;
+            };
             header?: never;
             path: {
                 function: string;
@@ -5951,6 +6249,126 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    compare_function: {
+        parameters: {
+            query: {
+                old: number;
+                new?: number | null;
+            };
+            header?: never;
+            path: {
+                function: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FunctionComparisonShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_function_uses: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                function: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UsesShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_function_versions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                function: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibraryVersionShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
@@ -6950,6 +7368,45 @@ export interface operations {
             };
         };
     };
+    show_program_origin: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MaybeOriginShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_people_to_mention: {
         parameters: {
             query?: never;
@@ -6974,6 +7431,102 @@ export interface operations {
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    promote_program: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ProgramToPromote"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProgramShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    look_at_promotion: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SiteAsked"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PromotionLookShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
@@ -11315,6 +11868,55 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["FunctionToSave"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LibraryShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    fork_function: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FunctionToFork"];
             };
         };
         responses: {

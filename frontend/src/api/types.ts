@@ -94,6 +94,14 @@ export type Step = Schemas["StepShape"];
 export type Compiled = Schemas["CompiledShape"];
 export type Diagnostic = Schemas["DiagnosticShape"];
 export type LibraryFunction = Schemas["LibraryShape"];
+export type LibraryVersion = Schemas["LibraryVersionShape"];
+export type FunctionReason = Schemas["ReasonShape"];
+export type NeedOfDevice = Schemas["NeedShape"];
+export type FunctionComparison = Schemas["FunctionComparisonShape"];
+export type FunctionUses = Schemas["UsesShape"];
+export type PromotionLook = Schemas["PromotionLookShape"];
+export type PromotionBinding = Schemas["BindingShape"];
+export type ProgramOrigin = Schemas["ProgramOriginShape"];
 
 export type Run = Schemas["RunShape"];
 export type RunSummary = Schemas["RunSummaryShape"];

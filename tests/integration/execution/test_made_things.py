@@ -50,6 +50,9 @@ def make_each(client: Client) -> dict[str, Any]:
     person = {"code": code, "name": "Nora Lind", "email": "nora@vipo.example", "password": "a-horse-in-the-rain-9"}
     threads = f"/api/programs/{task}/threads"
     thread = post_json(client, threads, {"text": "Why wait?", "anchor": {"kind": "program"}})
+    saved = post_json(client, f"{AT_SITE}/library", function)
+    registry.create_site(name="Shed", slug="shed")
+    registry.set_member(site="shed", email=find_person("admin").email, role="author")
     return {
         "make_invitation": invitation,
         "make_wall_screen": post_json(client, f"{AT_SITE}/wall-screens", {"name": "Hall 1"}),
@@ -83,16 +86,20 @@ def make_each(client: Client) -> dict[str, Any]:
         "copy_version": post_json(client, f"/api/programs/{task}/versions/1/copy", {"name": "Copy"}),
         "start_thread": thread,
         "answer_thread": post_json(client, f"{threads}/{thread.json()['id']}/comments", {"text": "For the paint."}),
-        "save_function": post_json(client, f"{AT_SITE}/library", function),
         "add_test": post_json(
             client, f"/api/programs/{task}/tests", {"text": "name: It is quick\nthen:\n- within_s: 60\n"}
         ),
         "import_tests": post_json(client, f"/api/programs/{task}/tests/import", {"text": FILE_OF_TESTS}),
         "run_tests": post_json(client, f"/api/programs/{task}/test-runs"),
+        "save_function": saved,
+        "fork_function": post_json(
+            client, f"{AT_SITE}/library/forks", {"function": saved.json()["id"], "name": "Greet again"}
+        ),
         "start_rehearsal": post_json(client, f"/api/programs/{task}/rehearsals"),
         "call_method": post_json(
             client, f"{AT_SITE}/devices/paintMixer01/call", {"method": "mixPaint", "args": {"time": 5}}
         ),
+        "promote_program": post_json(client, f"/api/programs/{task}/promotion", {"site": "shed", "name": "Moved"}),
         "start_run": post_json(client, f"/api/programs/{task}/runs"),
     }
 

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from editor.language import UnreadableSite, surroundings_from_json, surroundings_to_json
+from editor.language.site.signature import Need, Port, Signature
 from editor.language.site.surroundings import LibraryFacts
 from editor.language.tree.zones import area_m2, is_in, read_zones
 from tests.kit.demo_site import factory
@@ -18,7 +19,10 @@ def zone(**changes: Any) -> dict[str, Any]:
 
 
 def test_a_site_keeps_what_its_library_has() -> None:
-    library = {"lib1": LibraryFacts("mixPaint", {1: (), 2: (("minutes", "number"),)})}
+    need = Need("machine", "Oven", "oven1", methods=("curePaint",), takes=("box",))
+    minutes = Port("minutes", "number", "MIN", default="3")
+    versions = {1: Signature(), 2: Signature((minutes,), Port("", "boolean"), (need,))}
+    library = {"lib1": LibraryFacts("mixPaint", versions)}
     site = replace(factory(), library=library)
     assert surroundings_from_json(surroundings_to_json(site)) == site
     assert surroundings_from_json(surroundings_to_json(factory())).library is None

@@ -191,3 +191,8 @@ def test_every_form_of_a_description_has_its_names():
     tables = {"_NAMES in vipo_site/cli/describe.py": FORM_NAMES}
     tables |= {f"devices.form in i18n/{language}/screens/pages.json": words for language, words in catalogues.items()}
     assert [sentence for table, found in tables.items() for sentence in lacking(table, DESCRIPTION_FORMS, found)] == []
+
+
+def test_the_words_by_which_the_library_finds_steps_are_those_of_the_editor():
+    assert constructs.WORDS.read_text() == constructs.write_words()
+    assert set(json.loads(constructs.WORDS.read_text())) >= DRAWN

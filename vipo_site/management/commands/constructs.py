@@ -1,7 +1,8 @@
-"""Write what follows from the records of constructs: the editor's file of them, and the table of the document."""
+"""Write what follows from the records of constructs: the editor's file of them, the document's table, the words."""
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 from django.conf import settings
@@ -11,6 +12,8 @@ from editor.language.constructs.json_form import write_constructs, write_table
 
 FILE = settings.BASE_DIR / "frontend" / "src" / "program" / "constructs.json"
 PAGE = settings.BASE_DIR / "docs" / "shapes" / "document.md"
+WORDS = settings.BASE_DIR / "editor" / "library" / "step_words.json"
+CATALOGUES = settings.BASE_DIR / "frontend" / "src" / "i18n"
 _HEADING = "| kind | params |"
 
 
@@ -20,12 +23,23 @@ def with_table(page: str) -> str:
     return f"{before}{write_table()}\n{rest.partition(chr(10) * 2)[2]}"
 
 
+def write_words() -> str:
+    """Return what the editor's catalogues call each kind of step in either language: the library is searched by it."""
+    words: dict[str, dict[str, str]] = {}
+    for language in ("en", "de"):
+        texts = json.loads((CATALOGUES / language / "editor.json").read_text(encoding="utf-8"))
+        for kind, also in texts["also"].items():
+            words.setdefault(kind, {})[language] = f"{texts['kind'][kind]}, {also}"
+    return json.dumps(words, indent=1, ensure_ascii=False) + "\n"
+
+
 class Command(BaseCommand):
     """`manage.py constructs`; `make constructs` also renews what the API says of steps."""
 
     help = __doc__ or ""
 
     def handle(self, *_args: Any, **_options: Any) -> None:
-        """Write both."""
+        """Write all three."""
+        WORDS.write_text(write_words(), encoding="utf-8")
         FILE.write_text(write_constructs(), encoding="utf-8")
         PAGE.write_text(with_table(PAGE.read_text(encoding="utf-8")), encoding="utf-8")

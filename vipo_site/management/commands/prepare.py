@@ -20,7 +20,8 @@ class Command(BaseCommand):
         if not settings.VIPO_DEMO:
             call_command("end_demo")
             return
-        from editor.services import seed_programs
+        from editor.services import seed_library, seed_programs
 
         call_command("seed_demo", verbosity=0)
         seed_programs(site=settings.VIPO_DEFAULT_SITE)
+        seed_library(site=settings.VIPO_DEFAULT_SITE)

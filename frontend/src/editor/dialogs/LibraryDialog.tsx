@@ -2,9 +2,11 @@
 import { Modal, TextInput } from "@mantine/core";
 import { useDebouncedValue } from "@mantine/hooks";
 import { useState } from "react";
+import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
 import { useLibrary, useLibraryFunction } from "@/api/queries";
 import type { LibraryFunction } from "@/api/types";
+import { lackWords } from "@/program/words/libraryWords";
 import { applyEdits } from "../edits/edits";
 import { addStep } from "../edits/joints";
 import { alreadyImported, importFunction } from "../edits/library";
@@ -13,6 +15,7 @@ import { freeSpot } from "../state/freeSpot";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
 import { useAskedFunction } from "./askedFunction";
+import { useScreenTexts } from "./screenTexts";
 import classes from "./dialogs.module.css";
 
 export function LibraryDialog() {
@@ -31,18 +34,20 @@ export function LibraryDialog() {
 }
 
 /** What fits the typed words; until something is typed, only the function that was asked for, if any. */
-function useFound(query: string, asked: string | null) {
-  const found = useLibrary(query);
-  const one = useLibraryFunction(asked ?? undefined);
+function useFound(slug: string, query: string, asked: string | null) {
+  const found = useLibrary(query, slug);
+  const one = useLibraryFunction(asked ?? undefined, slug);
   return asked && !query && one.data ? { error: null, data: [one.data] } : found;
 }
 
 function Search({ asked, onDone }: { asked: string | null; onDone: () => void }) {
   const open = useOpenProgram();
   const { t } = open;
+  const { t: words } = useTranslation();
+  const texts = useScreenTexts();
   const [text, setText] = useState("");
   const [query] = useDebouncedValue(text, 200);
-  const found = useFound(query, asked);
+  const found = useFound(open.site.slug, query, asked);
   const choose = async (entry: LibraryFunction) => {
     try {
       const full = entry.definition ? entry : await api.get<LibraryFunction>(`/library/${entry.id}`);
@@ -70,6 +75,7 @@ function Search({ asked, onDone }: { asked: string | null; onDone: () => void })
               <strong>{`${entry.name} v${entry.version}`}</strong>
               {entry.site === open.site.slug ? null : <span>{t("library.of_site", { site: entry.site })}</span>}
               <span>{entry.description || entry.parameters.map((each) => each.name).join(", ")}</span>
+              {texts && entry.lacks?.length ? <em>{lackWords(words, entry.lacks)}</em> : null}
             </button>
           </li>
         ))}
@@ -89,7 +95,7 @@ function bringIn(open: ReturnType<typeof useOpenProgram>, entry: LibraryFunction
   const { document, apply, t } = open;
   const known = alreadyImported(document, entry.id, entry.version);
   const source = { library: entry.id, version: entry.version };
-  const fresh = known ? null : importFunction(entry.definition, source, makeId);
+  const fresh = known ? null : importFunction(document, entry.definition, source, makeId);
   const functionId = known ?? fresh?.functionId ?? "";
   const before = fresh?.edits ?? [];
   const callId = makeId();

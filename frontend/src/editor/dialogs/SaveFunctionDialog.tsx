@@ -2,12 +2,15 @@
 import { Button, Modal, NativeSelect, Textarea, TextInput } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { useEffect, useState } from "react";
+import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
 import type { LibraryFunction } from "@/api/types";
 import { VISIBILITIES, type Visibility } from "@/program/visibility";
+import { isBreaking, reasonWords } from "@/program/words/libraryWords";
 import { useOpenProgram } from "../state/context";
 import { say, useUi } from "../state/ui";
 import classes from "./dialogs.module.css";
+import { useScreenTexts } from "./screenTexts";
 
 export function SaveFunctionDialog() {
   const { t } = useOpenProgram();
@@ -29,6 +32,7 @@ function Form({ functionId, onDone }: { functionId: string; onDone: () => void }
   useEffect(() => setName(known), [known]);
   const [visibility, setVisibility] = useState<Visibility | "">("");
   const save = useSave(functionId, { name, description, visibility }, onDone);
+  if (save.data?.reasons) return <Saved saved={save.data} onDone={onDone} />;
   return (
     <form
       className={classes.content}
@@ -75,6 +79,31 @@ function Form({ functionId, onDone }: { functionId: string; onDone: () => void }
   );
 }
 
+/** What was saved, and whether programs that hold the version before can take it as they are. */
+function Saved({ saved, onDone }: { saved: LibraryFunction; onDone: () => void }) {
+  const { t } = useTranslation();
+  const reasons = saved.reasons ?? [];
+  const breaks = isBreaking(reasons);
+  return useScreenTexts() ? (
+    <div className={classes.content}>
+      <p role="status">
+        {t("library.saved", { version: saved.version })}{" "}
+        {t(breaks ? "library.savedBreaking" : "library.savedCompatible")}
+      </p>
+      <ul className={classes.reasons}>
+        {reasons.map((reason) => (
+          <li key={`${reason.code}/${reason.name}`}>{reasonWords(t, reason)}</li>
+        ))}
+      </ul>
+      <div className={classes.buttons}>
+        <Button data-autofocus onClick={onDone}>
+          {t("library.close")}
+        </Button>
+      </div>
+    </div>
+  ) : null;
+}
+
 interface Said {
   name: string;
   description: string;
@@ -98,7 +127,7 @@ function useSave(functionId: string, said: Said, onDone: () => void) {
     onSuccess: (saved) => {
       void queries.invalidateQueries({ queryKey: ["library"] });
       say(t("save.done", { name: saved.name, version: saved.version }));
-      onDone();
+      if (!saved.reasons) onDone(); // of a first version there is nothing more to tell
     },
   });
 }

@@ -17,7 +17,12 @@ const cut: CutOut = {
 
 test("an imported function has new ids throughout and knows where it is from", () => {
   let count = 0;
-  const { edits, functionId } = importFunction(cut, { library: "lib", version: 3 }, () => `n${(count += 1)}`);
+  const { edits, functionId } = importFunction(
+    EMPTY_DOCUMENT,
+    cut,
+    { library: "lib", version: 3 },
+    () => `n${(count += 1)}`,
+  );
   const document = applyEdits(EMPTY_DOCUMENT, edits);
   const tree = readTree(document);
   const [loop] = tree.children(functionId, "body");
@@ -50,4 +55,32 @@ test("another version takes the place of the function, and its calls stay", () =
   expect(readTree(after).children("mix", "body")).toHaveLength(1);
   expect(after.steps.call).toEqual(document.steps.call);
   expect(replaceFunction(document, "gone", cut, { library: "lib", version: 3 }, () => "n")).toEqual([]);
+});
+
+test("roles and zones come in with the function; what is there under the same name and is another stays", () => {
+  const zone = { name: "Wet", rule: "keep_out" as const, points: [] };
+  const crew: CutOut = {
+    ...cut,
+    functions: {},
+    steps: {
+      go: { kind: "move", place: ["f", "body", "A"], params: { role: "porter", to: { at: { role: "lifter" } } } },
+      clean: { kind: "cover", place: ["f", "body", "B"], params: { role: "robot", zone: "z" } },
+    },
+    roles: { porter: { name: "Porter", can: ["pick"] }, lifter: { name: "Lifter", can: ["lift"] } },
+    zones: { z: zone },
+  };
+  let count = 0;
+  const makeId = () => `n${(count += 1)}`;
+  const document: ProgramDocument = {
+    ...EMPTY_DOCUMENT,
+    roles: { porter: { name: "Doorkeeper", can: [] }, lifter: { name: "Lifter", can: ["lift"] } },
+  };
+  const after = applyEdits(document, importFunction(document, crew, { library: "lib", version: 1 }, makeId).edits);
+  const [go] = Object.values(after.steps).filter((step) => step.kind === "move");
+  const porter = String(go?.params.role);
+  expect(after.roles.porter).toEqual({ name: "Doorkeeper", can: [] });
+  expect(after.roles[porter]).toEqual({ name: "Porter", can: ["pick"] });
+  expect(go?.params.to).toEqual({ at: { role: "lifter" } });
+  expect(Object.keys(after.roles)).toHaveLength(3);
+  expect(after.zones).toEqual({ z: zone });
 });

@@ -1,6 +1,6 @@
 /** Functions of the library brought into a document, with ids of their own. */
 import type { Edit } from "./edits";
-import type { FunctionDefinition, ProgramDocument, Step } from "@/program/document/document";
+import type { FunctionDefinition, ProgramDocument, Role, Step, Zone } from "@/program/document/document";
 import { deleteSteps, type MakeId } from "./joints";
 
 /** A function cut out of a program: its body and the functions that it calls. */
@@ -9,6 +9,9 @@ export interface CutOut {
   readonly function: FunctionDefinition;
   readonly functions: Readonly<Record<string, FunctionDefinition>>;
   readonly steps: Readonly<Record<string, Step>>;
+  /** Those that the steps name; versions that were saved before have none. */
+  readonly roles?: Readonly<Record<string, Role>>;
+  readonly zones?: Readonly<Record<string, Zone>>;
 }
 
 export interface Imported {
@@ -29,10 +32,24 @@ export interface Source {
   readonly version: number;
 }
 
-export function importFunction(cut: CutOut, source: Source, makeId: MakeId, functionId = makeId()): Imported {
+/** Roles and zones that the document has just so are taken as they are; the others come in with ids of their own. */
+export function importFunction(
+  document: ProgramDocument,
+  cut: CutOut,
+  source: Source,
+  makeId: MakeId,
+  functionId = makeId(),
+): Imported {
   const fresh = new Map<string, string>([[cut.id, functionId]]);
   for (const id of [...Object.keys(cut.functions), ...Object.keys(cut.steps)]) fresh.set(id, makeId());
   const renamed = (id: string) => fresh.get(id) ?? id;
+  const named = (["roles", "zones"] as const).flatMap((root) =>
+    Object.entries<Role | Zone>(cut[root] ?? {}).flatMap(([id, value]): Edit[] => {
+      if (JSON.stringify(document[root][id]) === JSON.stringify(value)) return [];
+      if (document[root][id]) fresh.set(id, makeId());
+      return [{ do: root === "roles" ? "set_role" : "set_zone", id: renamed(id), value } as Edit];
+    }),
+  );
   const steps = Object.entries(cut.steps).map(([id, step]): Edit => ({
     do: "add_step",
     id: renamed(id),
@@ -45,7 +62,7 @@ export function importFunction(cut: CutOut, source: Source, makeId: MakeId, func
   }));
   return {
     functionId,
-    edits: [{ do: "set_function", id: functionId, value: { ...cut.function, source } }, ...others, ...steps],
+    edits: [{ do: "set_function", id: functionId, value: { ...cut.function, source } }, ...others, ...named, ...steps],
   };
 }
 
@@ -59,14 +76,18 @@ export function replaceFunction(
 ): readonly Edit[] {
   if (!document.functions[functionId]) return [];
   const body = Object.keys(document.steps).filter((id) => document.steps[id]?.place?.[0] === functionId);
-  return [...deleteSteps(document, body), ...importFunction(cut, source, makeId, functionId).edits];
+  return [...deleteSteps(document, body), ...importFunction(document, cut, source, makeId, functionId).edits];
 }
 
+const NAMING: readonly string[] = ["function", "role", "zone"];
+
 function renameStep(step: Step, renamed: (id: string) => string): Step {
-  const called = step.params.function;
+  const params = JSON.stringify(step.params, (key, value: unknown) =>
+    NAMING.includes(key) && typeof value === "string" ? renamed(value) : value,
+  );
   return {
     ...step,
     place: step.place ? [renamed(step.place[0]), step.place[1], step.place[2]] : null,
-    params: typeof called === "string" ? { ...step.params, function: renamed(called) } : step.params,
+    params: JSON.parse(params) as Step["params"],
   };
 }

@@ -6,6 +6,7 @@ import { Avatar } from "@/design/Avatar";
 import { Chip, type Tone } from "@/design/Chip";
 import { unitSign } from "@/i18n/units";
 import { nameOf } from "../people";
+import { FitLine } from "./Fit";
 import { FunctionPicture } from "./FunctionPicture";
 import { VisibilitySign } from "./Sharing";
 import styles from "./library.module.css";
@@ -21,7 +22,7 @@ const TONES: Readonly<Record<string, Tone>> = {
 
 export function ParameterType({ parameter }: { parameter: LibraryFunction["parameters"][number] }) {
   const { t } = useTranslation();
-  const known = t(`pages.library.type.${parameter.type}`, { defaultValue: parameter.type });
+  const known = t(`library.type.${parameter.type}`, { defaultValue: parameter.type });
   return (
     <Chip tone={TONES[parameter.type] ?? "quiet"}>
       {parameter.unit ? `${known}, ${unitSign(parameter.unit)}` : known}
@@ -42,7 +43,7 @@ export function FunctionCard({ slug, item, chosen }: { slug: string; item: Libra
           <Link to={`/sites/${slug}/library/${item.id}`} className={styles.name} aria-current={chosen || undefined}>
             {item.name}
           </Link>
-          <Chip mono>{t("pages.library.version", { version: item.version })}</Chip>
+          <Chip mono>{t("library.version", { version: item.version })}</Chip>
           <VisibilitySign item={item} />
         </div>
         <div className={styles.parameters}>
@@ -54,12 +55,13 @@ export function FunctionCard({ slug, item, chosen }: { slug: string; item: Libra
           ))}
         </div>
         <p>{item.description}</p>
+        <FitLine item={item} />
         <div className={styles.cardFoot}>
           <Avatar name={author || "VIPO"} size={20} />
           <span>{item.site === slug ? author : [author, item.site].filter(Boolean).join(", ")}</span>
           <span className={styles.used}>
             <Workflow size={14} aria-hidden="true" />
-            {t("pages.library.programs", { count: item.used_in })}
+            {t("library.programs", { count: item.used_in })}
           </span>
         </div>
       </div>

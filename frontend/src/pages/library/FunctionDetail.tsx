@@ -1,25 +1,32 @@
 /** One function: what it takes, what it does, and how to use it. */
-import { Button, Menu } from "@mantine/core";
-import { Download, SquareFunction, X } from "lucide-react";
+import { Button, Menu, Tabs } from "@mantine/core";
+import { Copy, Download, GitFork, SquareFunction, X } from "lucide-react";
 import { useTranslation } from "react-i18next";
-import { Link } from "react-router-dom";
+import { useState } from "react";
+import { Link, useSearchParams } from "react-router-dom";
 import { useLibraryFunction, usePrograms } from "@/api/queries";
 import type { LibraryFunction } from "@/api/types";
+import { valueWords } from "@/program/words/libraryWords";
 import { LoadProblem } from "@/shell/LoadProblem";
+import { Chip } from "@/design/Chip";
 import { Panel } from "@/design/Panel";
-import { formatAgo } from "@/i18n/format";
+import { formatAgo, formatNumber } from "@/i18n/format";
 import { SourceView } from "../devices/description/SourceView";
 import pages from "../pages.module.css";
 import { nameOf } from "../people";
 import { useNow } from "@/design/useNow";
+import { CopyToSite } from "./CopyToSite";
+import { FitSection } from "./Fit";
 import { FunctionPicture } from "./FunctionPicture";
 import { ParameterType } from "./FunctionCard";
 import { Sharing } from "./Sharing";
+import { Uses } from "./Uses";
+import { Versions } from "./Versions";
 import styles from "./library.module.css";
 
 function Parameters({ item }: { item: LibraryFunction }) {
   const { t } = useTranslation();
-  if (item.parameters.length === 0) return <p className={pages.sub}>{t("pages.library.noParameters")}</p>;
+  if (item.parameters.length === 0) return <p className={pages.sub}>{t("library.noParameters")}</p>;
   return (
     <Panel className={pages.scroll}>
       <table className={pages.table}>
@@ -27,7 +34,7 @@ function Parameters({ item }: { item: LibraryFunction }) {
           <tr>
             {["parameter", "type", "default"].map((column) => (
               <th key={column} scope="col">
-                {t(`pages.library.column.${column}`)}
+                {t(`library.column.${column}`)}
               </th>
             ))}
           </tr>
@@ -41,7 +48,7 @@ function Parameters({ item }: { item: LibraryFunction }) {
               <td>
                 <ParameterType parameter={parameter} />
               </td>
-              <td>{parameter.default == null ? t("pages.library.asks") : JSON.stringify(parameter.default)}</td>
+              <td>{parameter.default == null ? t("library.asks") : valueWords(JSON.stringify(parameter.default))}</td>
             </tr>
           ))}
         </tbody>
@@ -53,17 +60,21 @@ function Parameters({ item }: { item: LibraryFunction }) {
 function UseInProgram({ slug, item }: { slug: string; item: LibraryFunction }) {
   const { t } = useTranslation();
   const programs = usePrograms(slug).data ?? [];
+  const [copying, setCopying] = useState(false);
   return (
     <footer className={styles.foot}>
-      <span>{t("pages.library.usedIn", { count: item.used_in })}</span>
+      <Button variant="default" leftSection={<Copy size={16} />} onClick={() => setCopying(true)}>
+        {t("library.copy.action")}
+      </Button>
+      {copying ? <CopyToSite slug={slug} item={item} onClose={() => setCopying(false)} /> : null}
       <Menu position="top-end" width={240}>
         <Menu.Target>
           <Button leftSection={<Download size={16} />} disabled={programs.length === 0}>
-            {t("pages.library.use")}
+            {t("library.use")}
           </Button>
         </Menu.Target>
         <Menu.Dropdown>
-          <Menu.Label>{t("pages.library.chooseProgram")}</Menu.Label>
+          <Menu.Label>{t("library.chooseProgram")}</Menu.Label>
           {programs.map((program) => (
             <Menu.Item key={program.id} component={Link} to={`/programs/${program.id}?import=${item.id}`}>
               {program.name}
@@ -75,23 +86,43 @@ function UseInProgram({ slug, item }: { slug: string; item: LibraryFunction }) {
   );
 }
 
-function Body({ item }: { item: LibraryFunction }) {
+function Origin({ slug, item }: { slug: string; item: LibraryFunction }) {
+  const { t } = useTranslation();
+  const { origin } = item;
+  if (!origin) return null;
+  const behind = origin.newest - origin.version;
+  return (
+    <p className={styles.origin}>
+      <GitFork size={15} aria-hidden="true" />
+      <Link to={`/sites/${slug}/library/${origin.id}?from=${origin.version}`}>
+        {t(origin.site === item.site ? "library.madeFrom" : "library.madeFromSite", { ...origin })}
+      </Link>
+      <Chip tone={behind > 0 ? "warn" : "quiet"}>
+        {behind > 0 ? t("library.behind", { count: behind }) : t("library.upToDate")}
+      </Chip>
+    </p>
+  );
+}
+
+function Body({ slug, item }: { slug: string; item: LibraryFunction }) {
   const { t } = useTranslation();
   return (
     <div className={styles.body}>
       {item.description ? <p>{item.description}</p> : null}
+      <Origin slug={slug} item={item} />
       <Panel className={styles.bigPicture}>
         <FunctionPicture item={item} />
       </Panel>
       <Parameters item={item} />
+      <FitSection item={item} />
       <Sharing item={item} />
       {item.script ? (
         <section aria-labelledby="script">
           <h3 id="script" className={styles.section}>
-            {t("pages.library.script")}
+            {t("library.script")}
           </h3>
           <Panel className={styles.script}>
-            <SourceView text={item.script} dialect="script" label={t("pages.library.script")} />
+            <SourceView text={item.script} dialect="script" label={t("library.script")} />
           </Panel>
         </section>
       ) : null}
@@ -102,7 +133,8 @@ function Body({ item }: { item: LibraryFunction }) {
 export function FunctionDetail({ slug, item }: { slug: string; item: LibraryFunction }) {
   const { t } = useTranslation();
   const now = useNow();
-  const full = useLibraryFunction(item.id);
+  const full = useLibraryFunction(item.id, slug);
+  const [asked] = useSearchParams();
   const shown = full.data ?? item;
   return (
     <aside className={styles.detail} aria-label={item.name}>
@@ -114,10 +146,10 @@ export function FunctionDetail({ slug, item }: { slug: string; item: LibraryFunc
           <h2>{shown.name}</h2>
           <p>
             {[
-              t("pages.library.version", { version: shown.version }),
+              t("library.version", { version: shown.version }),
               nameOf(shown.author),
               shown.site === slug ? "" : shown.site,
-              t("pages.library.updated", { ago: formatAgo(shown.updated_at, now) }),
+              t("library.updated", { ago: formatAgo(shown.updated_at, now) }),
             ]
               .filter(Boolean)
               .join(", ")}
@@ -128,7 +160,26 @@ export function FunctionDetail({ slug, item }: { slug: string; item: LibraryFunc
         </Link>
       </header>
       {full.isLoadingError ? <LoadProblem error={full.error} again={() => void full.refetch()} /> : null}
-      <Body item={shown} />
+      <Tabs defaultValue={asked.has("from") ? "versions" : "about"} className={styles.tabs} keepMounted={false}>
+        <Tabs.List>
+          <Tabs.Tab value="about">{t("library.tabs.about")}</Tabs.Tab>
+          <Tabs.Tab value="versions" rightSection={<Chip>{formatNumber(shown.version)}</Chip>}>
+            {t("library.tabs.versions")}
+          </Tabs.Tab>
+          <Tabs.Tab value="uses" rightSection={<Chip>{formatNumber(shown.used_in)}</Chip>}>
+            {t("library.tabs.uses")}
+          </Tabs.Tab>
+        </Tabs.List>
+        <Tabs.Panel value="about">
+          <Body slug={slug} item={shown} />
+        </Tabs.Panel>
+        <Tabs.Panel value="versions">
+          <Versions item={shown} />
+        </Tabs.Panel>
+        <Tabs.Panel value="uses">
+          <Uses slug={slug} item={shown} />
+        </Tabs.Panel>
+      </Tabs>
       <UseInProgram slug={slug} item={shown} />
     </aside>
   );

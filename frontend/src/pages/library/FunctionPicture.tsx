@@ -31,7 +31,7 @@ export function FunctionPicture({ item }: { item: LibraryFunction }) {
   return (
     <div className={styles.noMap}>
       <Globe size={20} aria-hidden="true" />
-      <span>{t("pages.library.noMap")}</span>
+      <span>{t("library.noMap")}</span>
     </div>
   );
 }

@@ -1,5 +1,5 @@
 /** Functions that people made from steps, to be used again in other programs. */
-import { Button, TextInput } from "@mantine/core";
+import { Button, Checkbox, TextInput } from "@mantine/core";
 import { useDebouncedValue } from "@mantine/hooks";
 import { Search, SquareFunction } from "lucide-react";
 import { useState } from "react";
@@ -22,11 +22,7 @@ function EmptyLibrary({ slug }: { slug: string }) {
   const { t } = useTranslation();
   return (
     <Panel>
-      <EmptyState
-        icon={<SquareFunction size={20} />}
-        title={t("pages.library.none")}
-        text={t("pages.library.noneText")}
-      >
+      <EmptyState icon={<SquareFunction size={20} />} title={t("library.none")} text={t("library.noneText")}>
         <Button component={Link} to={`/sites/${slug}/programs`}>
           {t("pages.runs.toPrograms")}
         </Button>
@@ -40,28 +36,42 @@ export function LibraryPage() {
   const { slug = "", id } = useParams();
   const [typed, setTyped] = useState("");
   const [query] = useDebouncedValue(typed.trim(), 200);
-  const found = useLibrary(query);
-  const items = found.data ?? [];
-  const chosen = items.find((item) => item.id === id);
+  const [fitting, setFitting] = useState(false);
+  const found = useLibrary(query, slug);
+  const items = (found.data ?? []).filter((item) => !fitting || item.lacks?.length === 0);
+  const narrowed = query !== "" || fitting;
+  const clear = () => {
+    setTyped("");
+    setFitting(false);
+  };
+  const chosen = found.data?.find((item) => item.id === id);
   return (
     <PageShell
       title={t("shell.nav.library")}
-      chips={found.data ? <Chip>{t("pages.library.functions", { count: items.length })}</Chip> : null}
+      chips={found.data ? <Chip>{t("library.functions", { count: items.length })}</Chip> : null}
       detail={chosen ? <FunctionDetail key={chosen.id} slug={slug} item={chosen} /> : null}
     >
       <div className={pages.stack}>
-        <TextInput
-          className={pages.search}
-          leftSection={<Search size={16} aria-hidden="true" />}
-          aria-label={t("pages.library.search")}
-          placeholder={t("pages.library.search")}
-          value={typed}
-          onChange={(event) => setTyped(event.target.value)}
-        />
+        <div className={styles.filters}>
+          <TextInput
+            className={pages.search}
+            leftSection={<Search size={16} aria-hidden="true" />}
+            aria-label={t("library.search")}
+            placeholder={t("library.search")}
+            value={typed}
+            onChange={(event) => setTyped(event.target.value)}
+          />
+          <Checkbox
+            label={t("library.fitsOnly")}
+            title={t("library.fitsOnlyHelp")}
+            checked={fitting}
+            onChange={(event) => setFitting(event.currentTarget.checked)}
+          />
+        </div>
         {found.isPending ? <TableSkeleton /> : null}
         {found.isLoadingError ? <LoadProblem error={found.error} again={() => void found.refetch()} /> : null}
-        {found.data && items.length === 0 && query ? <NothingFound clear={() => setTyped("")} /> : null}
-        {found.data && items.length === 0 && !query ? <EmptyLibrary slug={slug} /> : null}
+        {found.data && items.length === 0 && narrowed ? <NothingFound clear={clear} /> : null}
+        {found.data && items.length === 0 && !narrowed ? <EmptyLibrary slug={slug} /> : null}
         <ul className={styles.cards}>
           {items.map((item) => (
             <FunctionCard key={item.id} slug={slug} item={item} chosen={item.id === id} />

@@ -14,7 +14,7 @@ const SIGNS: Readonly<Record<Visibility, LucideIcon>> = { me: Lock, site: Users,
 export function VisibilitySign({ item }: { item: LibraryFunction }) {
   const { t } = useTranslation();
   const Sign = SIGNS[item.visibility];
-  const words = t(`pages.library.visibility.${item.visibility}`);
+  const words = t(`library.visibility.${item.visibility}`);
   return (
     <span className={styles.sharing} title={words}>
       <Sign size={14} role="img" aria-label={words} />
@@ -27,16 +27,16 @@ export function Sharing({ item }: { item: LibraryFunction }) {
   const queries = useQueryClient();
   const change = useMutation({
     mutationFn: (visibility: Visibility) => api.patch<LibraryFunction>(`/library/${item.id}`, { visibility }),
-    onSuccess: (changed) => {
-      queries.setQueryData(keys.libraryFunction(item.id), changed);
-      return queries.invalidateQueries({ queryKey: ["library"] });
+    onSuccess: async () => {
+      await queries.invalidateQueries({ queryKey: keys.libraryFunction(item.id) });
+      await queries.invalidateQueries({ queryKey: ["library"] });
     },
   });
-  const label = t("pages.library.visibleTo");
+  const label = t("library.visibleTo");
   if (!item.mine)
     return (
       <p className={styles.told}>
-        {label}: {t(`pages.library.visibility.${item.visibility}`)}
+        {label}: {t(`library.visibility.${item.visibility}`)}
       </p>
     );
   return (
@@ -45,7 +45,7 @@ export function Sharing({ item }: { item: LibraryFunction }) {
       disabled={change.isPending}
       error={change.error?.message}
       value={item.visibility}
-      data={VISIBILITIES.map((value) => ({ value, label: t(`pages.library.visibility.${value}`) }))}
+      data={VISIBILITIES.map((value) => ({ value, label: t(`library.visibility.${value}`) }))}
       onChange={(event) => change.mutate(event.currentTarget.value as Visibility)}
     />
   );

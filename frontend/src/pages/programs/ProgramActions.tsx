@@ -2,7 +2,7 @@
 import { Button, Menu, Modal, TextInput } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { Ellipsis, Pencil, Trash2 } from "lucide-react";
+import { Ellipsis, Pencil, Send, Trash2 } from "lucide-react";
 import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { problemText } from "@/shell/LoadProblem";
@@ -11,6 +11,7 @@ import { keys } from "@/api/queries";
 import type { Program } from "@/api/types";
 import { IconButton } from "@/design/IconButton";
 import styles from "../pages.module.css";
+import { PromoteProgram } from "./PromoteProgram";
 
 interface DialogProps {
   program: Program;
@@ -91,11 +92,11 @@ function DeleteProgram({ program, onClose }: DialogProps) {
 
 export function ProgramActions({ program }: { program: Program }) {
   const { t } = useTranslation();
-  const [asks, setAsks] = useState<"rename" | "delete" | null>(null);
+  const [asks, setAsks] = useState<"rename" | "promote" | "delete" | null>(null);
   const close = () => setAsks(null);
   return (
     <>
-      <Menu position="bottom-end" width={180}>
+      <Menu position="bottom-end" width={210}>
         <Menu.Target>
           <IconButton label={t("pages.programs.actions", { name: program.name })}>
             <Ellipsis size={17} aria-hidden="true" />
@@ -105,12 +106,16 @@ export function ProgramActions({ program }: { program: Program }) {
           <Menu.Item leftSection={<Pencil size={15} />} onClick={() => setAsks("rename")}>
             {t("pages.programs.rename")}
           </Menu.Item>
+          <Menu.Item leftSection={<Send size={15} />} onClick={() => setAsks("promote")}>
+            {t("promote.action")}
+          </Menu.Item>
           <Menu.Item leftSection={<Trash2 size={15} />} color="var(--error)" onClick={() => setAsks("delete")}>
             {t("pages.programs.delete")}
           </Menu.Item>
         </Menu.Dropdown>
       </Menu>
       {asks === "rename" ? <RenameProgram program={program} onClose={close} /> : null}
+      {asks === "promote" ? <PromoteProgram program={program} onClose={close} /> : null}
       {asks === "delete" ? <DeleteProgram program={program} onClose={close} /> : null}
     </>
   );

@@ -104,7 +104,7 @@ function useThingTargets(slug: string | undefined): readonly Target[] {
   const runs = useRuns(slug).data;
   const site = useSite(slug).data;
   const places = useSiteMap(site?.has_map ? slug : undefined).data?.places;
-  const functions = useLibrary("").data;
+  const functions = useLibrary("", slug).data;
   return useMemo(() => {
     const thing = (kind: TargetKind, icon: LucideIcon, to: string, name: string, also = ""): Target => {
       return { id: `${kind}:${to}`, kind, icon, name, also, run: () => void navigate(to) };

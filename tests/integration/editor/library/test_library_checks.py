@@ -8,6 +8,8 @@ import pytest
 
 from editor.documents.shared_document import empty_document
 from editor.language import compile_document
+from editor.language.signatures.signature import signature_of
+from editor.language.site.signature import Port, Signature, signature_to_json
 from editor.language.site.surroundings import LibraryFacts
 from editor.models import LibraryFunction, LibraryUse, LibraryVersion
 from editor.programs.checking import DeviceWatch, build_surroundings, fingerprint_of
@@ -27,7 +29,10 @@ def function() -> LibraryFunction:
 def add_version(function: LibraryFunction, number: int, *parameters: str) -> None:
     given = [{"name": name, "type": "number", "unit": ""} for name in parameters]
     definition = {"id": "f", "function": {"name": "rest", "parameters": given}, "functions": {}, "steps": {}}
-    LibraryVersion.objects.create(function=function, number=number, definition=definition, script="")
+    signature = signature_to_json(signature_of(definition, {}))
+    LibraryVersion.objects.create(
+        function=function, number=number, definition=definition, script="", signature=signature
+    )
 
 
 def document(function: LibraryFunction, version: int) -> dict[str, Any]:
@@ -51,7 +56,7 @@ def test_the_checks_know_each_version_with_its_parameters(function: LibraryFunct
     add_version(function, 1)
     add_version(function, 2, "minutes")
     assert build_surroundings(site="hall").library == {
-        str(function.pk): LibraryFacts("rest", {1: (), 2: (("minutes", "number"),)})
+        str(function.pk): LibraryFacts("rest", {1: Signature(), 2: Signature((Port("minutes", "number"),))})
     }
 
 

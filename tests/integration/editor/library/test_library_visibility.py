@@ -133,10 +133,10 @@ def test_a_list_costs_the_same_however_many_functions_there_are(
     for number in range(3):
         said = editor.Said(f"F{number}", visibility="everyone")
         editor.save_function(site=hall, program_id=program, function="f", said=said, user=author)
-    with django_assert_num_queries(6):
+    with django_assert_num_queries(7):
         editor.search_library(user=author)
     editor.save_function(site=hall, program_id=program, function="f", said=editor.Said("F9"), user=author)
-    with django_assert_num_queries(6):
+    with django_assert_num_queries(7):
         assert len(editor.search_library(user=author)) == 4
 
 
@@ -155,7 +155,12 @@ def test_programs_are_told_of_newer_versions_of_what_their_site_sees(program: st
 def test_functions_from_before_keep_their_site_and_are_their_first_savers(program: str) -> None:
     save("author", program)
     LibraryVersion.objects.create(
-        function=LibraryFunction.objects.get(), number=2, author=find_person("admin"), definition={}, script=""
+        function=LibraryFunction.objects.get(),
+        number=2,
+        author=find_person("admin"),
+        definition={},
+        script="",
+        signature={"parameters": []},
     )
     LibraryFunction.objects.update(author=None)
     import_module("editor.migrations.0009_library_visibility").name_authors(apps, None)

@@ -1,6 +1,7 @@
 /** A function of the program: its name, what it takes, what it gives back. */
 import { Button } from "@mantine/core";
 import { Library } from "lucide-react";
+import { Link } from "react-router-dom";
 import { changeParameter } from "../../edits/names";
 import type { FunctionDefinition } from "@/program/document/document";
 import { useOpenProgram } from "../../state/context";
@@ -11,7 +12,7 @@ import { NamedField } from "../fields/NamedField";
 import { ParameterCard, TypeFields } from "../fields/ParameterCard";
 
 export function FunctionForm({ functionId, definition }: { functionId: string; definition: FunctionDefinition }) {
-  const { t, apply, document, canEdit } = useOpenProgram();
+  const { t, apply, document, canEdit, site } = useOpenProgram();
   const disabled = !canEdit;
   const store = (change: Partial<FunctionDefinition>) =>
     apply([{ do: "set_function", id: functionId, value: { ...definition, ...change } }]);
@@ -25,7 +26,14 @@ export function FunctionForm({ functionId, definition }: { functionId: string; d
         onChange={(name) => store({ name })}
       />
       {definition.source ? (
-        <p className={classes.now}>{t("call.from_library", { version: definition.source.version })}</p>
+        <p className={classes.now}>
+          <Link
+            to={`/sites/${site.slug}/library/${definition.source.library}?from=${definition.source.version}`}
+            className={classes.link}
+          >
+            {t("call.from_library", { version: definition.source.version })}
+          </Link>
+        </p>
       ) : null}
       <div className={classes.field}>
         <span className={classes.legend}>{t("call.parameters")}</span>

@@ -1,0 +1,1 @@
+"""What programs and functions need of devices, whether another version fits, and who can stand in. Pure."""

@@ -1,0 +1,174 @@
+"""Programs promoted to another site: bound by what devices describe, holes where nobody fits, the origin kept."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from editor import services as editor
+from registry import services as registry
+from registry.models import Device, Site
+from tests.kit.programs import document, operate, step
+from tests.kit.sign_in import ROLES, add_person, post_json, signed_in
+from tests.kit.sites import MIXER, ROBOT, describe, make_hall
+from vipo_device.protocol.description import MethodSpec, Pose
+
+pytestmark = pytest.mark.django_db
+
+
+def make_device(site: str, like: Any, name: str, *methods: str, **more: Any) -> None:
+    """Make an approved device of a site."""
+    described = [MethodSpec(method, f"vipo/v1/dev/{name}/down/{method}") for method in methods]
+    describe(replace(like, id=name, name=more.pop("called", name), methods=tuple(described), **more))
+    Device.objects.filter(pk=name).update(lifecycle="approved", site=Site.objects.get(slug=site))
+
+
+@pytest.fixture
+def hall(db: None) -> str:
+    """Hall has a mixer, an oven and a robot; Shed mixers of other names, a robot, no oven; `both` draws at both."""
+    slug = make_hall()
+    registry.create_site(name="Shed", slug="shed")
+    add_person("both")
+    for site in ("hall", "shed"):
+        registry.set_member(site=site, email="both@vipo.example", role="author")
+    make_device("hall", MIXER, "mixer1", "mix", called="Mixer", pose=Pose(1.0, 1.0))
+    make_device("hall", MIXER, "oven1", "cure", called="Oven")
+    make_device("hall", ROBOT, "robot1", "move", "pick", "drop")
+    make_device("shed", MIXER, "stirrer7", "mix", "stir", called="Mixer", pose=Pose(4.0, 3.0))
+    make_device("shed", MIXER, "stirrer8", "mix", called="Other", properties=())
+    make_device("shed", ROBOT, "robot7", "move", "pick", "drop")
+    return slug
+
+
+def drawing() -> dict[str, Any]:
+    until = {"op": "<", "args": [{"property": ["oven1", "jobStatus"]}, 40]}
+    steps = {
+        "go": {**step("move", order="1V", role="carrier", to={"device": "mixer1"}), "pos": [1.5, 1.0]},
+        "mix": operate("mixer1", "mix"),
+        "cure": operate("oven1", "cure"),
+        "wait": step("wait", order="4V", until=until),
+        "aside": step("move", order="5V", role="robot", to={"point": [1, 1]}, route=[[1, 2]]),
+        "home": step("move", order="6V", role="robot", to={"place": "yard"}),
+    }
+    roles = {"carrier": {"name": "Carrier", "device": "robot1"}}
+    zone = {"name": "Wet", "rule": "slow", "points": [[0, 0], [1, 0], [1, 1]], "speed_m_s": 0.2}
+    return document(steps, roles=roles, zones={"z": zone})
+
+
+def make_program() -> str:
+    return str(editor.create_program(site="hall", name="Order", document=drawing()).id)
+
+
+def promote(program: str, person: str = "both", **more: Any) -> Any:
+    return post_json(signed_in(person), f"/api/programs/{program}/promotion", {"site": "shed", "name": "Order", **more})
+
+
+def test_who_stands_for_whom_is_proposed_by_what_devices_describe(hall: str) -> None:
+    answer = post_json(signed_in("both"), f"/api/programs/{make_program()}/promotion/look", {"site": "shed"})
+    assert answer.status_code == 200
+    look = answer.json()
+    assert {each["name"]: each["proposed"] for each in look["bindings"]} == {
+        "robot1": "robot7",
+        "Mixer": "stirrer7",
+        "Oven": None,
+        "yard": None,
+    }
+    oven = next(each for each in look["bindings"] if each["name"] == "Oven")
+    assert (oven["need"]["methods"], oven["need"]["readings"]) == (["cure"], ["jobStatus"])
+    assert {each["id"] for each in oven["candidates"]} == {"stirrer7", "stirrer8"}
+    assert not any(each["fits"] for each in oven["candidates"])
+    assert (look["points"], look["zones"]) == (1, 1)
+    assert len(editor.list_programs(site="shed")) == 0
+
+
+def test_a_program_is_made_there_bound_and_what_has_no_match_is_a_marked_hole(hall: str) -> None:
+    program = make_program()
+    answer = promote(program)
+    assert answer.status_code == 201
+    made = answer.json()
+    assert (made["site"], made["name"]) == ("shed", "Order")
+    drawn = editor.get_document(program_id=made["id"])
+    params = {name: each["params"] for name, each in drawn["steps"].items()}
+    assert drawn["roles"] == {"carrier": {"name": "Carrier", "device": "robot7"}}
+    assert params["go"] == {"role": "carrier", "to": {"device": "stirrer7"}}
+    assert params["mix"]["device"] == {"device": "stirrer7"}
+    assert "device" not in params["cure"]
+    assert "until" not in params["wait"]
+    assert params["aside"] == {"role": "robot"}
+    assert params["home"] == {"role": "robot"}
+    assert drawn["zones"] == {}
+    assert drawn["steps"]["go"]["pos"] == [4.5, 3.0]
+    marked = {each["step"] for each in editor.get_compiled(program_id=made["id"])["diagnostics"]}
+    assert {"cure", "wait", "aside", "home"} <= marked
+    told = [each["code"] for each in editor.get_compiled(program_id=made["id"])["diagnostics"] if each["step"] == "mix"]
+    assert told == ["offline_device"]
+
+
+def test_the_origin_is_kept_and_shown_to_who_sees_its_site(hall: str) -> None:
+    program = make_program()
+    made = promote(program).json()["id"]
+    origin = signed_in("both").get(f"/api/programs/{made}/origin").json()["origin"]
+    assert origin == {"id": program, "name": "Order", "site": "hall", "version": 1, "newest": 1}
+    add_person("local")
+    registry.set_member(site="shed", email="local@vipo.example", role="viewer")
+    assert signed_in("local").get(f"/api/programs/{made}/origin").json() == {"origin": None}
+    assert signed_in("both").get(f"/api/programs/{program}/origin").json() == {"origin": None}
+    assert signed_in("viewer").get(f"/api/programs/{made}/origin").status_code == 404
+    editor.delete_program(program_id=program)
+    assert signed_in("both").get(f"/api/programs/{made}/origin").json() == {"origin": None}
+
+
+def test_what_was_chosen_holds_and_null_leaves_a_hole(hall: str) -> None:
+    made = promote(make_program(), chosen={"mixer1": "stirrer8", "robot1": None, "oven1": "stirrer7"}).json()
+    drawn = editor.get_document(program_id=made["id"])
+    assert drawn["steps"]["mix"]["params"]["device"] == {"device": "stirrer8"}
+    assert drawn["steps"]["cure"]["params"]["device"] == {"device": "stirrer7"}
+    assert drawn["roles"]["carrier"] == {"name": "Carrier", "can": ["move"]}
+
+
+@pytest.mark.parametrize(
+    ("body", "status"),
+    [
+        ({"chosen": {"mixer1": "robot7"}}, 422),
+        ({"chosen": {"mixer1": "mixer1"}}, 422),
+        ({"chosen": {"nobody": "stirrer7"}}, 422),
+        ({"chosen": {"mixer1": 7}}, 422),
+        ({"chosen": ["mixer1"]}, 422),
+        ({"name": ""}, 422),
+        ({"name": "x" * 500}, 422),
+        ({"site": "hall"}, 422),
+        ({"site": "nowhere"}, 404),
+        ({"site": None}, 422),
+        ({"chosen": {str(n): None for n in range(2001)}}, 422),
+    ],
+)
+def test_what_cannot_be_is_refused_and_nothing_is_made(hall: str, body: dict[str, Any], status: int) -> None:
+    answer = promote(make_program(), **body)
+    assert answer.status_code == status, answer.content
+    assert answer.headers["Content-Type"].startswith("application/problem+json")
+    assert len(editor.list_programs(site="shed")) == 0
+    assert len(editor.list_programs(site="hall")) == 1
+
+
+def test_it_takes_an_author_at_both_sites(hall: str) -> None:
+    program = make_program()
+    for person in (*ROLES, "stranger"):
+        expected = {"viewer": 403, "commenter": 403, "operator": 403, "author": 404, "admin": 404, "stranger": 404}
+        assert promote(program, person).status_code == expected[person], person
+    registry.set_member(site="shed", email="both@vipo.example", role="operator")
+    assert promote(program).status_code == 403
+    assert len(editor.list_programs(site="shed")) == 0
+
+
+def test_odd_documents_are_promoted_without_a_fault(hall: str) -> None:
+    values: list[Any] = [None, 7, "x", [], {}, {"device": 7}, {"device": ""}, {"property": ["a"]}, {"op": "x"}]
+    steps = {
+        f"s{number}": {"kind": "operate", "place": ["program", "body", f"{number}V"], "params": {"device": value}}
+        for number, value in enumerate(values)
+    }
+    drawn = {**drawing(), "steps": steps, "roles": {"r": {"device": "gone"}, "q": {}}}
+    program = str(editor.create_program(site="hall", name="Odd", document=drawn).id)
+    assert promote(program).status_code == 201, json.dumps(drawn)
