@@ -25,6 +25,7 @@ NAMES = (
     "versions",
     "runs",
     "canvas",
+    "scan",
 )
 
 

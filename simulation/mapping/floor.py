@@ -62,35 +62,27 @@ class TrueFloor:
         cell's edge to the next one's near to walls (Amanatides and Woo, 1987).
         """
         column, row = self._cells(x_m, y_m)
-        far = range_m / self.grid.resolution_m
-        ahead = np.cos(angles_rad), np.sin(angles_rad)
-        gone = np.zeros_like(angles_rad)
-        ends = np.full_like(angles_rad, np.inf)
+        far, width = range_m / self.grid.resolution_m, self.solid.shape[1]
+        beams = np.stack((np.cos(angles_rad), np.sin(angles_rad)))
+        slow = 1.0 / np.maximum(np.abs(beams), 1e-12)
+        gone, ends = np.zeros_like(angles_rad), np.full_like(angles_rad, np.inf)
         under_way = np.arange(angles_rad.size)
-        along, up = ahead
+        begin = np.array(((column,), (row,)))
         while under_way.size:
-            at_column, at_row = column + gone * along, row + gone * up
-            cell = at_row.astype(np.int64) * self.solid.shape[1] + at_column.astype(np.int64)
+            at = begin + gone * beams
+            corner = np.floor(at)
+            cell = corner[1].astype(np.int64) * width + corner[0].astype(np.int64)
             hit = self._flat[cell]
             ends[under_way[hit]] = gone[hit]
-            goes_on = ~hit
+            inside = at - corner
+            edge = (np.where(beams > 0, 1.0 - inside, inside) * slow).min(axis=0) + _BEYOND_EDGE
             leap = self._leap[cell]
-            step = np.where(leap > 1.0, leap, _to_edge(at_column, along, at_row, up))
-            gone = gone + step
-            goes_on &= gone <= far
-            under_way, gone, along, up = under_way[goes_on], gone[goes_on], along[goes_on], up[goes_on]
+            gone = gone + np.maximum(edge, leap)
+            goes_on = np.flatnonzero(~hit & (gone <= far))
+            if goes_on.size < under_way.size:
+                under_way, gone = under_way[goes_on], gone[goes_on]
+                beams, slow = beams[:, goes_on], slow[:, goes_on]
         return ends * self.grid.resolution_m
-
-
-def _to_edge(at_column: Floats, along: Floats, at_row: Floats, up: Floats) -> Floats:
-    """Return how far it is, in cells along each beam, into the next cell."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        right = np.where(along > 0, np.floor(at_column) + 1 - at_column, at_column - np.floor(at_column))
-        above = np.where(up > 0, np.floor(at_row) + 1 - at_row, at_row - np.floor(at_row))
-        across = np.where(along == 0, np.inf, right / np.abs(along))
-        upward = np.where(up == 0, np.inf, above / np.abs(up))
-    nearest: Floats = np.minimum(across, upward) + _BEYOND_EDGE
-    return nearest
 
 
 @dataclass(frozen=True, slots=True)

@@ -43,7 +43,7 @@ def read_scan(ranges: Floats, range_m: float, side_m: float) -> Sight:
     bearings = np.linspace(-np.pi, np.pi, ranges.size, endpoint=False)
     directions = np.stack((np.cos(bearings), np.sin(bearings)), axis=1)
     seen = np.isfinite(ranges)
-    points = np.where(seen[:, None], ranges[:, None] * directions, np.nan)
+    points = np.where(seen, ranges, np.nan)[:, None] * directions
     along = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
     length = np.hypot(along[:, 0], along[:, 1])
     step = 4 * np.pi / ranges.size
@@ -79,7 +79,7 @@ class OccupancyMap:
         self.odds = np.zeros((0, 0), dtype=np.float32)
         self.field = np.zeros((0, 0), dtype=np.uint8)
         """For scan matching: 2 where beams ended, 1 beside that."""
-        self.sums = np.zeros((6, 0, 0), dtype=np.float64)
+        self.sums = np.zeros((0, 0, 6), dtype=np.float64)
         """Of the ends in each cell, from its middle: how many, x, y, xx, xy, yy."""
 
     def cells_of(self, points: Floats) -> tuple[Indices, Indices]:
@@ -111,7 +111,7 @@ class OccupancyMap:
         pads = [(pad + spare if pad else 0) for pad in (below, above, left, right)]
         sides = ((pads[0], pads[1]), (pads[2], pads[3]))
         self.odds, self.field = np.pad(self.odds, sides), np.pad(self.field, sides)
-        self.sums = np.pad(self.sums, ((0, 0), *sides))
+        self.sums = np.pad(self.sums, (*sides, (0, 0)))
         self.first = (self.first[0] - pads[0], self.first[1] - pads[2])
 
     def add(self, sight: Sight, pose: Pose) -> None:
@@ -146,8 +146,7 @@ class OccupancyMap:
         off = ends - self.centre_of(rows, columns)
         x, y = off[:, 0], off[:, 1]
         cells = rows * self.odds.shape[1] + columns
-        for sums, values in zip(self.sums, (np.ones_like(x), x, y, x * x, x * y, y * y), strict=True):
-            np.add.at(sums.ravel(), cells, values)
+        np.add.at(self.sums.reshape(-1, 6), cells, np.stack((np.ones_like(x), x, y, x * x, x * y, y * y), axis=1))
         field, width = self.field.ravel(), self.odds.shape[1]
         for beside in (-width - 1, -width, -width + 1, -1, 1, width - 1, width, width + 1):
             field[cells + beside] = np.maximum(field[cells + beside], 1)

@@ -21,7 +21,7 @@ SEARCH_M = 0.12
 SEARCH_RAD = 0.26
 TURN_RAD = 0.0175
 MOST_POINTS = 180
-ROUNDS = 6
+ROUNDS, NEW_SURFACES = 6, 2
 LEAST_ENDS = 4
 FLAT = 0.15
 """A surface is flat where it is so much thinner than long (variances)."""
@@ -77,11 +77,14 @@ def fit(occupancy: OccupancyMap, sight: Sight, start: Pose, prior: Pose, trust: 
     """Return the pose near `start` at which ends of beams lie on the surfaces of the map."""
     pose = start
     hold = np.array((trust.way_m, trust.way_m, trust.turn_rad)) ** -2.0
-    for _ in range(ROUNDS):
-        ends = place(sight.ends, pose)
-        middles, normals, flat = surfaces(occupancy, place(sight.inner, pose))
+    thin = slice(None, None, max(1, len(sight.ends) // MOST_POINTS))
+    points, inner = sight.ends[thin], sight.inner[thin]
+    for turn in range(ROUNDS):
+        if turn < NEW_SURFACES:
+            middles, normals, flat = surfaces(occupancy, place(inner, pose))
         if np.count_nonzero(flat) < FEW_POINTS:
             return pose
+        ends = place(points, pose)
         off, normal = (ends - middles)[flat], normals[flat]
         arm = ends[flat] - (pose.x, pose.y)
         gap = np.sum(off * normal, axis=1)
@@ -117,18 +120,17 @@ def surfaces(occupancy: OccupancyMap, points: Floats) -> tuple[Floats, Floats, N
 
 def _around(occupancy: OccupancyMap, rows: Indices, columns: Indices) -> Floats:
     """Return the sums [6, n] of the ends in the nine cells around each, from the middle one's middle."""
-    total = np.zeros((6, len(rows)))
-    odds, sums, width = occupancy.odds.ravel(), occupancy.sums.reshape(6, -1), occupancy.odds.shape[1]
-    for up, right in _AROUND:
-        cells = (rows + up) * width + columns + right
-        count, x, y, xx, xy, yy = sums[:, cells] * (odds[cells] > 0)
-        off_x, off_y = right * occupancy.side_m, up * occupancy.side_m
-        total += (
-            count,
-            x + count * off_x,
-            y + count * off_y,
-            xx + 2 * off_x * x + count * off_x * off_x,
-            xy + off_x * y + off_y * x + count * off_x * off_y,
-            yy + 2 * off_y * y + count * off_y * off_y,
-        )
-    return total
+    odds, sums, width = occupancy.odds.ravel(), occupancy.sums.reshape(-1, 6), occupancy.odds.shape[1]
+    beside = np.array([up * width + right for up, right in _AROUND])
+    cells = rows * width + columns + beside[:, None]
+    count, x, y, xx, xy, yy = np.moveaxis(sums[cells] * (odds[cells] > 0)[:, :, None], 2, 0)
+    off_y, off_x = np.array(_AROUND).T[:, :, None] * occupancy.side_m
+    parts = (
+        count,
+        x + count * off_x,
+        y + count * off_y,
+        xx + 2 * off_x * x + count * off_x * off_x,
+        xy + off_x * y + off_y * x + count * off_x * off_y,
+        yy + 2 * off_y * y + count * off_y * off_y,
+    )
+    return np.stack([part.sum(axis=0) for part in parts])

@@ -88,6 +88,8 @@ class _Run:
                         watch(tick * TICK_S, maker)
                 speed, turn = maker.drive(ranges, SCAN_EVERY * TICK_S)
             tick += 1
+        maker.see(self._lidar.scan(self._pose))
+        self._note_error()
         return self._survey(tick * TICK_S)
 
     def _move(self, speed: float, turn: float) -> None:
