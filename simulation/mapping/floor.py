@@ -12,8 +12,10 @@ from registry.floorplan.plan import FREE, Grid, cells_array
 from vipo_device.protocol.description import Pose
 
 Floats = NDArray[np.float64]
-_BEYOND_EDGE = 1e-7
+_BEYOND_EDGE = 1e-6
 """Cells: how far a beam goes past the edge between two cells, to be in the next one."""
+_ALONG_AXIS = 1e-5
+"""A beam that is so little askew counts as along the axis: the longest range is off by a fiftieth of a cell."""
 _SURE_CELLS = 1.5
 """A beam may go as far as the nearest solid cell's middle is away, less the two halves of cells in between."""
 
@@ -64,6 +66,7 @@ class TrueFloor:
         column, row = self._cells(x_m, y_m)
         far, width = range_m / self.grid.resolution_m, self.solid.shape[1]
         beams = np.stack((np.cos(angles_rad), np.sin(angles_rad)))
+        beams[np.abs(beams) < _ALONG_AXIS] = 0.0
         slow = 1.0 / np.maximum(np.abs(beams), 1e-12)
         gone, ends = np.zeros_like(angles_rad), np.full_like(angles_rad, np.inf)
         under_way = np.arange(angles_rad.size)
@@ -75,7 +78,8 @@ class TrueFloor:
             hit = self._flat[cell]
             ends[under_way[hit]] = gone[hit]
             inside = at - corner
-            edge = (np.where(beams > 0, 1.0 - inside, inside) * slow).min(axis=0) + _BEYOND_EDGE
+            left = np.where(beams < 0, inside, 1.0 - inside)
+            edge = (left * slow).min(axis=0) + _BEYOND_EDGE
             leap = self._leap[cell]
             gone = gone + np.maximum(edge, leap)
             goes_on = np.flatnonzero(~hit & (gone <= far))
