@@ -105,7 +105,7 @@ class MapMaker:
 
     def see(self, ranges: Floats) -> None:
         """Find out where a scan was taken, and put it into the map; one range per beam from -pi on, in metres."""
-        sight = read_scan(ranges, self.robot.range_m, self.side_m)
+        sight = read_scan(ranges, self.robot.range_m)
         if self.matches:
             since, noise = self._since, max(self.robot.odometry_noise, 0.01)
             turn = 0.02 + noise * (since.spun_rad + since.way_m / self.robot.radius_m)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulation.actors.follower import wrapped
-from simulation.mapping.occupancy import Floats, Indices, OccupancyMap, Sight, place
+from simulation.mapping.occupancy import FACINGS, Floats, Indices, OccupancyMap, Sight, facing, place, turned
 from vipo_device.protocol.description import Pose
 
 SEARCH_M = 0.12
@@ -48,26 +48,28 @@ def match(occupancy: OccupancyMap, sight: Sight, prior: Pose, trust: Trust) -> P
 
 def search(occupancy: OccupancyMap, sight: Sight, prior: Pose, trust: Trust) -> Pose:
     """Return the turn and shift under which most ends of beams lie on walls, as fine as cells and a degree."""
-    reach = ceil(SEARCH_M / occupancy.side_m)
+    side_m = occupancy.field_m
+    reach = ceil(SEARCH_M / side_m)
     shifts = np.arange(-reach, reach + 1)
     turns = np.arange(-round(SEARCH_RAD / TURN_RAD), round(SEARCH_RAD / TURN_RAD) + 1) * TURN_RAD
-    points = sight.inner[:: max(1, len(sight.inner) // MOST_POINTS)]
+    thin = slice(None, None, max(1, len(sight.ends) // MOST_POINTS))
+    points = sight.ends[thin] + sight.inward[thin] * (side_m / 2)
     angles = prior.theta + turns
     turn_x, turn_y = np.cos(angles)[:, None], np.sin(angles)[:, None]
     x = prior.x + points[:, 0] * turn_x - points[:, 1] * turn_y
     y = prior.y + points[:, 0] * turn_y + points[:, 1] * turn_x
-    rows, columns = occupancy.cells_of(np.stack((x.ravel(), y.ravel()), axis=1))
+    rows, columns = occupancy.cells_of(np.stack((x.ravel(), y.ravel()), axis=1), side_m)
     width = occupancy.field.shape[1]
     cells = (rows * width + columns).reshape(len(turns), 1, len(points))
     offsets = (shifts[:, None] * width + shifts[None, :]).reshape(1, -1, 1)
     found = occupancy.field.ravel().take(cells + offsets, mode="clip").sum(axis=2, dtype=np.int64) / (2 * len(points))
-    away = occupancy.side_m**2 * (shifts[:, None] ** 2 + shifts[None, :] ** 2).reshape(1, -1) / trust.way_m**2
+    away = side_m**2 * (shifts[:, None] ** 2 + shifts[None, :] ** 2).reshape(1, -1) / trust.way_m**2
     score = found - 0.005 * (away + (turns[:, None] / trust.turn_rad) ** 2)
     turn, shift = np.unravel_index(int(np.argmax(score)), score.shape)
     up, right = divmod(int(shift), len(shifts))
     return Pose(
-        prior.x + float(shifts[right]) * occupancy.side_m,
-        prior.y + float(shifts[up]) * occupancy.side_m,
+        prior.x + float(shifts[right]) * side_m,
+        prior.y + float(shifts[up]) * side_m,
         0.0,
         wrapped(prior.theta + float(turns[turn])),
     )
@@ -78,10 +80,10 @@ def fit(occupancy: OccupancyMap, sight: Sight, start: Pose, prior: Pose, trust: 
     pose = start
     hold = np.array((trust.way_m, trust.way_m, trust.turn_rad)) ** -2.0
     thin = slice(None, None, max(1, len(sight.ends) // MOST_POINTS))
-    points, inner = sight.ends[thin], sight.inner[thin]
+    points, inward = sight.ends[thin], sight.inward[thin]
     for turn in range(ROUNDS):
         if turn < NEW_SURFACES:
-            middles, normals, flat = surfaces(occupancy, place(inner, pose))
+            middles, normals, flat = surfaces(occupancy, place(points, pose), turned(inward, pose))
         if np.count_nonzero(flat) < FEW_POINTS:
             return pose
         ends = place(points, pose)
@@ -99,32 +101,31 @@ def fit(occupancy: OccupancyMap, sight: Sight, start: Pose, prior: Pose, trust: 
     return pose
 
 
-def surfaces(occupancy: OccupancyMap, points: Floats) -> tuple[Floats, Floats, NDArray[np.bool_]]:
-    """Return, for points [n, 2], the middle and the normal of the surface around each, and whether it is a flat one."""
-    rows, columns = occupancy.cells_of(points)
-    height, width = occupancy.odds.shape
+def surfaces(occupancy: OccupancyMap, points: Floats, inward: Floats) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+    """Return, for points [n, 2], middle and normal of the surface around each that faces so, and whether it is flat."""
+    side_m = occupancy.surface_m
+    rows, columns = occupancy.cells_of(points, side_m)
+    height, width = occupancy.sums.shape[:2]
     rows, columns = np.clip(rows, 1, height - 2), np.clip(columns, 1, width - 2)
-    count, x, y, xx, xy, yy = _around(occupancy, rows, columns)
+    count, x, y, xx, xy, yy = _around(occupancy, rows, columns, facing(inward))
     enough = count >= LEAST_ENDS
     count = np.maximum(count, 1.0)
     x, y = x / count, y / count
     xx, xy, yy = xx / count - x * x, xy / count - x * y, yy / count - y * y
-    half, difference = (xx + yy) / 2, (xx - yy) / 2
-    root = np.hypot(difference, xy)
-    thin, long = half - root, half + root
+    half, root = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
     angle = np.arctan2(2 * xy, xx - yy) / 2 + np.pi / 2
     normals = np.stack((np.cos(angle), np.sin(angle)), axis=1)
-    middles = occupancy.centre_of(rows, columns) + np.stack((x, y), axis=1)
-    return middles, normals, enough & (thin < FLAT * long)
+    middles = occupancy.centre_of(rows, columns, side_m) + np.stack((x, y), axis=1)
+    return middles, normals, enough & (half - root < FLAT * (half + root))
 
 
-def _around(occupancy: OccupancyMap, rows: Indices, columns: Indices) -> Floats:
+def _around(occupancy: OccupancyMap, rows: Indices, columns: Indices, faces: Indices) -> Floats:
     """Return the sums [6, n] of the ends in the nine cells around each, from the middle one's middle."""
-    odds, sums, width = occupancy.odds.ravel(), occupancy.sums.reshape(-1, 6), occupancy.odds.shape[1]
+    sums, width = occupancy.sums.reshape(-1, 6), occupancy.sums.shape[1]
     beside = np.array([up * width + right for up, right in _AROUND])
-    cells = rows * width + columns + beside[:, None]
-    count, x, y, xx, xy, yy = np.moveaxis(sums[cells] * (odds[cells] > 0)[:, :, None], 2, 0)
-    off_y, off_x = np.array(_AROUND).T[:, :, None] * occupancy.side_m
+    cells = (rows * width + columns + beside[:, None]) * FACINGS + faces
+    count, x, y, xx, xy, yy = np.moveaxis(sums[cells], 2, 0)
+    off_y, off_x = np.array(_AROUND).T[:, :, None] * occupancy.surface_m
     parts = (
         count,
         x + count * off_x,

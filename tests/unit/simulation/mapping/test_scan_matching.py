@@ -24,7 +24,7 @@ def mapped(grid: Grid, places: list[Pose]) -> tuple[OccupancyMap, Lidar]:
     lidar = Lidar(TrueFloor(grid), LidarSpec(RANGE_M), np.random.default_rng(3))
     occupancy = OccupancyMap(SIDE_M, (0.0, 0.0), RANGE_M)
     for pose in places:
-        occupancy.add(read_scan(lidar.scan(pose), RANGE_M, SIDE_M), pose)
+        occupancy.add(read_scan(lidar.scan(pose), RANGE_M), pose)
     return occupancy, lidar
 
 
@@ -33,7 +33,7 @@ def test_a_scan_is_found_where_it_was_taken(x: float, y: float, turned: float) -
     occupancy, lidar = mapped(generated_hall(2), [Pose(3.0 + 0.2 * step, 11.0, 0.0, 0.3 * step) for step in range(12)])
     true = Pose(4.1, 11.05, 0.0, 1.0)
     prior = Pose(true.x + x, true.y + y, 0.0, true.theta + turned)
-    found = match(occupancy, read_scan(lidar.scan(true), RANGE_M, SIDE_M), prior, TRUST)
+    found = match(occupancy, read_scan(lidar.scan(true), RANGE_M), prior, TRUST)
     assert hypot(found.x - true.x, found.y - true.y) < 0.01
     assert abs(found.theta - true.theta) < 0.004
 
@@ -41,7 +41,7 @@ def test_a_scan_is_found_where_it_was_taken(x: float, y: float, turned: float) -
 def test_along_a_bare_corridor_odometry_is_believed_and_across_it_the_walls_are() -> None:
     occupancy, lidar = mapped(bare_hall(40.0, 3.0), [Pose(19.0 + 0.2 * step, 1.5) for step in range(10)])
     prior = Pose(20.55, 1.58, 0.0, 0.05)
-    found = match(occupancy, read_scan(lidar.scan(Pose(20.5, 1.5)), RANGE_M, SIDE_M), prior, Trust(0.02, 0.1))
+    found = match(occupancy, read_scan(lidar.scan(Pose(20.5, 1.5)), RANGE_M), prior, Trust(0.02, 0.1))
     assert found.x == pytest.approx(prior.x, abs=0.02)
     assert found.y == pytest.approx(1.5, abs=0.01)
     assert found.theta == pytest.approx(0.0, abs=0.004)
@@ -50,7 +50,7 @@ def test_along_a_bare_corridor_odometry_is_believed_and_across_it_the_walls_are(
 def test_where_nothing_is_seen_the_prior_stays() -> None:
     occupancy, lidar = mapped(bare_hall(60.0, 60.0), [Pose(30.0, 30.0)])
     prior = Pose(30.2, 30.0)
-    assert match(occupancy, read_scan(lidar.scan(prior), RANGE_M, SIDE_M), prior, TRUST) == prior
+    assert match(occupancy, read_scan(lidar.scan(prior), RANGE_M), prior, TRUST) == prior
 
 
 def test_wheels_without_noise_are_exact_and_with_noise_off_by_their_share() -> None:

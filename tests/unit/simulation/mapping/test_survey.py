@@ -44,7 +44,7 @@ def test_two_rooms_are_mapped_as_well_as_promised_without_a_bump() -> None:
     assert survey.largest_error[0] <= 0.05
     assert degrees(survey.largest_error[1]) <= 1.0
     assert survey.driven_m > 3.0
-    assert grown[-1] > 1.5 * grown[0]
+    assert grown[-1] > 1.2 * grown[0]
 
 
 def test_the_same_seed_gives_the_same_bytes_and_another_one_others() -> None:
@@ -74,7 +74,7 @@ def test_a_robot_that_does_not_fit_is_told_so() -> None:
 
 
 def test_scores_of_the_truth_are_full_and_of_a_shifted_map_are_not() -> None:
-    grid = two_rooms(0.8)
+    grid = bare_hall(5.0, 4.0)
     floor, start = TrueFloor(grid), Pose(1.0, 1.0)
     assert score(grid, floor, start).f1 == 1.0
     assert score(grid, floor, start).iou == 1.0
