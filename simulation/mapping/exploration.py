@@ -111,7 +111,9 @@ class Ways:
 
     def _graph(self) -> coo_array:
         numbers, ground = self._numbers, self.ground
-        tight = np.where(ground.room_m[self._rows, self._columns] < ground.side_m + COMFORT_M + MARGIN_M, NEAR_WALL, 1.0)
+        tight = np.where(
+            ground.room_m[self._rows, self._columns] < ground.side_m + COMFORT_M + MARGIN_M, NEAR_WALL, 1.0
+        )
         froms, tos = [], []
         for up, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
             here = numbers[: numbers.shape[0] - up, max(0, -right) : numbers.shape[1] - max(0, right)]

@@ -113,7 +113,7 @@ class Lidar:
         self._bearings = np.linspace(-np.pi, np.pi, spec.rays, endpoint=False)
 
     def scan(self, pose: Pose) -> Floats:
-        """Return one range per beam from -pi on, in metres: infinite where nothing is in range, NaN where it is lost."""
+        """Return one range per beam from -pi on, in metres: infinite where nothing is near, NaN where it is lost."""
         spec, chance = self._spec, self._chance
         angles = pose.theta + self._bearings + chance.normal(0.0, spec.noise_rad, spec.rays)
         ranges = self._floor.cast(pose.x, pose.y, angles, spec.range_m)

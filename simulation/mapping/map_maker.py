@@ -122,7 +122,9 @@ class MapMaker:
         reach = max(1, round(0.15 / self.side_m))
         known = 0
         for row, column in zip(rows.tolist(), columns.tolist(), strict=True):
-            window = self.occupancy.odds[max(0, row - reach) : row + reach + 1, max(0, column - reach) : column + reach + 1]
+            window = self.occupancy.odds[
+                max(0, row - reach) : row + reach + 1, max(0, column - reach) : column + reach + 1
+            ]
             known += bool(np.all((window < SURE_FREE) | (window > SURE_WALL)))
         return known >= SEEN_SHARE * len(rows)
 

@@ -54,5 +54,6 @@ class Odometry:
 def moved(pose: Pose, ahead_m: float, turned_rad: float) -> Pose:
     """Return where a motion leads: an arc, taken as its chord."""
     half_way = pose.theta + turned_rad / 2
-    return Pose(pose.x + ahead_m * cos(half_way), pose.y + ahead_m * sin(half_way), 0.0, wrapped(pose.theta + turned_rad))
-
+    return Pose(
+        pose.x + ahead_m * cos(half_way), pose.y + ahead_m * sin(half_way), 0.0, wrapped(pose.theta + turned_rad)
+    )

@@ -63,7 +63,9 @@ class _Run:
         self._plan, self._floor = plan, TrueFloor(plan.grid)
         start = plan.start or self._floor.roomiest()
         if self._floor.clearance_m(start.x, start.y) < plan.robot.radius_m:
-            raise NoRoom(f"A robot with a radius of {plan.robot.radius_m:g} m does not fit at ({start.x:g}, {start.y:g}).")
+            raise NoRoom(
+                f"A robot with a radius of {plan.robot.radius_m:g} m does not fit at ({start.x:g}, {start.y:g})."
+            )
         seeds = np.random.SeedSequence(plan.seed).spawn(2)
         self._lidar = Lidar(self._floor, plan.lidar, np.random.default_rng(seeds[0]))
         self._odometry = Odometry(plan.odometry, np.random.default_rng(seeds[1]))

@@ -108,7 +108,9 @@ def figures(survey: Survey, scores: Scores, processor_s: float) -> dict[str, obj
         "precision": round(scores.precision, 4),
         "recall": round(scores.recall, 4),
         "iou": round(scores.iou, 4),
-        "pose_error": {name: {"m": round(way, 4), "deg": round(degrees(turn), 3)} for name, way, turn in _errors(survey)},
+        "pose_error": {
+            name: {"m": round(way, 4), "deg": round(degrees(turn), 3)} for name, way, turn in _errors(survey)
+        },
         "driven_m": round(survey.driven_m, 2),
         "virtual_s": round(survey.virtual_s, 1),
         "processor_s": round(processor_s, 2),

@@ -24,7 +24,9 @@ def write_map(folder: Path, grid: Grid) -> Path:
     return folder / "hall.yaml"
 
 
-def test_a_scan_writes_a_map_and_says_how_good_it_is(hall: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_scan_writes_a_map_and_says_how_good_it_is(
+    hall: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     out = tmp_path / "made" / "here"
     assert main(["scan", "--map", str(hall), "--seed", "3", "--out", str(out), "--json"]) == 0
     body = json.loads(capsys.readouterr().out)
@@ -84,7 +86,9 @@ def test_bad_maps_and_options_are_named(hall: Path, tmp_path: Path, capsys: pyte
     assert not (tmp_path / "out" / "map.pgm").exists()
 
 
-def test_a_map_without_floor_or_with_coarse_cells_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_map_without_floor_or_with_coarse_cells_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     solid = write_map(tmp_path, Grid(20, 20, 0.05, 0.0, 0.0, bytes([OCCUPIED]) * 400))
     assert "does not fit" in refused(["--map", str(solid), "--out", str(tmp_path / "out")], capsys)
     coarse = write_map(tmp_path, Grid(20, 20, 1.0, 0.0, 0.0, bytes(400)))
