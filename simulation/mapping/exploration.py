@@ -26,7 +26,7 @@ LOOK_M = 0.6
 """From how far, beyond its own radius, a robot may look at a frontier."""
 LEAST_M = 0.25
 """Shorter frontiers are not worth a way."""
-GIVEN_UP_M = 0.4
+GIVEN_UP_M = 0.25
 START_M = 0.6
 NEAR_WALL = 3.0
 _EVERYWHERE = np.ones((3, 3), dtype=np.bool_)
@@ -90,7 +90,7 @@ class Ways:
 
     def __init__(self, ground: Ground, start: Point) -> None:
         self.ground = ground
-        self._numbers = np.full(ground.drivable.shape, -1, dtype=np.int64)
+        self._numbers: NDArray[np.int64] = np.full(ground.drivable.shape, -1, dtype=np.int64)
         self._rows, self._columns = np.nonzero(ground.drivable)
         self._numbers[self._rows, self._columns] = np.arange(self._rows.size)
         self.cost = np.full(ground.drivable.shape, np.inf)
@@ -110,7 +110,8 @@ class Ways:
         return nearest if away[nearest] <= START_M else None
 
     def _graph(self) -> coo_array:
-        numbers, ground = self._numbers, self.ground
+        numbers: NDArray[np.int64] = self._numbers
+        ground = self.ground
         tight = np.where(
             ground.room_m[self._rows, self._columns] < ground.side_m + COMFORT_M + MARGIN_M, NEAR_WALL, 1.0
         )

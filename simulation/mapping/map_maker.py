@@ -28,6 +28,8 @@ SEEN_SHARE = 0.75
 STUCK_S = 12.0
 PROGRESS_M = 0.05
 MOST_BLOCKED = 4
+FRESH_M = 0.02
+LEAVE_M = 0.2
 BACK_M_S = -0.1
 BACK_S = 1.5
 
@@ -80,6 +82,7 @@ class MapMaker:
         self._since = _Since()
         self._course: _Course | None = None
         self._back_s = 0.0
+        self._looks = False
 
     @property
     def is_done(self) -> bool:
@@ -101,7 +104,7 @@ class MapMaker:
     def wants_scan(self) -> bool:
         """Tell whether the robot has moved so far that it wants to see anew."""
         since = self._since
-        return not self.matches or since.way_m >= SCAN_M or since.spun_rad >= SCAN_RAD
+        return not self.matches or self._looks or since.way_m >= SCAN_M or since.spun_rad >= SCAN_RAD
 
     def see(self, ranges: Floats) -> None:
         """Find out where a scan was taken, and put it into the map; one range per beam from -pi on, in metres."""
@@ -111,7 +114,7 @@ class MapMaker:
             turn = 0.02 + noise * (since.spun_rad + since.way_m / self.robot.radius_m)
             self.pose = match(self.occupancy, sight, self.pose, Trust(0.01 + 2 * noise * since.way_m, turn))
         self.occupancy.add(sight, self.pose)
-        self._since = _Since()
+        self._since, self._looks = _Since(), False
         self.matches += 1
         if self._course is not None and self._course.goal is not None and self._is_seen(self._course.goal):
             self._course = None
@@ -211,8 +214,12 @@ class MapMaker:
         self._course = fresh
 
     def _arrive(self, course: _Course) -> None:
+        """Look once more from the end of the way; what is not seen from there is given up."""
         if course.goal is None:
             self.state = "done"
+        elif self._since.way_m > FRESH_M:
+            self._looks = True
+            return
         else:
             self._leave(course.goal)
         self._course = None
@@ -225,9 +232,12 @@ class MapMaker:
         self._back_s, self._course = BACK_S, None
 
     def _leave(self, goal: Goal) -> None:
-        """Give up what could not be seen from where it should be seen."""
+        """Give up what could not be seen from where it should be seen: the points that are nearest to that."""
+        stand = goal.path[-1]
+        away = np.hypot(goal.frontier[:, 0] - stand[0], goal.frontier[:, 1] - stand[1])
+        near = goal.frontier[away <= away.min() + LEAVE_M]
         spaced: list[Point] = []
-        for x, y in goal.frontier.tolist():
-            if all(hypot(x - a, y - b) > 0.2 for a, b in spaced):
+        for x, y in near.tolist():
+            if all(hypot(x - a, y - b) > LEAVE_M / 2 for a, b in spaced):
                 spaced.append((x, y))
         self.given_up.extend(spaced)
