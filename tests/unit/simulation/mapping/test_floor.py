@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from registry.floorplan.plan import FREE, OCCUPIED, UNKNOWN, Grid
 from simulation.mapping.floor import Lidar, LidarSpec, TrueFloor
-from tests.kit.halls import bare_hall
+from tests.kit.floors.halls import bare_hall
 from vipo_device.protocol.description import Pose
 
 SIDE_M = 0.1

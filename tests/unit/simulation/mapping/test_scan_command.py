@@ -9,7 +9,7 @@ import pytest
 
 from registry.floorplan.map_server import read_map, write_pgm, write_yaml
 from registry.floorplan.plan import OCCUPIED, Grid
-from tests.kit.halls import bare_hall
+from tests.kit.floors.halls import bare_hall
 from vipo_site.cli.main import main
 
 

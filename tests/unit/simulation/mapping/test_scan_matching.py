@@ -12,7 +12,7 @@ from simulation.mapping.floor import Lidar, LidarSpec, TrueFloor
 from simulation.mapping.occupancy import OccupancyMap, read_scan
 from simulation.mapping.odometry import Odometry, OdometrySpec, moved
 from simulation.mapping.scan_matching import Trust, match
-from tests.kit.halls import bare_hall, generated_hall
+from tests.kit.floors.halls import bare_hall, generated_hall
 from vipo_device.protocol.description import Pose
 
 RANGE_M, SIDE_M = 8.0, 0.05

@@ -13,7 +13,7 @@ from simulation.mapping.floor import TrueFloor
 from simulation.mapping.map_maker import MapMaker, RobotSpec
 from simulation.mapping.scores import on_raster, score
 from simulation.mapping.survey import NoRoom, SurveyPlan, run_survey
-from tests.kit.halls import bare_hall
+from tests.kit.floors.halls import bare_hall
 from vipo_device.protocol.description import Pose
 
 

@@ -15,7 +15,7 @@ from simulation.mapping.floor import LidarSpec, TrueFloor
 from simulation.mapping.map_maker import RobotSpec
 from simulation.mapping.scores import score
 from simulation.mapping.survey import Survey, SurveyPlan, run_survey
-from tests.kit.halls import bare_hall, generated_hall
+from tests.kit.floors.halls import bare_hall, generated_hall
 from vipo_site.cli.scan import read_truth
 
 SEEDS = (1, 2, 3, 4, 5)
