@@ -55,10 +55,16 @@ class NoRoom(Exception):
 
 def run_survey(plan: SurveyPlan, watch: Callable[[float, MapMaker], None] | None = None) -> Survey:
     """Let a robot map a floor; `watch` is called after each scan with the virtual time. Raises NoRoom."""
-    return _Run(plan).to_the_end(watch)
+    expedition = Expedition(plan)
+    while not expedition.is_over:
+        if expedition.tick() and watch is not None:
+            watch(expedition.time_s, expedition.maker)
+    return expedition.survey()
 
 
-class _Run:
+class Expedition:
+    """A robot on its way over a floor, tick by tick. Raises NoRoom where it does not fit."""
+
     def __init__(self, plan: SurveyPlan) -> None:
         self._plan, self._floor = plan, TrueFloor(plan.grid)
         start = plan.start or self._floor.roomiest()
@@ -70,42 +76,54 @@ class _Run:
         self._lidar = Lidar(self._floor, plan.lidar, np.random.default_rng(seeds[0]))
         self._odometry = Odometry(plan.odometry, np.random.default_rng(seeds[1]))
         anchor = (plan.grid.origin_x_m, plan.grid.origin_y_m)
-        self._maker = MapMaker(plan.robot, start, plan.grid.resolution_m, anchor)
-        self._start = self._pose = start
+        self.maker = MapMaker(plan.robot, start, plan.grid.resolution_m, anchor)
+        self._start = self.pose = start
+        self._ticks, self._speed, self._turn = 0, 0.0, 0.0
         self._driven_m, self._bumps = 0.0, 0
         self._errors = (0.0, 0.0)
 
-    def to_the_end(self, watch: Callable[[float, MapMaker], None] | None) -> Survey:
-        """Tick by tick until the map is made or the time is over."""
-        maker, tick = self._maker, 0
-        speed = turn = 0.0
-        while not maker.is_done and tick * TICK_S < self._plan.longest_s:
-            self._move(speed, turn)
-            if tick % SCAN_EVERY == 0:
-                ranges = self._lidar.scan(self._pose)
-                if maker.wants_scan():
-                    maker.see(ranges)
-                    self._note_error()
-                    if watch is not None:
-                        watch(tick * TICK_S, maker)
-                speed, turn = maker.drive(ranges, SCAN_EVERY * TICK_S)
-            tick += 1
-        maker.see(self._lidar.scan(self._pose))
+    @property
+    def time_s(self) -> float:
+        """Return the virtual time."""
+        return self._ticks * TICK_S
+
+    @property
+    def is_over(self) -> bool:
+        """True when the map is made, or the time is over."""
+        return self.maker.is_done or self.time_s >= self._plan.longest_s
+
+    def tick(self) -> bool:
+        """Let a tick pass; True when a scan went into the map."""
+        maker, sees = self.maker, False
+        self._move(self._speed, self._turn)
+        if self._ticks % SCAN_EVERY == 0:
+            ranges = self._lidar.scan(self.pose)
+            sees = maker.wants_scan()
+            if sees:
+                maker.see(ranges)
+                self._note_error()
+            self._speed, self._turn = maker.drive(ranges, SCAN_EVERY * TICK_S)
+        self._ticks += 1
+        return sees
+
+    def survey(self) -> Survey:
+        """Look round once more, and return what has come of it."""
+        self.maker.see(self._lidar.scan(self.pose))
         self._note_error()
-        return self._survey(tick * TICK_S)
+        return self._survey(self.time_s)
 
     def _move(self, speed: float, turn: float) -> None:
         """Drive for a tick; a robot that would touch something stands, and its wheels do, too."""
-        goes = moved(self._pose, speed * TICK_S, turn * TICK_S)
+        goes = moved(self.pose, speed * TICK_S, turn * TICK_S)
         if speed and self._floor.clearance_m(goes.x, goes.y) < self._plan.robot.radius_m:
-            before = self._floor.clearance_m(self._pose.x, self._pose.y)
+            before = self._floor.clearance_m(self.pose.x, self.pose.y)
             if self._floor.clearance_m(goes.x, goes.y) <= before:
                 self._bumps += 1
-                goes, speed = moved(self._pose, 0.0, turn * TICK_S), 0.0
-        self._pose = goes
+                goes, speed = moved(self.pose, 0.0, turn * TICK_S), 0.0
+        self.pose = goes
         self._driven_m += abs(speed) * TICK_S
         if speed or turn:
-            self._maker.move(*self._odometry.measure(speed * TICK_S, turn * TICK_S))
+            self.maker.move(*self._odometry.measure(speed * TICK_S, turn * TICK_S))
 
     def _note_error(self) -> None:
         way, turn = self._error()
@@ -113,12 +131,12 @@ class _Run:
 
     def _error(self) -> tuple[float, float]:
         """Return how far the robot is from where it believes to be."""
-        believed = self._maker.pose
-        way = hypot(believed.x - self._pose.x, believed.y - self._pose.y)
-        return way, abs(wrapped(believed.theta - self._pose.theta))
+        believed = self.maker.pose
+        way = hypot(believed.x - self.pose.x, believed.y - self.pose.y)
+        return way, abs(wrapped(believed.theta - self.pose.theta))
 
     def _survey(self, virtual_s: float) -> Survey:
-        maker = self._maker
+        maker = self.maker
         return Survey(
             grid=maker.grid(),
             start=self._start,
