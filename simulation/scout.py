@@ -30,10 +30,9 @@ from vipo_device.kit.connection import (
     leave,
 )
 from vipo_device.protocol.description import Description, MethodSpec, Pose, Size
-from vipo_device.protocol.messages import AckMessage, down_topic
+from vipo_device.protocol.messages import EXPLORE, AckMessage, down_topic
 
 log = logging.getLogger(__name__)
-EXPLORE = "explore"
 LOOP_S = 0.05
 SLICE_S = 1.0
 SEND_EVERY_S = 10.0

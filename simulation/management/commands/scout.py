@@ -66,9 +66,7 @@ def make_scout(options: dict[str, Any]) -> Scout:
         VipoError: there is no such site, or the map cannot be used.
     """
     site: str = options["site"]
-    start = (
-        None if options["start"] is None else Pose(options["start"][0], options["start"][1], 0.0, options["start"][2])
-    )
+    at: list[float] | None = options["start"]
     lidar_m: float = options["lidar"]
     survey = SurveyPlan(
         read_floor(options["map"]),

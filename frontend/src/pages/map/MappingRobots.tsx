@@ -12,9 +12,7 @@ export function MappingRobots({ slug, small = false }: { slug: string; small?: b
   const devices = useDevices(slug).data ?? [];
   const able = devices.filter(
     (each) =>
-      each.kind === "robot" &&
-      each.lifecycle === "approved" &&
-      each.methods.some((method) => method.name === EXPLORE),
+      each.kind === "robot" && each.lifecycle === "approved" && each.methods.some((method) => method.name === EXPLORE),
   );
   return able.map((robot) => (
     <Button
