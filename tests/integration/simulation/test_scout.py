@@ -7,9 +7,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from django.core.management import call_command
+from django.core.management.base import CommandError
 
 from registry.floorplan.map_message import GridPart, join_parts, read_grid_part
+from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.floorplan.plan import FREE, Grid
+from simulation.management.commands.scout import read_floor
 from simulation.mapping.floor import TrueFloor
 from simulation.mapping.scores import score
 from simulation.mapping.survey import NoRoom, SurveyPlan
@@ -120,3 +124,25 @@ def test_a_scout_that_does_not_fit_is_refused_before_it_connects() -> None:
     plan = ScoutPlan(SCOUT, "Scout", SITE, SurveyPlan(FLOOR, 1, start=Pose(0.1, 0.1)))
     with pytest.raises(NoRoom, match="does not fit"):
         Scout(plan, lambda *_: pytest.fail("it came in"))
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "told"),
+    [
+        ("--speed", "50", r"--speed 50 is outside 0\.1 to 20; 1 is real time\."),
+        ("--lidar", "nan", r"--lidar nan is out of bounds; choose 0\.5 to 40 metres\."),
+    ],
+)
+def test_the_command_refuses_what_no_robot_has(option: str, value: str, told: str) -> None:
+    with pytest.raises(CommandError, match=told):
+        call_command("scout", "--site", SITE, "--map", "hall.yaml", option, value)
+
+
+def test_the_command_names_a_map_that_cannot_be_read(tmp_path: Path) -> None:
+    with pytest.raises(CommandError, match=r"hall\.yaml cannot be read: No such file or directory\."):
+        read_floor(tmp_path / "hall.yaml")
+    (tmp_path / "hall.yaml").write_bytes(write_yaml(FLOOR, "hall.pgm"))
+    with pytest.raises(CommandError, match=r"hall\.pgm cannot be read"):
+        read_floor(tmp_path / "hall.yaml")
+    (tmp_path / "hall.pgm").write_bytes(write_pgm(FLOOR))
+    assert read_floor(tmp_path / "hall.yaml") == FLOOR
