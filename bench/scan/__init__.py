@@ -50,10 +50,13 @@ def _figures(name: str, grid: Grid, lidar_m: float) -> Iterator[dict[str, object
         away.append(survey.largest_error[0])
         turned.append(degrees(survey.largest_error[1]))
     facts = {"floor": name, "lidar_m": lidar_m, "seeds": len(SEEDS)}
-    yield figure("walls found, F1 at one cell, least of the seeds", min(f1), "share", median=round(share(f1, 0.5), 4), **facts)
-    yield figure("free floor, IoU, least of the seeds", min(iou), "share", median=round(share(iou, 0.5), 4), **facts)
+    middle = {name: round(share(values, 0.5), 4) for name, values in (("f1", f1), ("iou", iou))}
+    yield figure("walls found, F1 at one cell, least of the seeds", min(f1), "share", median=middle["f1"], **facts)
+    yield figure("free floor, IoU, least of the seeds", min(iou), "share", median=middle["iou"], **facts)
     yield figure("largest pose error", max(away), "m", degrees=round(max(turned), 3), **facts)
-    yield figure("processor time per virtual second", 1000 * used_s / virtual_s, "ms", virtual_s=round(virtual_s), **facts)
+    yield figure(
+        "processor time per virtual second", 1000 * used_s / virtual_s, "ms", virtual_s=round(virtual_s), **facts
+    )
 
 
 def _survey(grid: Grid, seed: int, lidar_m: float) -> Survey:
