@@ -50,6 +50,7 @@ SENTENCES: Mapping[str, str] = {
     "no_device": "There is no approved device called “{device}” on this site.",
     "no_method": "{device} cannot {method}; it offers no such method.",
     "own_step": "{device} does {method} only as a step of its own.",
+    "by_hand": "{device} does {method} only by hand, while no run is open.",
     "offline": "{device} is offline.",
     "undone": "The step was not done.",
     "no_place": "That is not a place: give a device, a place or a point [x, y].",

@@ -26,6 +26,7 @@ from execution.views import CallView, view_call
 from registry import services as registry
 from vipo_device.protocol.arguments import find_misfits
 from vipo_device.protocol.doors import door_methods
+from vipo_device.protocol.messages import EXPLORE
 
 EXPIRY_S = 30.0
 """A call that no device has answered after so long is given up: a person waits, and a late start would surprise."""
@@ -55,6 +56,7 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
         present = registry.get_device(site=site, device_id=device_id)
         _check_free(row, present)
         _check_passage(row, present, method)
+        _check_exploring(row, present, method)
         command = _write(row, _Order(device_id, method, given, by, fence))
         sent = CallSent(str(command.id), device_id, method, given, f"{command.by}, by hand")
         mailbox.post_to_floor(site, [(f"call:{command.id}", sent)])
@@ -94,6 +96,18 @@ def _check_passage(row: FloorState, device: registry.DeviceView, method: str) ->
     methods = door_methods(device.canonical)
     if door is not None and door.robots and (methods is None or method != methods.opens):
         raise NotPossibleNow(f"{device.name} is held open for robots that pass. Wait until they are through.")
+
+
+def _check_exploring(row: FloorState, device: registry.DeviceView, method: str) -> None:
+    """Refuse to let a robot drive where it likes among those whose ways are kept free of each other."""
+    if device.kind != "robot" or method != EXPLORE:
+        return
+    run = Run.objects.filter(site_id=row.site_id, status__in=Run.OPEN).order_by("number").first()
+    if run is not None:
+        raise NotPossibleNow(
+            f"{device.name} drives where it likes while it explores. Wait until run {run.number} of "
+            f"“{run.program_name}” is over, or cancel it."
+        )
 
 
 def _holding_run(row: FloorState, device_id: str) -> str:

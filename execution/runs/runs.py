@@ -17,11 +17,12 @@ from execution.errors import NotFound, NotPossibleNow
 from execution.floor.stops import get_stop, hold_if_stopped
 from execution.floor_protocol import ResumeAsked, ToRun
 from execution.machine.messages import CancelAsked, PauseAsked
-from execution.models import Run, RunEvent
+from execution.models import Command, Run, RunEvent
 from execution.runs.programs import Prepared
 from execution.runs.terms import USUAL, Terms, fit_terms
 from execution.views import PRIORITIES, RunEventView, RunView, WholeRunView, run_to_json, view_event, view_run
 from registry import services as registry
+from vipo_device.protocol.messages import EXPLORE
 
 EVENTS_AT_ONCE = 1000
 STOPPED = "The site is stopped. Reset the stop, then resume the run."
@@ -39,15 +40,27 @@ def start_run(
     Raises:
         editor.NotApproved: approvals that the site demands are missing.
         BadTerms: it may begin or should be over at a time that makes no sense.
-        NotPossibleNow: the site is stopped.
+        NotPossibleNow: the site is stopped, or a robot explores its floor.
     """
     stop = get_stop(site=prepared.site)
     if stop.active:
         raise NotPossibleNow("The site is stopped. Reset the stop before you start a run.", {"why": "stopped"})
+    _require_nobody_explores(prepared.site)
     begin = _Beginning(by, entry, fit_terms(terms, database.now()), stop.fence if fence is None else fence, emergency)
     row = _create_numbered(prepared, begin)
     transaction.on_commit(lambda: hold_if_stopped(row))
     return _announce(prepared, row)
+
+
+def _require_nobody_explores(site: str) -> None:
+    """Refuse while a robot drives where it likes. Raises NotPossibleNow."""
+    calls = Command.objects.filter(site__slug=site, run=None, method=EXPLORE, status__in=Command.OPEN)
+    for name in calls.values_list("device", flat=True):
+        device = registry.get_device(site=site, device_id=name)
+        if device.kind == "robot":
+            raise NotPossibleNow(
+                f"{device.name} explores the floor. Wait until it is done, or cancel that on its page."
+            )
 
 
 @dataclass(frozen=True, slots=True)

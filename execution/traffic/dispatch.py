@@ -25,6 +25,7 @@ from execution.traffic.precedence import Waiting, in_groups, note_behind
 from execution.traffic.route_points import leads_along, path_along, points_ahead, set_points
 from execution.traffic.turn import Turn
 from vipo_device.protocol.description import Description
+from vipo_device.protocol.messages import EXPLORE
 
 ABSENCE_S = 30.0
 """How long a device may be away before what needs it fails as offline; a restart of the demo is shorter."""
@@ -285,6 +286,8 @@ def _perform(turn: Turn, task: FloorTask, robot: Robot) -> None:
         turn.finish(task, "refused", f"{turn.name(robot.id)} cannot {method}; it offers no such method.")
     elif method in ROBOT_METHODS:
         turn.finish(task, "refused", f"{turn.name(robot.id)} does {method} only as a step of its own.")
+    elif method == EXPLORE:
+        turn.finish(task, "refused", f"{turn.name(robot.id)} does {method} only by hand, while no run is open.")
     elif turn.is_driving(robot) or turn.is_acting(robot) or robot.evading:
         turn.wait(task, "robot_busy", f"{turn.name(robot.id)} has something else to do first.", robot=robot.id)
     else:

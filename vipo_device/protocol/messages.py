@@ -19,6 +19,8 @@ from vipo_device.protocol.texts import normal_json, unfit_texts
 AckStatus = Literal["ACCEPTED", "RUNNING", "DONE", "FAILED", "REJECTED", "CANCELED"]
 CONTROLS = frozenset({"pause", "resume", "cancel"})
 """Methods that every device has, about another command; their argument `command` is its id."""
+EXPLORE = "explore"
+"""The method by which a robot maps a floor by itself: it drives where it likes."""
 MAX_BYTES = 16 * 1024
 MAX_DEPTH = 16
 MAX_PROPERTIES = 64

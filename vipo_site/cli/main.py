@@ -17,7 +17,7 @@ from vipo_site.cli.programs import add_program_commands
 from vipo_site.cli.terminal import CLEAN, FAULTY, INTERRUPTED, UNUSABLE, complain, write_json
 
 _NAMES = (
-    *("check", "script", "draw", "plan", "rehearse", "test", "describe"),
+    *("check", "script", "draw", "plan", "rehearse", "test", "scan", "describe"),
     *("call", "devices", "alerts", "approve", "enrolment-key", "account", "token", "mend-program", "history"),
 )
 
@@ -107,6 +107,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True, metavar="|".join(_NAMES), parser_class=_Parser)
     add_program_commands(commands)
     _add_test(commands.add_parser("test", help=_TEST, description=_TEST))
+    _add_scan(commands.add_parser("scan", help=_SCAN, description=_SCAN))
     _add_describe(commands.add_parser("describe", help=_DESCRIBE, description=_DESCRIBE))
     call.add_arguments(commands.add_parser("call", help=call.WHAT, description=call.WHAT))
     for word, text, add in (
@@ -149,7 +150,26 @@ def _test(options: argparse.Namespace) -> int:
     return test_files(options)
 
 
+def _add_scan(sub: argparse.ArgumentParser) -> None:
+    sub.add_argument("--map", type=Path, required=True, metavar="FILE", help="the true floor: a map's .yaml file")
+    sub.add_argument("--seed", type=int, default=1, help="each seed is a course of noise and slip of its own (1)")
+    sub.add_argument("--lidar", type=float, default=8.0, metavar="M", help="how far the lidar sees, in metres (8)")
+    sub.add_argument("--odometry", type=float, default=0.05, metavar="SHARE", help="how wrong the wheels are (0.05)")
+    sub.add_argument("--start", type=float, nargs=3, metavar=("X", "Y", "THETA"), help="where to begin (most room)")
+    sub.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for map.yaml and map.pgm")
+    sub.add_argument("--json", action="store_true", help="write JSON for machines")
+    sub.set_defaults(run=_scan)
+
+
+def _scan(options: argparse.Namespace) -> int:
+    # imported late: planning ways takes libraries that the other commands do not need
+    from vipo_site.cli.scan import scan
+
+    return scan(options)
+
+
 _TEST = "Carry out tests of programs in simulation, in virtual time, and say what did not hold."
+_SCAN = "Let a simulated robot map a floor with its lidar, and say how good its map is."
 _DESCRIBE = "Say what a device's description holds and what is wrong with it, or write it in another form."
 
 

@@ -165,6 +165,26 @@ CURE = Plan(
 )
 
 
+def test_a_robot_explores_only_while_no_run_is_open_and_no_run_starts_meanwhile(factory):
+    robot = Device.objects.get(pk="robot03")
+    method = {**robot.description["methods"][0], "name": "explore", "parameters": []}
+    robot.description["methods"].append(method)
+    robot.save()
+    run = factory.start(CURE)
+    told = (
+        f"{robot.description['name']} drives where it likes while it explores. Wait until run 1 of “Task” is over, or "
+        "cancel it."
+    )
+    with pytest.raises(services.NotPossibleNow) as refused:
+        call("robot03", "explore")
+    assert str(refused.value) == told
+    assert not Command.objects.filter(method="explore").exists()
+    factory.go(lambda: services.get_run(run_id=run).run.status == "finished", dt_s=10.0)
+    assert call("robot03", "explore").status == "pending"
+    with pytest.raises(services.NotPossibleNow, match="explores the floor"):
+        factory.start(CURE)
+
+
 def test_what_a_run_holds_is_not_lent_and_the_answer_says_which_run(factory):
     run = factory.start(CURE)
     factory.go(lambda: Command.objects.filter(method="mixPaint").exists())

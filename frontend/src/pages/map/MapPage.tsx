@@ -19,6 +19,7 @@ import { MovableMachine } from "../devices/MovableMachine";
 import { EditMapButton } from "./EditMapButton";
 import { MapDownloads } from "./MapDownloads";
 import styles from "./MapPage.module.css";
+import { MappingRobots } from "./MappingRobots";
 import { MapVersions } from "./MapVersions";
 import { PlaceHandles } from "./places/PlaceHandles";
 import { PlacesPanel } from "./places/PlacesPanel";
@@ -173,6 +174,7 @@ export function MapPage() {
                 {t("mapEdit.upload")}
               </Button>
             ) : null}
+            <MappingRobots slug={slug} />
           </EmptyState>
         </Panel>
       ) : null}

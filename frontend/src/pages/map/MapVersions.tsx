@@ -12,6 +12,7 @@ import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatMoment } from "@/i18n/format";
 import styles from "../devices/robotMap/robotmap.module.css";
 import maps from "./MapPage.module.css";
+import { MappingRobots } from "./MappingRobots";
 import { OldMap } from "./OldMap";
 
 function useSourceWords(slug: string) {
@@ -135,6 +136,7 @@ export function MapVersions({ site }: { site: Site }) {
           {t("mapEdit.upload")}
         </Button>
       ) : null}
+      <MappingRobots slug={site.slug} small />
       {seen ? <OldMap site={site} version={seen.version} onClose={() => setSeen(null)} /> : null}
       {asked ? <AskBack site={site} version={asked} current={current.version} onClose={() => setAsked(null)} /> : null}
     </section>

@@ -88,6 +88,13 @@ def test_what_is_a_step_of_its_own_is_not_sent_as_a_method(method):
     assert (world.over["a", 1], world.sent) == (refused, [])
 
 
+def test_a_robot_explores_in_no_run():
+    world = floor_with(robot01=(MethodSpec("explore", "t/x"),))
+    world.tell(ask("a", 1, "explore"))
+    refused = ("refused", "TurtleBot 1 does explore only by hand, while no run is open.")
+    assert (world.over["a", 1], world.sent) == (refused, [])
+
+
 @pytest.mark.parametrize("method", ["move.location", "__class__", "../stop", "鳴らす", "a b"])
 def test_any_name_is_only_a_name(method):
     world = floor_with(robot01=(MethodSpec(method, "t/x"),))

@@ -1,0 +1,151 @@
+"""A robot maps a floor in virtual time: it drives, and meets walls, slip and noise. Same seed, same map."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from math import hypot
+
+import numpy as np
+
+from registry.floorplan.plan import Grid
+from simulation.actors.follower import wrapped
+from simulation.mapping.floor import Lidar, LidarSpec, TrueFloor
+from simulation.mapping.map_maker import MapMaker, RobotSpec
+from simulation.mapping.odometry import Odometry, OdometrySpec, moved
+from vipo_device.protocol.description import Pose
+
+TICK_S = 0.1
+SCAN_EVERY = 2
+LONGEST_S = 4 * 3600.0
+
+
+@dataclass(frozen=True, slots=True)
+class SurveyPlan:
+    """Who maps what, and from where (none: the roomiest place); `longest_s` ends a survey that does not end."""
+
+    grid: Grid
+    seed: int
+    robot: RobotSpec = field(default_factory=RobotSpec)
+    lidar: LidarSpec = field(default_factory=LidarSpec)
+    odometry: OdometrySpec = field(default_factory=OdometrySpec)
+    start: Pose | None = None
+    longest_s: float = LONGEST_S
+
+
+@dataclass(frozen=True, slots=True)
+class Survey:
+    """What came of it: metres, radians, virtual seconds. `is_whole` when the robot saw all that it could reach."""
+
+    grid: Grid
+    start: Pose
+    is_whole: bool
+    driven_m: float
+    virtual_s: float
+    scans: int
+    given_up: int
+    bumps: int
+    final_error: tuple[float, float]
+    largest_error: tuple[float, float]
+
+
+class NoRoom(Exception):
+    """The robot does not fit where it shall begin."""
+
+
+def run_survey(plan: SurveyPlan, watch: Callable[[float, MapMaker], None] | None = None) -> Survey:
+    """Let a robot map a floor; `watch` is called after each scan with the virtual time. Raises NoRoom."""
+    expedition = Expedition(plan)
+    while not expedition.is_over:
+        if expedition.tick() and watch is not None:
+            watch(expedition.time_s, expedition.maker)
+    return expedition.survey()
+
+
+class Expedition:
+    """A robot on its way over a floor, tick by tick. Raises NoRoom where it does not fit."""
+
+    def __init__(self, plan: SurveyPlan) -> None:
+        self._plan, self._floor = plan, TrueFloor(plan.grid)
+        start = plan.start or self._floor.roomiest()
+        if self._floor.clearance_m(start.x, start.y) < plan.robot.radius_m:
+            raise NoRoom(
+                f"A robot with a radius of {plan.robot.radius_m:g} m does not fit at ({start.x:g}, {start.y:g})."
+            )
+        seeds = np.random.SeedSequence(plan.seed).spawn(2)
+        self._lidar = Lidar(self._floor, plan.lidar, np.random.default_rng(seeds[0]))
+        self._odometry = Odometry(plan.odometry, np.random.default_rng(seeds[1]))
+        anchor = (plan.grid.origin_x_m, plan.grid.origin_y_m)
+        self.maker = MapMaker(plan.robot, start, plan.grid.resolution_m, anchor)
+        self._start = self.pose = start
+        self._ticks, self._speed, self._turn = 0, 0.0, 0.0
+        self._driven_m, self._bumps = 0.0, 0
+        self._errors = (0.0, 0.0)
+
+    @property
+    def time_s(self) -> float:
+        """Return the virtual time."""
+        return self._ticks * TICK_S
+
+    @property
+    def is_over(self) -> bool:
+        """True when the map is made, or the time is over."""
+        return self.maker.is_done or self.time_s >= self._plan.longest_s
+
+    def tick(self) -> bool:
+        """Let a tick pass; True when a scan went into the map."""
+        maker, sees = self.maker, False
+        self._move(self._speed, self._turn)
+        if self._ticks % SCAN_EVERY == 0:
+            ranges = self._lidar.scan(self.pose)
+            sees = maker.wants_scan()
+            if sees:
+                maker.see(ranges)
+                self._note_error()
+            self._speed, self._turn = maker.drive(ranges, SCAN_EVERY * TICK_S)
+        self._ticks += 1
+        return sees
+
+    def survey(self) -> Survey:
+        """Look round once more, and return what has come of it."""
+        self.maker.see(self._lidar.scan(self.pose))
+        self._note_error()
+        return self._survey(self.time_s)
+
+    def _move(self, speed: float, turn: float) -> None:
+        """Drive for a tick; a robot that would touch something stands, and its wheels do, too."""
+        goes = moved(self.pose, speed * TICK_S, turn * TICK_S)
+        if speed and self._floor.clearance_m(goes.x, goes.y) < self._plan.robot.radius_m:
+            before = self._floor.clearance_m(self.pose.x, self.pose.y)
+            if self._floor.clearance_m(goes.x, goes.y) <= before:
+                self._bumps += 1
+                goes, speed = moved(self.pose, 0.0, turn * TICK_S), 0.0
+        self.pose = goes
+        self._driven_m += abs(speed) * TICK_S
+        if speed or turn:
+            self.maker.move(*self._odometry.measure(speed * TICK_S, turn * TICK_S))
+
+    def _note_error(self) -> None:
+        way, turn = self._error()
+        self._errors = max(self._errors[0], way), max(self._errors[1], turn)
+
+    def _error(self) -> tuple[float, float]:
+        """Return how far the robot is from where it believes to be."""
+        believed = self.maker.pose
+        way = hypot(believed.x - self.pose.x, believed.y - self.pose.y)
+        return way, abs(wrapped(believed.theta - self.pose.theta))
+
+    def _survey(self, virtual_s: float) -> Survey:
+        maker = self.maker
+        return Survey(
+            grid=maker.grid(),
+            start=self._start,
+            is_whole=maker.is_done,
+            driven_m=self._driven_m,
+            virtual_s=virtual_s,
+            scans=maker.matches,
+            given_up=len(maker.given_up),
+            bumps=self._bumps,
+            final_error=self._error(),
+            largest_error=self._errors,
+        )

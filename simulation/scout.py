@@ -1,0 +1,191 @@
+"""A simulated robot that maps a floor which nobody has given it, when it is told to `explore`, and sends the map.
+
+It is a device of its own, in a process of its own, and says nothing that a real robot could not: it joins, waits to be
+approved, tells where it believes to be, and sends what it has seen on `up/map` while it drives.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from queue import Empty, SimpleQueue
+
+from registry.floorplan.map_message import write_grid
+from simulation.actors import InitialState
+from simulation.actors.actor import Actor, Emit
+from simulation.mapping.survey import TICK_S, Expedition, SurveyPlan
+from simulation.site_facts import DescribedDevice
+from simulation.virtual_device import Appearance, VirtualDevice
+from simulation.world import Ack, WorldEvent
+from vipo_device.descriptions.reader import write_description
+from vipo_device.kit.connection import (
+    CommandReceived,
+    ConnectionEvent,
+    ConnectionMaker,
+    IntroductionDue,
+    StopChanged,
+    leave,
+)
+from vipo_device.protocol.description import Description, MethodSpec, Pose, Size
+from vipo_device.protocol.messages import EXPLORE, AckMessage, down_topic
+
+log = logging.getLogger(__name__)
+LOOP_S = 0.05
+SLICE_S = 1.0
+SEND_EVERY_S = 10.0
+
+
+@dataclass(frozen=True, slots=True)
+class ScoutPlan:
+    """Who maps which floor at which site, how many times faster than real, and which start of it this is."""
+
+    device: str
+    name: str
+    site: str
+    survey: SurveyPlan
+    speed: float = 1.0
+    boot: int = 1
+
+
+def describe_scout(plan: ScoutPlan, start: Pose) -> Description:
+    """Return how the robot describes itself."""
+    robot = plan.survey.robot
+    return Description(
+        id=plan.device,
+        name=plan.name,
+        kind="robot",
+        device_class="turtlebot",
+        pose=start,
+        size=Size(2 * robot.radius_m, 2 * robot.radius_m, 0.2),
+        description="Maps a floor with its lidar.",
+        site=plan.site,
+        simulated=True,
+        radius_m=robot.radius_m,
+        speed_m_s=robot.speed_m_s,
+        methods=(MethodSpec(EXPLORE, down_topic(plan.device, EXPLORE), "signal", "Explore"),),
+    )
+
+
+class ScoutActor(Actor):
+    """What the robot does with commands. Exploring that was cancelled goes on where it was; one that is over is new."""
+
+    def __init__(self, description: Description, emit: Emit, survey: SurveyPlan) -> None:
+        super().__init__(description, emit, InitialState())
+        self._plan = replace(survey, start=description.pose)
+        self.expedition = Expedition(self._plan)
+        self._command = ""
+
+    @property
+    def busy(self) -> bool:
+        """True while the robot explores."""
+        return bool(self._command)
+
+    def _take_on(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> str:
+        if self.busy:
+            return f"{self.description.name} explores already."
+        if self.expedition.is_over:
+            at = self.expedition.maker.pose
+            self._plan = replace(self._plan, seed=self._plan.seed + 1, start=replace(at, z=0.0))
+            self.expedition = Expedition(self._plan)
+        self._command = command
+        self._say(t_s, AckMessage(command, "ACCEPTED"))
+        self._say(t_s, AckMessage(command, "RUNNING"))
+        return ""
+
+    def _cancel(self, t_s: float, command: str) -> None:
+        if self.busy and command in {"", self._command}:
+            ended, self._command = self._command, ""
+            self._say(t_s, AckMessage(ended, "CANCELED", "The robot stands where it is, and keeps its map."))
+
+    def advance(self, t_s: float) -> None:
+        """Let a tick pass at `t_s`."""
+        if not self.busy or self.frozen:
+            return
+        self.expedition.tick()
+        if self.expedition.is_over:
+            ended, self._command = self._command, ""
+            self._say_done(t_s, ended)
+
+
+class Scout:
+    """The robot and its connection. The thread that runs it owns it; the network's puts messages into a queue."""
+
+    def __init__(self, plan: ScoutPlan, make_connection: ConnectionMaker) -> None:
+        self._plan, self._make_connection = plan, make_connection
+        start = plan.survey.start or Expedition(plan.survey).pose
+        description = describe_scout(plan, start)
+        self._events: list[WorldEvent] = []
+        self._actor = ScoutActor(description, self._events.append, plan.survey)
+        self._inbox: SimpleQueue[ConnectionEvent] = SimpleQueue()
+        source = DescribedDevice(description, write_description(description).encode())
+        self._device = VirtualDevice(source, plan.site, plan.boot, self._inbox.put)
+        self._ticks = self._maps = self._sent_scans = 0
+        self._due_s, self._sent_s = 0.0, -SEND_EVERY_S
+
+    def run(self, stopping: threading.Event) -> None:
+        """Live until `stopping` is set; then say that it goes offline."""
+        self._device.connect(self._make_connection)
+        try:
+            now = time.monotonic()
+            while not stopping.is_set():
+                self._take_in()
+                last, now = now, time.monotonic()
+                self._pass_time(now - last)
+                self._speak(now)
+        finally:
+            leave([self._device.connection])
+
+    def _take_in(self) -> None:
+        """Wait for a message for a moment, and carry out all that have come."""
+        try:
+            self._hear(self._inbox.get(timeout=LOOP_S))
+            while True:
+                self._hear(self._inbox.get_nowait())
+        except Empty:
+            return
+
+    def _hear(self, message: ConnectionEvent) -> None:
+        match message:
+            case CommandReceived(command=command):
+                self._actor.command(self._time_s, command.method, command.arguments, command.id)
+            case IntroductionDue():
+                self._device.introduce()
+                self._sent_scans = 0  # whoever listens now may not know the map
+            case StopChanged(active=active):
+                self._actor.held = active
+
+    @property
+    def _time_s(self) -> float:
+        return self._ticks * TICK_S
+
+    def _pass_time(self, real_s: float) -> None:
+        """Let as much virtual time pass as is due; what cannot be made up is left out."""
+        self._due_s = min(self._due_s + real_s * self._plan.speed, SLICE_S)
+        while self._due_s >= TICK_S:
+            self._due_s -= TICK_S
+            self._ticks += 1
+            self._actor.advance(self._time_s)
+
+    def _speak(self, now_s: float) -> None:
+        """Send the map, say the state, then the answers: who hears that it is done must already have the map."""
+        acks = [event for event in self._events if isinstance(event, Ack)]
+        self._events.clear()
+        is_over = any(ack.is_final for ack in acks)
+        self._send_map(now_s, at_once=is_over)
+        pose = self._actor.expedition.maker.pose
+        shown = Pose(round(pose.x, 3), round(pose.y, 3), 0.0, round(pose.theta, 3))
+        self._device.report(Appearance(not self._actor.busy, shown, {}), now_s, at_once=is_over)
+        for ack in acks:
+            self._device.answer(ack)
+
+    def _send_map(self, now_s: float, *, at_once: bool) -> None:
+        maker = self._actor.expedition.maker
+        is_due = at_once or now_s - self._sent_s >= SEND_EVERY_S
+        if not is_due or maker.matches in {0, self._sent_scans} or not self._device.is_introduced:
+            return
+        self._maps += 1
+        self._sent_s, self._sent_scans = now_s, maker.matches
+        self._device.send_map(write_grid(maker.grid(), self._plan.boot, self._maps))

@@ -1,0 +1,148 @@
+"""A simulated robot that maps a floor, on a real Mosquitto with the product's own rules."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from django.core.management import call_command
+from django.core.management.base import CommandError
+
+from registry.floorplan.map_message import GridPart, join_parts, read_grid_part
+from registry.floorplan.map_server import write_pgm, write_yaml
+from registry.floorplan.plan import FREE, Grid
+from simulation.management.commands.scout import read_floor
+from simulation.mapping.floor import TrueFloor
+from simulation.mapping.scores import score
+from simulation.mapping.survey import NoRoom, SurveyPlan
+from simulation.scout import Scout, ScoutPlan
+from tests.kit.floors.halls import bare_hall
+from tests.kit.mqtt import Ear, Heard
+from tests.kit.servers import Mosquitto, run_mosquitto
+from vipo_device.descriptions.reader import read_description
+from vipo_device.protocol.description import Pose
+from vipo_device.protocol.messages import parse_state
+from vipo_device.protocol.mqtt_client import MqttClient, Will
+
+SCOUT, SITE = "hall.scout", "hall"
+ACCOUNTS = {"server": "secret", SCOUT: "word of the scout"}
+FLOOR, START = bare_hall(5.0, 4.0), Pose(1.0, 1.0)
+
+
+@pytest.fixture
+def ear(tmp_path: Path) -> Iterator[Ear]:
+    """Hears a scout that is running."""
+    with run_mosquitto(tmp_path, ACCOUNTS) as bus, Ear(bus.port, "secret") as ear:
+        stopping = threading.Event()
+        plan = ScoutPlan(SCOUT, "Scout", SITE, SurveyPlan(FLOOR, 1, start=START), speed=20, boot=7)
+        thread = threading.Thread(target=Scout(plan, connecting(bus)).run, args=(stopping,))
+        thread.start()
+        try:
+            ear.wait(lambda h: h.topic.endswith("/state"))
+            yield ear
+        finally:
+            stopping.set()
+            thread.join(10)
+            assert not thread.is_alive()
+
+
+def connecting(bus: Mosquitto):  # type: ignore[no-untyped-def]
+    def connect(device: str, will: Will) -> MqttClient:
+        key = ACCOUNTS[device]
+        return MqttClient(
+            host="127.0.0.1", port=bus.device_port, username=device, password=key, client_id=device, will=will
+        )
+
+    return connect
+
+
+def answered(ear: Ear, command: str, status: str) -> Heard:
+    return ear.wait(
+        lambda h: h.topic.endswith("/ack") and h.json["id"] == command and h.json["st"] == status, timeout_s=60
+    )
+
+
+def maps(ear: Ear) -> list[Grid]:
+    """The whole maps that were sent, oldest first."""
+    parts: dict[int, list[GridPart]] = {}
+    for heard in ear.all(f"{SCOUT}/up/map"):
+        part = read_grid_part(heard.payload)
+        parts.setdefault(part.number, []).append(part)
+    return [join_parts(each) for _, each in sorted(parts.items())]
+
+
+def known(grid: Grid) -> int:
+    return grid.cells.count(FREE)
+
+
+def test_it_says_what_it_is_maps_when_it_is_told_to_and_sends_the_map_before_it_says_done(ear: Ear) -> None:
+    described = read_description(ear.wait(lambda h: h.topic.endswith("/desc")).payload, device_id=SCOUT)
+    assert (described.kind, described.simulated) == ("robot", True)
+    assert [method.name for method in described.methods] == ["explore"]
+    ear.tell(SCOUT, "explore", "go")
+    answered(ear, "go", "RUNNING")
+    ear.tell(SCOUT, "explore", "again")
+    assert answered(ear, "again", "REJECTED").json["why"] == "Scout explores already."
+    answered(ear, "go", "DONE")
+    sent = [heard.topic.rsplit("/", 1)[1] for heard in ear.heard]
+    assert "map" in sent[: len(sent) - 1 - sent[::-1].index("ack")]
+    whole = maps(ear)[-1]
+    found = score(whole, TrueFloor(FLOOR), START)
+    assert found.f1 >= 0.95
+    assert found.iou >= 0.97
+    state = parse_state(ear.all(f"{SCOUT}/up/state")[-1].payload)
+    assert state.done
+    assert state.pose is not None
+    assert (state.pose.x, state.pose.y) == pytest.approx((START.x, START.y), abs=0.3)
+
+
+def test_after_a_cancel_it_goes_on_with_the_same_map(ear: Ear) -> None:
+    ear.tell(SCOUT, "explore", "go")
+    first = ear.wait(lambda h: h.topic.endswith("/map"))
+    assert not first.retained
+    ear.tell(SCOUT, "cancel", "end", command="go")
+    answered(ear, "go", "CANCELED")
+    before = maps(ear)[-1]
+    ear.tell(SCOUT, "explore", "on")
+    answered(ear, "on", "DONE")
+    assert known(maps(ear)[-1]) > known(before) > 0
+
+
+def test_the_sites_stop_holds_it_where_it_is(ear: Ear) -> None:
+    ear.say(f"vipo/v1/site/{SITE}/stop", {"active": True, "at": "2026-01-01T12:00:00+00:00"}, retain=True)
+    ear.tell(SCOUT, "explore", "go")
+    answered(ear, "go", "RUNNING")
+    assert not maps(ear)
+    ear.say(f"vipo/v1/site/{SITE}/stop", {"active": False, "at": "2026-01-01T12:00:01+00:00"}, retain=True)
+    answered(ear, "go", "DONE")
+    assert maps(ear)
+
+
+def test_a_scout_that_does_not_fit_is_refused_before_it_connects() -> None:
+    plan = ScoutPlan(SCOUT, "Scout", SITE, SurveyPlan(FLOOR, 1, start=Pose(0.1, 0.1)))
+    with pytest.raises(NoRoom, match="does not fit"):
+        Scout(plan, lambda *_: pytest.fail("it came in"))
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "told"),
+    [
+        ("--speed", "50", r"--speed 50 is outside 0\.1 to 20; 1 is real time\."),
+        ("--lidar", "nan", r"--lidar nan is out of bounds; choose 0\.5 to 40 metres\."),
+    ],
+)
+def test_the_command_refuses_what_no_robot_has(option: str, value: str, told: str) -> None:
+    with pytest.raises(CommandError, match=told):
+        call_command("scout", "--site", SITE, "--map", "hall.yaml", option, value)
+
+
+def test_the_command_names_a_map_that_cannot_be_read(tmp_path: Path) -> None:
+    with pytest.raises(CommandError, match=r"hall\.yaml cannot be read: No such file or directory\."):
+        read_floor(tmp_path / "hall.yaml")
+    (tmp_path / "hall.yaml").write_bytes(write_yaml(FLOOR, "hall.pgm"))
+    with pytest.raises(CommandError, match=r"hall\.pgm cannot be read"):
+        read_floor(tmp_path / "hall.yaml")
+    (tmp_path / "hall.pgm").write_bytes(write_pgm(FLOOR))
+    assert read_floor(tmp_path / "hall.yaml") == FLOOR
