@@ -13,11 +13,12 @@ from registry import services
 from registry.floorplan.comparison import Trouble
 from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.floorplan.plan import Grid
+from registry.floorplan.zone_masks import write_nav2_archive
 from registry.people.access import require
 from registry.shapes import MapShape, Origin, sends, signed_in
 
 router = Router(tags=["registry"])
-CELLS, PGM = "application/octet-stream", "image/x-portable-graymap"
+CELLS, PGM, ZIP = "application/octet-stream", "image/x-portable-graymap", "application/zip"
 
 
 class MapVersionShape(Schema):
@@ -132,6 +133,14 @@ def download_pgm(request: HttpRequest, slug: str) -> HttpResponse:
     """Send the map's image in the ROS form."""
     require(signed_in(request), slug, "viewer")
     return _download(write_pgm(services.get_map(site=slug).grid), f"{slug}.pgm", PGM)
+
+
+@router.get("/sites/{slug}/map.nav2.zip", openapi_extra=sends(ZIP))
+def download_nav2_masks(request: HttpRequest, slug: str) -> HttpResponse:
+    """Send the site's keep-out and slow zones as Nav2's masks over the map, with the parameters of its filters."""
+    require(signed_in(request), slug, "viewer")
+    masks = write_nav2_archive(services.get_map(site=slug).grid, services.list_zones(site=slug))
+    return _download(masks, f"{slug}.nav2.zip", ZIP)
 
 
 def _yaml(grid: Grid, name: str) -> HttpResponse:
