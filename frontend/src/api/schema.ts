@@ -2278,6 +2278,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/map/drawing": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Drawing
+         * @description Read a DXF drawing as lines by layer, so that a map can be made of it. Nothing is kept.
+         */
+        post: operations["read_drawing"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/map/from-device": {
         parameters: {
             query?: never;
@@ -2312,6 +2332,26 @@ export interface paths {
          * @description Show what would change at the site if a map became its own: floor, machines, places and programs.
          */
         post: operations["look_at_map"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/map/read": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Map Files
+         * @description Read a ROS map (two files, or one .zip of both) and send its cells back, to be aligned. Nothing is kept.
+         */
+        post: operations["read_map_files"];
         delete?: never;
         options?: never;
         head?: never;
@@ -3320,6 +3360,14 @@ export interface components {
             walls_gained_m2: number;
             walls_lost_m2: number;
         };
+        /** @description A ROS map as it was read; `cells` are those of `…/map/cells`, packed by zlib and written in base64. */
+        BroughtMapShape: {
+            cells: string;
+            height: number;
+            origin: components["schemas"]["Origin"];
+            resolution_m: number;
+            width: number;
+        };
         /** @description A method of a device, and its arguments by name. */
         CallMethod: {
             /** @default {} */
@@ -3618,6 +3666,20 @@ export interface components {
             broker: string;
             join_key: string;
             site: string;
+        };
+        /** @description What is drawn in a DXF file: `metres` of its unit (null: it does not say), and how many of what were left out. */
+        DrawingShape: {
+            layers: components["schemas"]["DrawnLayer"][];
+            metres: number | null;
+            skipped: {
+                [key: string]: number;
+            };
+        };
+        /** @description A layer of a drawing: lines of x, y, x, y … in units of the drawing; `hidden` is off or frozen there. */
+        DrawnLayer: {
+            hidden: boolean;
+            lines: number[][];
+            name: string;
         };
         /**
          * @description What a script came to: `document` is what the program would be, null while the script is not valid or stale.
@@ -10883,6 +10945,55 @@ export interface operations {
             };
         };
     };
+    read_drawing: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": {
+                    drawing?: string | null;
+                };
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DrawingShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     use_robot_map: {
         parameters: {
             query?: never;
@@ -10961,6 +11072,57 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["BroughtMapDifference"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_map_files: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": {
+                    archive?: string | null;
+                    image?: string | null;
+                    yaml?: string | null;
+                };
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BroughtMapShape"];
                 };
             };
             400: components["responses"]["Refused400"];

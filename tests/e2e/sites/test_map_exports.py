@@ -29,7 +29,7 @@ def fetch(page: Page, form: str) -> tuple[str, bytes]:
 
 
 def test_a_viewer_takes_the_floor_along(sign_in: SignIn) -> None:
-    page = sign_in("viewer", "/sites/painting-factory/map")
+    page = sign_in("author", "/sites/painting-factory/map")
     page.get_by_role("button", name="Download", exact=True).click()
     expect(page.get_by_role("menuitem")).to_have_count(5)
     assert violations(page) == []
