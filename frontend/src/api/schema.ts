@@ -4049,7 +4049,7 @@ export interface components {
             /** @enum {string} */
             why: "outside" | "walled" | "unreachable";
         };
-        /** @description One version of a site's map; `source` is `upload`, `picture`, `edit`, `demo`, `robot:…`, `version:…` or empty. */
+        /** @description One version of a site's map; `source` is `upload`, `picture`, `drawing`, `edit`, `demo`, `robot:…`, `version:…` or empty. */
         MapVersionShape: {
             at: string;
             by: string;
@@ -11219,7 +11219,7 @@ export interface operations {
                      * @default upload
                      * @enum {string}
                      */
-                    source?: "upload" | "picture" | "edit";
+                    source?: "upload" | "picture" | "drawing" | "edit";
                     yaml?: string | null;
                 };
             };

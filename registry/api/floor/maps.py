@@ -25,7 +25,10 @@ CELLS, PGM, ZIP = "application/octet-stream", "image/x-portable-graymap", "appli
 
 
 class MapVersionShape(Schema):
-    """One version of a site's map; `source` is `upload`, `picture`, `edit`, `demo`, `robot:…`, `version:…` or empty."""
+    """One version of a site's map.
+
+    `source` is `upload`, `picture`, `drawing`, `edit`, `demo`, `robot:…`, `version:…` or empty.
+    """
 
     version: int
     width: int
