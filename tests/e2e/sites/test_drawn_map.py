@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from typing import Any
 
 import ezdxf
@@ -48,7 +49,7 @@ def test_a_drawing_is_read_aligned_and_looked_at_before_it_replaces_the_map(sign
     use = page.get_by_role("button", name="Use this map")
     expect(use).to_be_disabled()
     unit.select_option(label="a millimetre")
-    expect(page.get_by_text("What is chosen is 12.0 m × 8.0 m.")).to_be_visible()
+    expect(page.get_by_text(re.compile(r"What is chosen is 12\.0.m . 8\.0.m"))).to_be_visible()
     expect(page.get_by_role("checkbox", name="WALLS, one line")).to_be_checked()
     expect(page.get_by_role("checkbox", name="AXES")).not_to_be_checked()
     expect(page.get_by_text("One part of the drawing is no line")).to_be_visible()
