@@ -4049,7 +4049,11 @@ export interface components {
             /** @enum {string} */
             why: "outside" | "walled" | "unreachable";
         };
-        /** @description One version of a site's map; `source` is `upload`, `picture`, `drawing`, `edit`, `demo`, `robot:…`, `version:…` or empty. */
+        /**
+         * @description One version of a site's map.
+         *
+         *     `source` is `upload`, `picture`, `drawing`, `edit`, `demo`, `robot:…`, `version:…` or empty.
+         */
         MapVersionShape: {
             at: string;
             by: string;
