@@ -22,10 +22,11 @@ export function MapPane({ map, title, points = [], labelOf, put }: PaneProps) {
     if (canvas.current) paintCells(canvas.current, map);
   }, [map]);
   const scale = width ? map.width / width : 1;
+  const ratio = map.width / map.height;
   return (
     <figure className={styles.pane}>
       <figcaption>{title}</figcaption>
-      <div ref={element} className={styles.picture} style={{ aspectRatio: map.width / map.height }}>
+      <div ref={element} className={styles.picture} style={{ aspectRatio: ratio, maxWidth: `${String(68 * ratio)}vh` }}>
         <canvas ref={canvas} role="img" aria-label={title} />
         <svg viewBox={`0 0 ${String(map.width)} ${String(map.height)}`}>
           {points.map((at, index) => (
