@@ -65,9 +65,9 @@ def test_a_drawing_is_read_aligned_and_looked_at_before_it_replaces_the_map(sign
     assert violations(page) == []
     use.click()
     dialog = page.get_by_role("dialog", name="Use this map?")
-    expect(dialog.get_by_text("What it would trouble")).to_be_visible()
+    expect(dialog.get_by_text("New walls")).to_be_visible()
     assert violations(page) == []
-    dialog.get_by_role("button", name="Cancel").click()
+    dialog.get_by_role("button", name="Keep as it is").click()
     assert version(page) == before
 
 
