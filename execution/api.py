@@ -11,6 +11,7 @@ from ninja.responses import Status
 
 from execution import services
 from execution.errors import NotFound, NoWay
+from execution.floor.exports.routes import router as exports_router
 from execution.floor.map_routes import router as map_router
 from execution.operations.routes import router as operations_router
 from execution.program_tests.routes import router as program_tests_router
@@ -51,6 +52,7 @@ from vipo_device.descriptions.thing_description import DEVICE_URN
 
 router = Router(tags=["execution"])
 router.add_router("", map_router)
+router.add_router("", exports_router)
 router.add_router("", operations_router)
 router.add_router("", program_tests_router)
 router.add_router("", retention_router)

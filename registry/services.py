@@ -80,6 +80,7 @@ from registry.devices.samples import flush_samples, note_samples, prune_samples
 from registry.devices.states import StateMessage, ingest_state, ingest_states
 from registry.devices.views import DeviceView, device_to_json
 from registry.live.fanout import EVERY_SITE, Message, Outage, listen, publish, publish_all, subscribe, wait_wake, wake
+from registry.maps.drawings import BadDrawing, read_brought_drawing
 from registry.maps.places import PlaceChange, add_place, change_place, find_place, remove_place
 from registry.maps.robot_map_parts import ingest_map_part
 from registry.maps.robot_maps import NoRobotMap, RobotMapFacts, RobotMapView, get_robot_map, get_robot_map_facts
@@ -162,6 +163,7 @@ __all__ = [
     "AlertCode",
     "AlertView",
     "BadDevice",
+    "BadDrawing",
     "Claim",
     "Decided",
     "DeliveryFacts",
@@ -325,6 +327,7 @@ __all__ = [
     "publish_all",
     "raise_alert",
     "raise_alerts",
+    "read_brought_drawing",
     "read_demo_descriptions",
     "read_history",
     "read_time",

@@ -29,7 +29,7 @@ _TAGS: dict[str, Any] = {
     ],
     **refuses(412, 428),
 }
-Source = Literal["upload", "picture", "edit"]
+Source = Literal["upload", "picture", "drawing", "edit"]
 
 
 class MapOvertaken(ExecutionError):

@@ -1,10 +1,11 @@
-"""A map's two files in one zip archive, as people send them about; what unpacking may cost is bounded beforehand."""
+"""Map files in one zip archive, as people send them about; what unpacking may cost is bounded beforehand."""
 
 from __future__ import annotations
 
 import io
 import zipfile
 import zlib
+from collections.abc import Mapping
 from pathlib import PurePosixPath
 
 from registry.floorplan.map_server import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap, read_header
@@ -24,6 +25,15 @@ def open_archive(data: bytes) -> tuple[bytes, bytes | None]:
             return _take_out(archive)
     except _ODD as error:
         raise BadMap("The .zip file cannot be opened. Pack the map's .yaml file and its image again.") from error
+
+
+def write_archive(files: Mapping[str, bytes]) -> bytes:
+    """Return a .zip of files by their names; the same files make the same bytes."""
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in files.items():
+            archive.writestr(zipfile.ZipInfo(name), data, compress_type=zipfile.ZIP_DEFLATED)
+    return packed.getvalue()
 
 
 def _take_out(archive: zipfile.ZipFile) -> tuple[bytes, bytes | None]:

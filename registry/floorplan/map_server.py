@@ -331,8 +331,8 @@ def write_yaml(grid: Grid, image: str) -> bytes:
     lines = (
         f"image: {image}",
         "mode: trinary",
-        f"resolution: {_plain(grid.resolution_m)}",
-        f"origin: [{_plain(grid.origin_x_m)}, {_plain(grid.origin_y_m)}, 0]",
+        f"resolution: {plain_number(grid.resolution_m)}",
+        f"origin: [{plain_number(grid.origin_x_m)}, {plain_number(grid.origin_y_m)}, 0]",
         "negate: 0",
         "occupied_thresh: 0.65",
         "free_thresh: 0.196",
@@ -340,6 +340,6 @@ def write_yaml(grid: Grid, image: str) -> bytes:
     return ("\n".join(lines) + "\n").encode()
 
 
-def _plain(value: float) -> str:
+def plain_number(value: float) -> str:
     """Return the shortest decimal that means this very number, without an exponent, which not every reader takes."""
     return np.format_float_positional(value, trim="0")

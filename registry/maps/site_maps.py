@@ -58,7 +58,10 @@ class MapView:
 
 @dataclass(frozen=True, slots=True)
 class MapVersionView:
-    """One version of a site's map; `source` is `upload`, `picture`, `edit`, `demo`, `robot:…`, `version:…` or empty."""
+    """One version of a site's map.
+
+    `source` is `upload`, `picture`, `drawing`, `edit`, `demo`, `robot:…`, `version:…` or empty.
+    """
 
     version: int
     width: int

@@ -67,7 +67,7 @@ def create_site_from_map(*, name: str, files: MapFiles, admin: User) -> SiteView
 
 def read_upload(*, files: MapFiles, by: User) -> Grid:
     """Return the grid of a map that somebody brings. Raises BadMap, TooManyUploads."""
-    return _in_turn(by, lambda: _read(files))
+    return in_turn(by, lambda: _read(files))
 
 
 def look_at_upload(*, site: str, files: MapFiles, by: User) -> tuple[Grid, int, MapDifference]:
@@ -80,10 +80,10 @@ def look_at_upload(*, site: str, files: MapFiles, by: User) -> tuple[Grid, int, 
         grid = _read(files)
         return (grid, *compare_with_site(site=site, grid=grid))
 
-    return _in_turn(by, look)
+    return in_turn(by, look)
 
 
-def _in_turn(by: User, work: Callable[[], Made]) -> Made:
+def in_turn(by: User, work: Callable[[], Made]) -> Made:
     """Do what costs much, two at once in this process and one of a person. Raises TooManyUploads."""
     claim = Claim(by.pk)
     if not reading_places.take(claim, patience_s=READING_PATIENCE_S):

@@ -64,7 +64,8 @@ DEEDS = (
         list_events list_armed get_call list_questions plan_route plan_routes list_runs show_site list_alerts
         look_at_description list_devices export_devices show_device list_device_events show_property_history
         show_robot_map download_robot_pgm download_robot_yaml show_robot_cells show_difference show_rdf show_map
-        download_pgm download_yaml show_cells list_map_versions show_map_version show_version_cells show_place
+        download_pgm download_yaml download_nav2_masks
+        download_lif download_building show_cells list_map_versions show_map_version show_version_cells show_place
         show_zone current probe sample current_of_device probe_device sample_of_device list_programs ask post_query
         list_things watch_things show_thing read_expression show_values show_value watch_value await_next_value
         query_action list_threads show_thread mark_thread_read
@@ -109,7 +110,7 @@ DEEDS = (
         "admin",
         """edit_device approve_device reject_device retire_device readmit_device rotate_credential revoke_credential
         confirm_topic withdraw_topic renew_enrolment_key reserve_device use_robot_map restore_map add_place edit_place
-        upload_map look_at_map remove_place add_zone edit_zone remove_zone patch_thing""",
+        upload_map look_at_map read_drawing read_map_files remove_place add_zone edit_zone remove_zone patch_thing""",
     ),
     _deed(
         "keep",

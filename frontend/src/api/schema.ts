@@ -1582,6 +1582,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site}/map.building.yaml": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Building
+         * @description Send the floor as a building map of Open-RMF: its walls, places and lanes, in metres of the map frame.
+         *
+         *     Lanes are the routes that VIPO's planner finds between places; they lead round keep-outs.
+         */
+        get: operations["download_building"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/map.lif.json": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Lif
+         * @description Send the floor's places and roads as LIF 1.0 (VDMA's layout interchange format of VDA 5050).
+         *
+         *     Roads are the routes that VIPO's planner finds between places; they lead round keep-outs.
+         */
+        get: operations["download_lif"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site}/operations": {
         parameters: {
             query?: never;
@@ -2466,6 +2510,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/map.nav2.zip": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Nav2 Masks
+         * @description Send the site's keep-out and slow zones as Nav2's masks over the map, with the parameters of its filters.
+         */
+        get: operations["download_nav2_masks"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/map.pgm": {
         parameters: {
             query?: never;
@@ -2526,6 +2590,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/map/drawing": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Drawing
+         * @description Read a DXF drawing as lines by layer, so that a map can be made of it. Nothing is kept.
+         */
+        post: operations["read_drawing"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/map/from-device": {
         parameters: {
             query?: never;
@@ -2560,6 +2644,26 @@ export interface paths {
          * @description Show what would change at the site if a map became its own: floor, machines, places and programs.
          */
         post: operations["look_at_map"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/map/read": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Map Files
+         * @description Read a ROS map (two files, or one .zip of both) and send its cells back, to be aligned. Nothing is kept.
+         */
+        post: operations["read_map_files"];
         delete?: never;
         options?: never;
         head?: never;
@@ -3578,6 +3682,14 @@ export interface components {
             walls_gained_m2: number;
             walls_lost_m2: number;
         };
+        /** @description A ROS map as it was read; `cells` are those of `…/map/cells`, packed by zlib and written in base64. */
+        BroughtMapShape: {
+            cells: string;
+            height: number;
+            origin: components["schemas"]["Origin"];
+            resolution_m: number;
+            width: number;
+        };
         /** @description A method of a device, and its arguments by name. */
         CallMethod: {
             /** @default {} */
@@ -3904,6 +4016,20 @@ export interface components {
             broker: string;
             join_key: string;
             site: string;
+        };
+        /** @description What is drawn in a DXF file: `metres` of its unit (null: it does not say), and how many of what were left out. */
+        DrawingShape: {
+            layers: components["schemas"]["DrawnLayer"][];
+            metres: number | null;
+            skipped: {
+                [key: string]: number;
+            };
+        };
+        /** @description A layer of a drawing: lines of x, y, x, y … in units of the drawing; `hidden` is off or frozen there. */
+        DrawnLayer: {
+            hidden: boolean;
+            lines: number[][];
+            name: string;
         };
         /**
          * @description What a script came to: `document` is what the program would be, null while the script is not valid or stale.
@@ -4342,7 +4468,11 @@ export interface components {
             /** @enum {string} */
             why: "outside" | "walled" | "unreachable";
         };
-        /** @description One version of a site's map; `source` is `upload`, `picture`, `edit`, `demo`, `robot:…`, `version:…` or empty. */
+        /**
+         * @description One version of a site's map.
+         *
+         *     `source` is `upload`, `picture`, `drawing`, `edit`, `demo`, `robot:…`, `version:…` or empty.
+         */
         MapVersionShape: {
             at: string;
             by: string;
@@ -9900,6 +10030,84 @@ export interface operations {
             };
         };
     };
+    download_building: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/yaml": Record<string, never>;
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    download_lif: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": Record<string, never>;
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     show_operations: {
         parameters: {
             query?: never;
@@ -11990,6 +12198,45 @@ export interface operations {
             };
         };
     };
+    download_nav2_masks: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": string;
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     download_pgm: {
         parameters: {
             query?: never;
@@ -12107,6 +12354,55 @@ export interface operations {
             };
         };
     };
+    read_drawing: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": {
+                    drawing?: string | null;
+                };
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DrawingShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     use_robot_map: {
         parameters: {
             query?: never;
@@ -12207,6 +12503,57 @@ export interface operations {
             };
         };
     };
+    read_map_files: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": {
+                    archive?: string | null;
+                    image?: string | null;
+                    yaml?: string | null;
+                };
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BroughtMapShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     restore_map: {
         parameters: {
             query?: never;
@@ -12281,7 +12628,7 @@ export interface operations {
                      * @default upload
                      * @enum {string}
                      */
-                    source?: "upload" | "picture" | "edit";
+                    source?: "upload" | "picture" | "drawing" | "edit";
                     yaml?: string | null;
                 };
             };

@@ -6,7 +6,7 @@ import type { components } from "./schema";
 
 export type BroughtMapDifference = components["schemas"]["BroughtMapDifference"];
 type MapVersionInfo = components["schemas"]["OldMapShape"];
-export type MapSource = "upload" | "picture" | "edit";
+export type MapSource = "upload" | "picture" | "drawing" | "edit";
 
 interface Brought {
   form: FormData;

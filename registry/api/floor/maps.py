@@ -3,25 +3,32 @@
 from __future__ import annotations
 
 import gzip
+import zlib
+from base64 import b64encode
 from dataclasses import asdict
 from typing import Any
 
 from django.http import HttpRequest, HttpResponse
-from ninja import Router, Schema
+from ninja import File, Router, Schema
+from ninja.files import UploadedFile
 
 from registry import services
 from registry.floorplan.comparison import Trouble
 from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.floorplan.plan import Grid
+from registry.floorplan.zone_masks import write_nav2_archive
 from registry.people.access import require
 from registry.shapes import MapShape, Origin, sends, signed_in
 
 router = Router(tags=["registry"])
-CELLS, PGM = "application/octet-stream", "image/x-portable-graymap"
+CELLS, PGM, ZIP = "application/octet-stream", "image/x-portable-graymap", "application/zip"
 
 
 class MapVersionShape(Schema):
-    """One version of a site's map; `source` is `upload`, `picture`, `edit`, `demo`, `robot:…`, `version:…` or empty."""
+    """One version of a site's map.
+
+    `source` is `upload`, `picture`, `drawing`, `edit`, `demo`, `robot:…`, `version:…` or empty.
+    """
 
     version: int
     width: int
@@ -78,6 +85,55 @@ class MapDifferenceShape(Schema):
     troubles: list[MapTroubleShape]
 
 
+class DrawnLayer(Schema):
+    """A layer of a drawing: lines of x, y, x, y … in units of the drawing; `hidden` is off or frozen there."""
+
+    name: str
+    hidden: bool
+    lines: list[list[float]]
+
+
+class DrawingShape(Schema):
+    """What is drawn in a DXF file: `metres` of its unit (null: it does not say), and how many of what were left out."""
+
+    metres: float | None
+    layers: list[DrawnLayer]
+    skipped: dict[str, int]
+
+
+class BroughtMapShape(Schema):
+    """A ROS map as it was read; `cells` are those of `…/map/cells`, packed by zlib and written in base64."""
+
+    width: int
+    height: int
+    resolution_m: float
+    origin: Origin
+    cells: str
+
+
+@router.post("/sites/{slug}/map/drawing", response=DrawingShape)
+def read_drawing(request: HttpRequest, slug: str, drawing: File[UploadedFile | None] = None) -> dict[str, Any]:
+    """Read a DXF drawing as lines by layer, so that a map can be made of it. Nothing is kept."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    return services.read_brought_drawing(drawing=drawing, by=user)
+
+
+@router.post("/sites/{slug}/map/read", response=BroughtMapShape)
+def read_map_files(
+    request: HttpRequest,
+    slug: str,
+    yaml: File[UploadedFile | None] = None,
+    image: File[UploadedFile | None] = None,
+    archive: File[UploadedFile | None] = None,
+) -> dict[str, Any]:
+    """Read a ROS map (two files, or one .zip of both) and send its cells back, to be aligned. Nothing is kept."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    grid = services.read_upload(files=services.MapFiles(yaml, image, archive), by=user)
+    return {**_measures(grid), "cells": b64encode(zlib.compress(grid.cells, 5)).decode()}
+
+
 @router.get("/sites/{slug}/map", response=MapShape)
 def show_map(request: HttpRequest, slug: str) -> dict[str, Any]:
     """Show a site's map without its cells."""
@@ -132,6 +188,14 @@ def download_pgm(request: HttpRequest, slug: str) -> HttpResponse:
     """Send the map's image in the ROS form."""
     require(signed_in(request), slug, "viewer")
     return _download(write_pgm(services.get_map(site=slug).grid), f"{slug}.pgm", PGM)
+
+
+@router.get("/sites/{slug}/map.nav2.zip", openapi_extra=sends(ZIP))
+def download_nav2_masks(request: HttpRequest, slug: str) -> HttpResponse:
+    """Send the site's keep-out and slow zones as Nav2's masks over the map, with the parameters of its filters."""
+    require(signed_in(request), slug, "viewer")
+    masks = write_nav2_archive(services.get_map(site=slug).grid, services.list_zones(site=slug))
+    return _download(masks, f"{slug}.nav2.zip", ZIP)
 
 
 def _yaml(grid: Grid, name: str) -> HttpResponse:

@@ -67,7 +67,7 @@ def test_an_empty_site_comes_to_its_first_program_and_a_change_of_its_map(sign_i
     )
     assert violations(page) == []
     card.get_by_role("link", name="Upload a map").click()
-    page.get_by_label("Choose both files, or drop them here").set_input_files(write_hall(tmp_path))
+    page.get_by_label("Choose a map, a picture or a drawing, or drop it here").set_input_files(write_hall(tmp_path))
     page.get_by_role("button", name="Use this map").click()
     expect(page).to_have_url(re.compile("/sites/bare-hall/map$"))
 

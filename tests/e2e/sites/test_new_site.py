@@ -50,7 +50,9 @@ def choose(page: Page, parent: Path, header: str, image: str, body: bytes) -> No
     folder.mkdir()
     (folder / "hall.yaml").write_text(header)
     (folder / image).write_bytes(body)
-    page.get_by_label("Choose both files, or drop them here").set_input_files([folder / "hall.yaml", folder / image])
+    page.get_by_label("Choose a map, a picture or a drawing, or drop it here").set_input_files(
+        [folder / "hall.yaml", folder / image]
+    )
 
 
 @pytest.mark.parametrize(("image", "encode"), [("hall.pgm", pgm), ("hall.png", png)])
@@ -81,7 +83,7 @@ def test_a_broken_map_is_explained_at_the_field_and_can_be_mended(
     page.get_by_role("button", name="Create the site").click()
     problem = page.get_by_role("main").get_by_role("alert")
     expect(problem).to_have_text(re.compile(r"^[A-Z].{20,}\.$"))
-    field = page.get_by_label("Choose both files, or drop them here")
+    field = page.get_by_label("Choose a map, a picture or a drawing, or drop it here")
     expect(field).to_have_accessible_description(re.compile(r"^[A-Z].{20,}\.$"))
     choose(page, tmp_path, "image: hall.pgm\nresolution: nonsense\n", "hall.pgm", pgm(hall()))
     page.get_by_role("button", name="Create the site").click()

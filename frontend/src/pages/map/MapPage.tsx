@@ -17,7 +17,7 @@ import { PageShell } from "@/shell/PageShell";
 import { type Point, toPixels } from "@/map/plane/projection";
 import { MovableMachine } from "../devices/MovableMachine";
 import { EditMapButton } from "./EditMapButton";
-import { MapDownloads } from "./MapDownloads";
+import { MapExports } from "./MapExports";
 import styles from "./MapPage.module.css";
 import { MappingRobots } from "./MappingRobots";
 import { MapVersions } from "./MapVersions";
@@ -158,7 +158,7 @@ export function MapPage() {
           <>
             {site.data?.role === "admin" ? <ModeButtons mode={mode} change={setMode} /> : null}
             {site.data?.role === "admin" ? <EditMapButton slug={slug} /> : null}
-            <MapDownloads fileOf={(form) => `/api/sites/${slug}/map.${form}`} />
+            <MapExports slug={slug} />
           </>
         ) : null
       }

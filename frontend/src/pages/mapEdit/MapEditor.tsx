@@ -6,6 +6,7 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate } from "react-router-dom";
 import { useDevices } from "@/api/queries";
+import { rosForm } from "@/map/floor/rosFiles";
 import type { Site, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { IconButton } from "@/design/IconButton";
@@ -98,7 +99,10 @@ export function MapEditor({ site, newest }: { site: Site; newest: SiteMap }) {
       {stage === "saving" ? (
         <SaveDialog
           slug={site.slug}
-          map={edits.now}
+          title={t("mapEdit.ask")}
+          action={t("mapEdit.save")}
+          makeForm={() => rosForm(edits.now)}
+          source="edit"
           base={base.version}
           newest={newest.version}
           onSaved={saved}

@@ -1,14 +1,13 @@
-/** Before a changed map is saved: what it changes, and which machines, places and programs it troubles. */
+/** Before a changed or brought map is saved: what it changes, and which machines, places and programs it troubles. */
 import { Button, Modal, Skeleton } from "@mantine/core";
 import { TriangleAlert } from "lucide-react";
-import { useEffect } from "react";
+import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { ApiProblem } from "@/api/client";
-import { useBringMap, useLookAtMap, type BroughtMapDifference } from "@/api/siteMaps";
+import { useBringMap, useLookAtMap, type BroughtMapDifference, type MapSource } from "@/api/siteMaps";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatNumber, withUnit } from "@/i18n/format";
-import { rosForm, type CellMap } from "@/map/floor/rosFiles";
 import { problemText } from "@/shell/LoadProblem";
 import styles from "./mapEdit.module.css";
 
@@ -21,7 +20,12 @@ const AMOUNTS = [
 
 interface SaveProps {
   slug: string;
-  map: CellMap;
+  title: string;
+  /** What saving is called while nobody has saved another one. */
+  action: string;
+  /** The map as the server takes it; made once. */
+  makeForm: () => FormData;
+  source: MapSource;
   /** The version that was changed, and the one that the site has by now. */
   base: number;
   newest: number;
@@ -29,21 +33,18 @@ interface SaveProps {
   onClose: () => void;
 }
 
-export function SaveDialog({ slug, map, base, newest, onSaved, onClose }: SaveProps) {
+export function SaveDialog({ slug, title, action, makeForm, source, base, newest, onSaved, onClose }: SaveProps) {
   const { t } = useTranslation();
   useReturnFocus();
   const { mutate: lookAt, ...look } = useLookAtMap(slug);
   const bring = useBringMap(slug);
-  useEffect(() => lookAt(rosForm(map)), [lookAt, map]);
+  const [form] = useState(makeForm);
+  useEffect(() => lookAt(form), [lookAt, form]);
   const isOvertaken = newest > base || (bring.error instanceof ApiProblem && bring.error.status === 412);
-  const save = () =>
-    bring.mutate(
-      { form: rosForm(map), source: "edit", replaces: newest },
-      { onSuccess: ({ version }) => onSaved(version) },
-    );
+  const save = () => bring.mutate({ form, source, replaces: newest }, { onSuccess: ({ version }) => onSaved(version) });
   const problem = look.error ?? (isOvertaken ? null : bring.error);
   return (
-    <Modal opened onClose={onClose} title={t("mapEdit.ask")} size={560}>
+    <Modal opened onClose={onClose} title={title} size={560}>
       <div className={styles.dialog}>
         {look.data ? <Difference slug={slug} difference={look.data} /> : null}
         {look.isPending ? <Skeleton height={120} radius="md" /> : null}
@@ -63,7 +64,7 @@ export function SaveDialog({ slug, map, base, newest, onSaved, onClose }: SavePr
             {t("keys.cancel")}
           </Button>
           <Button loading={bring.isPending} disabled={!look.data} onClick={save}>
-            {t(isOvertaken ? "mapEdit.saveOver" : "mapEdit.save")}
+            {isOvertaken ? t("mapEdit.saveOver") : action}
           </Button>
         </div>
       </div>

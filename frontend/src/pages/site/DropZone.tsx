@@ -33,12 +33,12 @@ export function DropZone({ files, problem, choose }: DropZoneProps) {
         onDrop={drop}
       >
         <FileUp size={22} aria-hidden="true" />
-        <b>{t("pages.newSite.choose")}</b>
-        <span>{t("pages.newSite.chooseText")}</span>
+        <b>{t("mapImport.choose")}</b>
+        <span>{t("mapImport.chooseText")}</span>
         <input
           type="file"
           multiple
-          accept=".yaml,.yml,.pgm,.png,.zip,.jpg,.jpeg,.webp"
+          accept=".yaml,.yml,.pgm,.png,.zip,.jpg,.jpeg,.webp,.dxf"
           className="visually-hidden"
           aria-describedby={problem ? "map-problem" : undefined}
           // The same file chosen again, after it was mended, must count as a choice too.
@@ -65,7 +65,8 @@ function Parts({ files }: { files: MapFiles }) {
     ["yaml", files.yaml],
     ["image", files.image],
   ];
-  const parts = files.archive ? [["archive", files.archive] as const] : isPicture ? two.slice(1) : two;
+  const whole = files.archive ?? files.drawing;
+  const parts = whole ? [["archive", whole] as const] : isPicture ? two.slice(1) : two;
   return (
     <ul className={styles.parts}>
       {parts.map(([part, file]) => (

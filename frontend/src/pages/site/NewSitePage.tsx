@@ -60,8 +60,8 @@ function NewSite() {
   const problem = create.isError ? problemText(create.error, t("shell.problem.screen")) : null;
   const aboutName = create.error instanceof ApiProblem && /name|site/.test(create.error.code);
   const choose = (chosen: readonly File[]) => {
-    const { yaml, archive, image } = choice.choose(chosen);
-    const named = yaml ?? archive ?? image;
+    const { yaml, archive, image, drawing } = choice.choose(chosen);
+    const named = yaml ?? archive ?? image ?? drawing;
     if (!name && named) setName(nameFrom(named.name));
     create.reset();
   };
@@ -78,7 +78,11 @@ function NewSite() {
             <h2>{t("pages.newSite.title")}</h2>
             <p>{t("pages.newSite.text")}</p>
           </div>
-          <MapChoiceFields choice={choice} problem={aboutName ? null : problem} choose={choose} />
+          <MapChoiceFields
+            choice={choice}
+            problem={choice.files.drawing ? t("mapImport.afterSite") : aboutName ? null : problem}
+            choose={choose}
+          />
           <TextInput
             label={t("pages.newSite.name")}
             placeholder={t("pages.newSite.namePlaceholder")}

@@ -38,3 +38,9 @@ test("an image without a header is a picture of a plan, but for a PGM", () => {
   expect(kindOf(sortFiles(NONE, [file("hall.zip")]))).toBe("map");
   expect(kindOf(NONE)).toBe("none");
 });
+
+test("a drawing stands for itself, and a file of a map for it", () => {
+  const drawn = sortFiles({ ...NONE, yaml: file("a.yaml") }, [file("Hall.DXF")]);
+  expect([drawn.yaml, drawn.drawing?.name, kindOf(drawn)]).toEqual([null, "Hall.DXF", "drawing"]);
+  expect(kindOf(sortFiles(drawn, [file("b.yaml")]))).toBe("map");
+});

@@ -3,27 +3,16 @@ import { useDeferredValue, useEffect, useRef } from "react";
 import { useTranslation } from "react-i18next";
 import { useSize } from "@/map/plane/useSize";
 import { MeasuredLine } from "./MeasuredLine";
+import { paintCells } from "./paintCells";
 import { mapFromPicture, type Picture, type PlanReading } from "./picture";
 import styles from "./plan.module.css";
 
 /** In the preview a cell is a pixel, however large that is. */
 const PIXEL_BY_PIXEL = { line: [[0, 0], [20, 0]], length: 1 } as const; // prettier-ignore
-const COLOURS: Readonly<Record<number, number>> = { 0: 0xffffffff, 100: 0xff59493f };
-const UNKNOWN_COLOUR = 0xffd5cdc8;
 
 function paint(canvas: HTMLCanvasElement, picture: Picture, reading: PlanReading): void {
   const map = mapFromPicture(picture, { ...reading, ...PIXEL_BY_PIXEL });
-  const context = canvas.getContext("2d");
-  if (!map || !context) return;
-  canvas.width = map.width;
-  canvas.height = map.height;
-  const image = context.createImageData(map.width, map.height);
-  const pixels = new Uint32Array(image.data.buffer);
-  for (let row = 0; row < map.height; row += 1)
-    for (let column = 0; column < map.width; column += 1)
-      pixels[(map.height - 1 - row) * map.width + column] =
-        COLOURS[map.cells[row * map.width + column] ?? 255] ?? UNKNOWN_COLOUR;
-  context.putImageData(image, 0, 0);
+  if (map) paintCells(canvas, map);
 }
 
 interface PreviewProps {

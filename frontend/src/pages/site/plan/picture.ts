@@ -22,7 +22,7 @@ export interface PlanReading {
   readonly outsideUnknown: boolean;
 }
 
-const [FREE, WALL, UNKNOWN] = [0, 100, 255];
+export const [FREE, WALL, UNKNOWN] = [0, 100, 255];
 /** Metres: pixels are put together to cells of about this size. */
 const USUAL_CELL = 0.05;
 const [LEAST_CELL, MOST_CELL] = [0.001, 10];
@@ -79,7 +79,7 @@ function round(metres: number): number {
 }
 
 /** Make unknown what is floor and joined to the edge. */
-function floodFromEdge(cells: Uint8Array, width: number, height: number): void {
+export function floodFromEdge(cells: Uint8Array, width: number, height: number): void {
   const waiting: number[] = [];
   const visit = (at: number) => {
     if (cells[at] !== FREE) return;

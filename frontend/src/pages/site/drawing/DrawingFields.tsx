@@ -1,0 +1,92 @@
+/** What is said about a DXF drawing: its unit, which layers are walls, how thick these are, how large a cell is. */
+import { Checkbox, NativeSelect, NumberInput, Switch } from "@mantine/core";
+import { useTranslation } from "react-i18next";
+import { formatNumber, withUnit } from "@/i18n/format";
+import { isTooFine, sizeOf, UNITS, type Drawing, type DrawingReading } from "./drawing";
+import styles from "./drawing.module.css";
+
+interface FieldsProps {
+  drawing: Drawing;
+  reading: DrawingReading;
+  change: (reading: DrawingReading) => void;
+}
+
+export function DrawingFields({ drawing, reading, change }: FieldsProps) {
+  const { t } = useTranslation();
+  const size = sizeOf(drawing, reading);
+  const metres = (value: number) => withUnit(formatNumber(value, 1), "m");
+  const skipped = Object.values(drawing.skipped).reduce((sum, count) => sum + count, 0);
+  return (
+    <div className={styles.fields}>
+      <NativeSelect
+        label={t("mapImport.drawing.unit")}
+        description={t(drawing.metres === null ? "mapImport.drawing.unitAsked" : "mapImport.drawing.unitSaid")}
+        value={String(reading.metres)}
+        onChange={(event) => change({ ...reading, metres: Number(event.currentTarget.value) })}
+        data={[
+          ...(reading.metres ? [] : [{ value: "0", label: t("mapImport.drawing.chooseUnit") }]),
+          ...Object.entries(UNITS).map(([name, value]) => ({
+            value: String(value),
+            label: t(`mapImport.drawing.units.${name}`),
+          })),
+        ]}
+      />
+      {size ? <p>{t("mapImport.drawing.size", { width: metres(size.width), height: metres(size.height) })}</p> : null}
+      <Layers drawing={drawing} reading={reading} change={change} />
+      <div className={styles.pair}>
+        <NumberInput
+          label={t("mapImport.drawing.thickness")}
+          suffix=" m"
+          min={0}
+          max={2}
+          step={0.05}
+          decimalScale={3}
+          value={reading.thickness}
+          onChange={(value) => change({ ...reading, thickness: Math.min(2, Math.max(0, Number(value) || 0)) })}
+        />
+        <NumberInput
+          label={t("mapImport.drawing.cell")}
+          suffix=" m"
+          min={0.01}
+          max={1}
+          step={0.01}
+          decimalScale={3}
+          value={reading.cell}
+          error={isTooFine(drawing, reading) ? t("mapImport.drawing.tooFine") : null}
+          onChange={(value) => change({ ...reading, cell: Math.min(1, Math.max(0.01, Number(value) || 0.05)) })}
+        />
+      </div>
+      <Switch
+        label={t("mapEdit.plan.outside")}
+        checked={reading.outsideUnknown}
+        onChange={(event) => change({ ...reading, outsideUnknown: event.currentTarget.checked })}
+      />
+      {skipped ? <p>{t("mapImport.drawing.skipped", { count: skipped })}</p> : null}
+    </div>
+  );
+}
+
+function Layers({ drawing, reading, change }: FieldsProps) {
+  const { t } = useTranslation();
+  return (
+    <Checkbox.Group
+      label={t("mapImport.drawing.layers")}
+      value={[...reading.layers]}
+      error={reading.layers.length === 0 ? t("mapImport.drawing.noLayer") : null}
+      onChange={(layers) => change({ ...reading, layers })}
+    >
+      <div className={styles.layers}>
+        {drawing.layers.map(({ name, hidden, lines }) => (
+          <Checkbox
+            key={name}
+            value={name}
+            label={t(hidden ? "mapImport.drawing.hiddenLayer" : "mapImport.drawing.layer", {
+              name,
+              count: lines.length,
+            })}
+          />
+        ))}
+      </div>
+    </Checkbox.Group>
+  );
+}
