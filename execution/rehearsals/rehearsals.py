@@ -51,14 +51,16 @@ def start_rehearsal(
     """
     site = registry.get_site_id(site=prepared.site)
     _refuse_too_many(site, person)  # before the scene is made: who asks too often costs little
-    job = {"plan": prepared.plan, "scene": _scene(prepared, seed, faults), "driver": driver,
-           "parameters": dict(prepared.parameters)}  # fmt: skip
+    scene = _scene(prepared, seed, faults)
+    given = {"driver": driver, "parameters": dict(prepared.parameters)}
+    job = {"plan": prepared.plan, "scene": scene, **given}
+    asked = {"version": prepared.version, "seed": seed, **given, "faults": scene["faults"]["faults"]}
     with transaction.atomic():
         lock_queue()
         _refuse_too_many(site, person)
         row = Rehearsal.objects.create(
-            site_id=site, program=prepared.program, program_name=prepared.name, job=job, document=prepared.document,
-            compiled=prepared.compiled, started_by=by, person=person, created_at=datetime.now(UTC),
+            site_id=site, program=prepared.program, program_name=prepared.name, job=job, asked=asked,
+            document=prepared.document, compiled=prepared.compiled, started_by=by, person=person, created_at=datetime.now(UTC),
         )  # fmt: skip
     transaction.on_commit(lambda: mailbox.send_hint(mailbox.REHEARSE, str(row.id)))
     return view_rehearsal(row, order_of_queue())

@@ -3187,6 +3187,19 @@ export interface components {
         AskRoutes: {
             pairs: components["schemas"]["AskRoute"][];
         };
+        /** @description How a rehearsal was asked for: the version that is rehearsed, and the conditions; steps are named by their ids. */
+        AskedFor: {
+            /** @enum {string} */
+            driver: "physics" | "kinematic";
+            faults: {
+                [key: string]: unknown;
+            }[];
+            parameters: {
+                [key: string]: boolean | number | string;
+            };
+            seed: number;
+            version: number;
+        };
         /** @description A version that waits for the asker's review; `compare_with` is the one before it that was approved last. */
         AskedReviewShape: {
             /** Format: date-time */
@@ -4462,8 +4475,9 @@ export interface components {
             steps: components["schemas"]["RehearsedStep"][];
             waits: components["schemas"]["WaitShape"][];
         };
-        /** @description A rehearsal with its result, once there is one. */
+        /** @description A rehearsal with its result, once there is one; how the oldest were `asked` for is not known. */
         RehearsalShape: {
+            asked: components["schemas"]["AskedFor"] | null;
             began_at: string | null;
             cause: components["schemas"]["Cause"] | null;
             compiled: components["schemas"]["CompiledShape"];

@@ -1,8 +1,6 @@
-import { Button } from "@mantine/core";
-import { ArrowLeft, RefreshCw } from "lucide-react";
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
-import { Link, useParams } from "react-router-dom";
+import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
 import { useDevices, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Rehearsal, RehearsalResult } from "@/api/types";
@@ -10,6 +8,7 @@ import { Crumb, TopBar } from "@/shell/TopBar";
 import { waitWords } from "@/i18n/waits";
 import { useFreshRehearsal } from "@/live/rehearsal";
 import { useSiteLive } from "@/live/site";
+import { Actions } from "./Actions";
 import { MapPane } from "./MapPane";
 import { ResultPanel } from "./ResultPanel";
 import { ScenePane } from "./ScenePane";
@@ -50,6 +49,7 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
       <div className={styles.result}>
         <ResultPanel
           {...{ result, nameOf, numberOf }}
+          asked={rehearsal.asked}
           onJump={(t_s, step) => {
             player.seek(t_s);
             if (step) setSelected(step);
@@ -88,8 +88,9 @@ export function SimulationScreen() {
   const program = useProgram(id).data;
   const site = useSite(program?.site).data;
   const devices = useDevices(program?.site).data ?? NO_DEVICES;
+  const map = useSiteMap(program?.site).data;
   const rehearsal = useFreshRehearsal(rehearsalId);
-  const { start, problem } = useStartRehearsal(id);
+  const { start, problem } = useStartRehearsal(id, rehearsal.data);
   useSiteLive(program?.site);
   const data = rehearsal.data;
   const result = data?.status === "done" ? data.result : null;
@@ -106,16 +107,9 @@ export function SimulationScreen() {
           </>
         }
         actions={
-          <>
-            <Button component={Link} to={`/programs/${id}`} variant="default" leftSection={<ArrowLeft size={16} />}>
-              {t("simulation.backToEditor")}
-            </Button>
-            {result && (
-              <Button onClick={start} leftSection={<RefreshCw size={16} />}>
-                {t("simulation.again")}
-              </Button>
-            )}
-          </>
+          program && site && data ? (
+            <Actions {...{ program, site, map, devices }} rehearsal={data} onAgain={start} />
+          ) : null
         }
       />
       <main className={styles.body}>
