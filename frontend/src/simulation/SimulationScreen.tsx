@@ -5,16 +5,17 @@ import { missing } from "@/api/failed";
 import { useDevices, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Rehearsal, RehearsalResult } from "@/api/types";
 import { Crumb, TopBar } from "@/shell/TopBar";
-import { waitWords } from "@/i18n/waits";
 import { useFreshRehearsal } from "@/live/rehearsal";
 import { useSiteLive } from "@/live/site";
 import { Actions } from "./Actions";
+import { type Incident, incidentsOf } from "./incidents";
+import { incidentWords } from "./incidentWords";
 import { MapPane } from "./MapPane";
 import { ResultPanel } from "./ResultPanel";
 import { ScenePane } from "./ScenePane";
 import styles from "./SimulationScreen.module.css";
 import { neighbour, segmentsOf, stepStarts } from "./timeline";
-import { Transport, type Marker } from "./Transport";
+import { Transport } from "./Transport";
 import { useMoment } from "./useMoment";
 import { useStartRehearsal } from "./useRehearsals";
 import { WaitingPane } from "./waiting/WaitingPane";
@@ -34,12 +35,18 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
   }, [compiled]);
   const segments = useMemo(() => segmentsOf(result.steps, topLevel, result.duration_s), [result, topLevel]);
   const starts = useMemo(() => stepStarts(result.steps), [result]);
+  const incidents = useMemo(() => incidentsOf(result), [result]);
+  const [mapLarge, setMapLarge] = useState(false);
   const nameOf = (id: string) => devices.find((device) => device.id === id)?.name ?? id;
+  const wordsOf = (incident: Incident) => incidentWords(incident, nameOf);
   const numberOf = (step: string) => t("simulation.step", { number: compiled.numbers[step] ?? "" });
   return (
     <>
       <MapPane
-        {...{ map, devices, result, compiled, selected }}
+        {...{ map, devices, result, compiled, selected, incidents, wordsOf }}
+        large={mapLarge}
+        onLarge={() => setMapLarge(!mapLarge)}
+        onJump={player.seek}
         site={program.site}
         document={rehearsal.document}
         moment={player.moment}
@@ -48,7 +55,8 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
       />
       <div className={styles.result}>
         <ResultPanel
-          {...{ result, nameOf, numberOf }}
+          {...{ result, nameOf, numberOf, incidents, wordsOf }}
+          t_s={player.t_s}
           asked={rehearsal.asked}
           onJump={(t_s, step) => {
             player.seek(t_s);
@@ -56,14 +64,20 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
           }}
         />
       </div>
-      <ScenePane {...{ map, devices, result }} moment={player.moment} t_s={player.t_s} playing={player.playing} />
+      <ScenePane
+        {...{ map, devices, result, incidents }}
+        onJump={player.seek}
+        moment={player.moment}
+        t_s={player.t_s}
+        playing={player.playing}
+      />
       <Transport
         t_s={player.t_s}
         duration_s={result.duration_s}
         playing={player.playing}
         speed={player.speed}
         segments={segments}
-        markers={markersOf(result, nameOf)}
+        markers={incidents.map((each) => ({ ...each, label: wordsOf(each) }))}
         titleOf={(step) => compiled.numbers[step] ?? ""}
         onSeek={player.seek}
         onPlay={player.toggle}
@@ -72,13 +86,6 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
       />
     </>
   );
-}
-
-function markersOf(result: RehearsalResult, nameOf: (device: string) => string): Marker[] {
-  return result.waits.map((wait) => ({
-    t_s: wait.t,
-    label: `${nameOf(wait.robot)}: ${waitWords(wait.why, nameOf) ?? wait.reason}`,
-  }));
 }
 
 /** A program's rehearsal: the map and the 3D view at the same moment, the result, and the recording's transport. */

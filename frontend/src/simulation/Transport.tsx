@@ -8,6 +8,8 @@ import type { Segment } from "./timeline";
 export const SPEEDS = [1, 5, 20] as const;
 
 export interface Marker {
+  number: number;
+  kind: string;
   t_s: number;
   label: string;
 }
@@ -142,14 +144,15 @@ function Track(props: TransportProps) {
         if (event.buttons === 1) seek(event);
       }}
     >
-      {markers.map((marker, index) => (
+      {markers.map((marker) => (
         <span
-          key={`${marker.t_s}-${marker.label}`}
+          key={marker.number}
+          data-kind={marker.kind}
           className={styles.marker}
           title={marker.label}
           style={{ left: `${(marker.t_s / Math.max(duration_s, 0.001)) * 100}%` }}
         >
-          {index + 1}
+          {marker.number}
         </span>
       ))}
       <Bar {...props} />
