@@ -13,7 +13,7 @@ class Rehearsal(Archivable):
     """A program tried out in a pretend world.
 
     `person` is whose it is. The worker that carries it out has its `claim`, runs on `machine` and says at `beat_at`, by
-    the database's clock, that it goes on; `tries` counts how often it was begun, `course` says how far it is. `asked` is
+    the database's clock, that it goes on; `tries` counts how often it was begun, `course` says how far it is, `asked`
     how it was asked for: version, seed, driver, parameters, faults.
     """
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from datetime import UTC, datetime, timedelta
-from typing import Any
+from typing import Any, Literal
 from uuid import UUID
 
 from django.conf import settings
@@ -24,6 +24,7 @@ from execution.floor.layouts import place_facts
 from execution.models import Lease, Rehearsal
 from execution.rehearsals.child_process import scene_to_json
 from execution.rehearsals.queue_order import Entry, order_fairly
+from execution.rehearsals.recording_file import write_json, write_mcap
 from execution.rehearsals.views import RehearsalView, view_rehearsal
 from execution.runs.programs import Prepared
 from registry import services as registry
@@ -34,6 +35,7 @@ QUEUE = "rehearsals"
 RUNNING = Rehearsal.Status.RUNNING
 REMEMBERED = timedelta(hours=1)
 """How long it counts, among equals, that somebody's rehearsal was begun."""
+RecordingForm = Literal["json", "mcap"]
 HEAVY = ("job", "document", "compiled", "result")
 
 
@@ -60,7 +62,8 @@ def start_rehearsal(
         _refuse_too_many(site, person)
         row = Rehearsal.objects.create(
             site_id=site, program=prepared.program, program_name=prepared.name, job=job, asked=asked,
-            document=prepared.document, compiled=prepared.compiled, started_by=by, person=person, created_at=datetime.now(UTC),
+            document=prepared.document, compiled=prepared.compiled, started_by=by, person=person,
+            created_at=datetime.now(UTC),
         )  # fmt: skip
     transaction.on_commit(lambda: mailbox.send_hint(mailbox.REHEARSE, str(row.id)))
     return view_rehearsal(row, order_of_queue())
@@ -135,6 +138,20 @@ def get_rehearsal(*, rehearsal_id: UUID | str) -> RehearsalView:
     """
     row = _find(Rehearsal.objects.select_related("archive").defer("job"), rehearsal_id)
     return _view(read_rehearsal(row) if row.archive_id else row)
+
+
+def export_rehearsal(*, rehearsal_id: UUID | str, form: RecordingForm) -> bytes:
+    """Return a rehearsal with its recording as a file.
+
+    Raises:
+        NotFound: there is none.
+        NotPossibleNow: it has no result yet, or came to none.
+        HistoryUnreadable: it is in the archive, which cannot be read.
+    """
+    view = get_rehearsal(rehearsal_id=rehearsal_id)
+    if view.result is None:
+        raise NotPossibleNow(f"The rehearsal has no recording: it is {view.status}. One that is done has one.")
+    return write_json(view) if form == "json" else write_mcap(view)
 
 
 def list_open_rehearsals(*, site: str) -> list[RehearsalView]:

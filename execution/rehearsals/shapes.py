@@ -178,7 +178,7 @@ class RehearsalSummaryShape(Schema):
 
 
 class AskedFor(Schema):
-    """How a rehearsal was asked for: the version that is rehearsed, and the conditions; steps are named by their ids."""
+    """How a rehearsal was asked for: the version, and the conditions; steps are named by their ids."""
 
     version: int
     seed: int

@@ -17,8 +17,8 @@ from execution.views import iso
 class RehearsalView:
     """A rehearsal with its result, once there is one; `progress` goes from 0 to 1.
 
-    `place` counts from 1 in the queue of all sites, while it waits; `tries` is how often it was begun. How it was `asked`
-    for is not known of the oldest.
+    `place` counts from 1 in the queue of all sites, while it waits; `tries` is how often it was begun. How it was
+    `asked` for is not known of the oldest.
     """
 
     id: UUID

@@ -44,7 +44,13 @@ export function Lidar({ map, devices, frames, robot, moment }: LidarProps) {
   }, [map, frames, robot.id, moment, outlines, others]);
   return (
     <figure className={styles.lidar}>
-      <canvas ref={canvas} width={SIDE * 2} height={SIDE * 2} role="img" aria-label={t("simulation.lidarOf", { name: robot.name })} />
+      <canvas
+        ref={canvas}
+        width={SIDE * 2}
+        height={SIDE * 2}
+        role="img"
+        aria-label={t("simulation.lidarOf", { name: robot.name })}
+      />
       <figcaption>
         <b>{t("simulation.lidar")}</b> {robot.name}
         <small>{t("simulation.lidarNote", { range: RANGE_M })}</small>

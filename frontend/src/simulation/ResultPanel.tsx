@@ -114,6 +114,7 @@ export function ResultPanel(props: ResultPanelProps) {
             ? t("simulation.finishes")
             : t("simulation.stopsWithErrors", { count: Math.max(1, result.errors.length) })}
         </span>
+        {props.children}
       </header>
       <Conditions asked={props.asked} />
       <Facts result={result} />

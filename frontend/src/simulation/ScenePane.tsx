@@ -135,7 +135,7 @@ export function ScenePane(props: ScenePaneProps) {
   const seeing = lidar ? placed.find(({ id }) => id === followed) : undefined;
   const summary = robots.map((robot) => `${robot.name} ${stateOf(robot.id)}`.trim()).join(", ");
   return (
-    <section className={`${styles.pane} ${styles.scene}`} aria-label={t("simulation.view3d")}>
+    <section className={`${styles.pane} ${styles.scene}`} aria-label={t("simulation.view3d")} data-scene>
       <CameraBar
         mode={mode}
         onMode={setMode}

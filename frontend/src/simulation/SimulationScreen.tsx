@@ -1,18 +1,21 @@
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
-import { useParams } from "react-router-dom";
+import { useParams, useSearchParams } from "react-router-dom";
 import { missing } from "@/api/failed";
 import { useDevices, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Rehearsal, RehearsalResult } from "@/api/types";
 import { Crumb, TopBar } from "@/shell/TopBar";
 import { useFreshRehearsal } from "@/live/rehearsal";
 import { useSiteLive } from "@/live/site";
+import { momentIn, useMomentInAddress } from "./address";
 import { Actions } from "./Actions";
+import { Filming } from "./Filming";
 import { type Incident, incidentsOf } from "./incidents";
 import { incidentWords } from "./incidentWords";
 import { MapPane } from "./MapPane";
 import { ResultPanel } from "./ResultPanel";
 import { ScenePane } from "./ScenePane";
+import { Sharing } from "./Sharing";
 import styles from "./SimulationScreen.module.css";
 import { neighbour, segmentsOf, stepStarts } from "./timeline";
 import { Transport } from "./Transport";
@@ -26,7 +29,10 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
   const { t } = useTranslation();
   const { rehearsal, result, devices, program } = props;
   const map = useSiteMap(program.site).data;
-  const player = useMoment(result.duration_s);
+  const [search] = useSearchParams();
+  const player = useMoment(result.duration_s, momentIn(search));
+  const [filming, setFilming] = useState(false);
+  useMomentInAddress(player.t_s, player.playing);
   const [selected, setSelected] = useState<string | null>(null);
   const { compiled } = rehearsal;
   const topLevel = useMemo(() => {
@@ -62,6 +68,15 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
             player.seek(t_s);
             if (step) setSelected(step);
           }}
+        >
+          <Sharing program={program.id} rehearsal={rehearsal.id} t_s={player.t_s} onFilm={() => setFilming(true)} />
+        </ResultPanel>
+        <Filming
+          rehearsal={rehearsal.id}
+          duration_s={result.duration_s}
+          player={player}
+          opened={filming}
+          onClose={() => setFilming(false)}
         />
       </div>
       <ScenePane

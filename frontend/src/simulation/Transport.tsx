@@ -3,9 +3,8 @@ import { type PointerEvent as ReactPointerEvent, useRef } from "react";
 import { useTranslation } from "react-i18next";
 import styles from "./Transport.module.css";
 import { clock, tickEvery } from "@/design/clock";
+import { SPEEDS } from "./speeds";
 import type { Segment } from "./timeline";
-
-export const SPEEDS = [1, 5, 20] as const;
 
 export interface Marker {
   number: number;
@@ -71,9 +70,10 @@ function Speed({ speed, onSpeed }: Pick<TransportProps, "speed" | "onSpeed">) {
             role="radio"
             aria-checked={choice === speed}
             className={styles.speed}
+            aria-label={t("simulation.times", { speed: choice })}
             onClick={() => onSpeed(choice)}
           >
-            {choice}×
+            {choice === 0.25 ? "¼" : choice === 0.5 ? "½" : choice}×
           </button>
         ))}
       </div>

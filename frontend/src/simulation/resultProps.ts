@@ -1,4 +1,5 @@
 /** What each part of a rehearsal's result is given. */
+import type { ReactNode } from "react";
 import type { Rehearsal, RehearsalResult } from "@/api/types";
 import type { Incident } from "./incidents";
 
@@ -14,4 +15,6 @@ export interface ResultPanelProps {
   nameOf: (device: string) => string;
   numberOf: (step: string) => string;
   onJump: (t_s: number, step?: string) => void;
+  /** What can be done with it. */
+  children?: ReactNode;
 }
