@@ -62,9 +62,9 @@ DEEDS = (
         list_versions export_version compare_versions wait_until_stored get_rehearsal export_rehearsal
         list_rehearsals get_run list_events list_armed get_call list_questions plan_route plan_routes list_runs
         show_site list_alerts look_at_description list_devices export_devices show_device list_device_events
-        show_property_history show_robot_map download_robot_pgm download_robot_yaml show_robot_cells show_difference show_rdf show_map
-        download_pgm download_yaml show_cells list_map_versions show_map_version show_version_cells show_place
-        show_zone current probe sample current_of_device probe_device sample_of_device list_programs ask post_query
+        show_property_history show_robot_map download_robot_pgm download_robot_yaml show_robot_cells show_difference
+        show_rdf show_map download_pgm download_yaml show_cells list_map_versions show_map_version show_version_cells
+        show_place show_zone current probe sample current_of_device probe_device sample_of_device list_programs ask post_query
         list_things watch_things show_thing read_expression show_values show_value watch_value await_next_value
         query_action list_threads show_thread mark_thread_read""",
     ),
