@@ -64,9 +64,9 @@ DEEDS = (
         show_site list_alerts look_at_description list_devices export_devices show_device list_device_events
         show_property_history show_robot_map download_robot_pgm download_robot_yaml show_robot_cells show_difference
         show_rdf show_map download_pgm download_yaml show_cells list_map_versions show_map_version show_version_cells
-        show_place show_zone current probe sample current_of_device probe_device sample_of_device list_programs ask post_query
-        list_things watch_things show_thing read_expression show_values show_value watch_value await_next_value
-        query_action list_threads show_thread mark_thread_read""",
+        show_place show_zone current probe sample current_of_device probe_device sample_of_device list_programs
+        ask post_query list_things watch_things show_thing read_expression show_values show_value watch_value
+        await_next_value query_action list_threads show_thread mark_thread_read""",
     ),
     _deed("stop", "viewer", "operate", "press_stop"),
     _deed("own", "viewer", "session", "list_tokens show_token create_token revoke_token list_members leave_site"),

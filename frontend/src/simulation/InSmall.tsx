@@ -8,7 +8,7 @@ import styles from "./IncidentMarks.module.css";
 import type { Moment } from "./scene/types";
 
 /** At this zoom words are as large as they are meant to be; smaller, they are enlarged up to so many times. */
-const AS_MEANT = 0.92;
+const AS_MEANT = 0.87;
 const MOST = 2.4;
 
 export function onScreen(zoom: number): number {

@@ -106,13 +106,15 @@ function CameraBar(props: {
           ))}
         </select>
       )}
-      <span className={styles.simulated}>{t("simulation.nothingMoves")}</span>
-      <button type="button" className={styles.toggle} aria-pressed={props.lidar} onClick={props.onLidar}>
-        <Radar size={15} aria-hidden /> {t("simulation.lidar")}
-      </button>
-      <button type="button" className={styles.toggle} aria-pressed={props.names} onClick={props.onNames}>
-        <Tag size={15} aria-hidden /> {t("simulation.labels")}
-      </button>
+      <span className={styles.onTheRight}>
+        <span className={styles.simulated}>{t("simulation.nothingMoves")}</span>
+        <button type="button" className={styles.toggle} aria-pressed={props.lidar} onClick={props.onLidar}>
+          <Radar size={15} aria-hidden /> {t("simulation.lidar")}
+        </button>
+        <button type="button" className={styles.toggle} aria-pressed={props.names} onClick={props.onNames}>
+          <Tag size={15} aria-hidden /> {t("simulation.labels")}
+        </button>
+      </span>
     </div>
   );
 }

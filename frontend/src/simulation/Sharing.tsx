@@ -77,7 +77,7 @@ function Export({ rehearsal, onFilm }: SharingProps) {
       <Menu.Dropdown>
         <Menu.Item component="a" href={file("json")} download leftSection={<Braces size={16} aria-hidden="true" />}>
           {t("simulation.export.json")}
-          <small>{t("simulation.export.json_about")}</small>
+          <small className={styles.formAbout}>{t("simulation.export.json_about")}</small>
         </Menu.Item>
         <Menu.Item
           component="a"
@@ -86,11 +86,11 @@ function Export({ rehearsal, onFilm }: SharingProps) {
           leftSection={<FileChartLine size={16} aria-hidden="true" />}
         >
           {t("simulation.export.mcap")}
-          <small>{t("simulation.export.mcap_about")}</small>
+          <small className={styles.formAbout}>{t("simulation.export.mcap_about")}</small>
         </Menu.Item>
         <Menu.Item leftSection={<Film size={16} aria-hidden="true" />} onClick={onFilm}>
           {t("simulation.export.webm")}
-          <small>{t("simulation.export.webm_about")}</small>
+          <small className={styles.formAbout}>{t("simulation.export.webm_about")}</small>
         </Menu.Item>
       </Menu.Dropdown>
     </Menu>

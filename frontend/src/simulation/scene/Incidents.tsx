@@ -32,7 +32,13 @@ export function Incidents({ incidents, t_s, palette, layer, onJump }: IncidentsP
           <cylinderGeometry args={[0.02, 0.02, HEIGHT_M, 6]} />
           <meshBasicMaterial color={color} />
         </mesh>
-        <Html portal={layer} position={[0, HEIGHT_M, 0]} center zIndexRange={[15, 0]} wrapperClass={styles.anchor}>
+        <Html
+          portal={layer}
+          position={[0, HEIGHT_M, 0]}
+          center
+          zIndexRange={now ? [40, 30] : [15, 0]}
+          wrapperClass={styles.anchor}
+        >
           <span className={styles.pin} data-kind={kind} data-now={now || undefined}>
             {number}
           </span>
