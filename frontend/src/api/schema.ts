@@ -5866,6 +5866,8 @@ export interface operations {
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -12853,6 +12855,8 @@ export interface operations {
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
