@@ -3209,7 +3209,7 @@ export interface components {
         AskRoutes: {
             pairs: components["schemas"]["AskRoute"][];
         };
-        /** @description How a rehearsal was asked for: the version that is rehearsed, and the conditions; steps are named by their ids. */
+        /** @description How a rehearsal was asked for: the version, and the conditions; steps are named by their ids. */
         AskedFor: {
             /** @enum {string} */
             driver: "physics" | "kinematic";

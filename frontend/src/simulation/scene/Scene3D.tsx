@@ -4,7 +4,7 @@ import { type RefObject, useEffect, useMemo, useRef, useState } from "react";
 import * as THREE from "three";
 import type { OrbitControls as Controls } from "three-stdlib";
 import { poseAt } from "../frames";
-import type { Incident } from "../incidents";
+import type { Incident } from "../incidents/incidents";
 import { Building } from "./Building";
 import { Incidents } from "./Incidents";
 import { Machine } from "./Machine";

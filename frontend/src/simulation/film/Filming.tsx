@@ -6,7 +6,7 @@ import { useTranslation } from "react-i18next";
 import { clock } from "@/design/clock";
 import { beginFilm, type Film, filmForm, saveFile } from "./film";
 import styles from "./Filming.module.css";
-import { SPEEDS } from "./speeds";
+import { SPEEDS } from "../speeds";
 
 export interface FilmPlayer {
   t_s: number;
