@@ -62,7 +62,9 @@ def test_conditions_are_chosen_kept_and_told_and_what_was_rehearsed_is_run(sign_
     expect(result.get_by_text("version 1 · Kinematic · seed 7 · 1 fault on purpose")).to_be_visible()
     asked = ask(page, f"/api/rehearsals/{page.url.rsplit('/', 1)[1]}")["asked"]
     assert (asked["seed"], asked["driver"]) == (7, "kinematic")
-    assert [(fault["fault"], fault["device"], fault["nth"]) for fault in asked["faults"]] == [("dead", "curingOven01", 1)]
+    assert [(fault["fault"], fault["device"], fault["nth"]) for fault in asked["faults"]] == [
+        ("dead", "curingOven01", 1)
+    ]
     again = open_dialog(page)
     expect(again.get_by_label("Chance (seed)")).to_have_value("7")
     expect(again.get_by_role("combobox", name="Device", exact=True)).to_have_value("Curing Oven")
