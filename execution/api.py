@@ -56,6 +56,17 @@ router.add_router("", exports_router)
 router.add_router("", operations_router)
 router.add_router("", program_tests_router)
 router.add_router("", retention_router)
+_RECORDINGS = {"json": "application/json", "mcap": "application/octet-stream"}
+_SENDS_RECORDING = {
+    "responses": {
+        200: {
+            "content": {
+                "application/json": {"schema": {"type": "object"}},
+                "application/octet-stream": {"schema": {"type": "string", "format": "binary"}},
+            }
+        }
+    }
+}
 ABSENT = {
     "program": "There is no such program. It may have been deleted.",
     "question": "There is no such question. Its run may have been deleted.",
@@ -112,6 +123,18 @@ def get_rehearsal(request: HttpRequest, rehearsal: UUID) -> dict[str, Any]:
     view = services.get_rehearsal(rehearsal_id=rehearsal)
     _require_here(request, view.site, "viewer", "rehearsal")
     return whole_rehearsal_to_json(view, signed_in(request).pk)
+
+
+@router.get("/rehearsals/{uuid:rehearsal}/recording", openapi_extra=_SENDS_RECORDING)
+def export_rehearsal(request: HttpRequest, rehearsal: UUID, form: services.RecordingForm = "json") -> HttpResponse:
+    """Give a rehearsal that is done as a file: JSON with all that is known of it, or MCAP for tools of robots.
+
+    Both are told of in docs/simulation.md.
+    """
+    _require_here(request, services.get_rehearsal(rehearsal_id=rehearsal).site, "viewer", "rehearsal")
+    content = services.export_rehearsal(rehearsal_id=rehearsal, form=form)
+    disposition = f'attachment; filename="rehearsal-{rehearsal}.{form}"'
+    return HttpResponse(content, content_type=_RECORDINGS[form], headers={"Content-Disposition": disposition})
 
 
 @router.get("/sites/{slug:site}/rehearsals", response=list[RehearsalSummaryShape])

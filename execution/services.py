@@ -31,7 +31,9 @@ from execution.floor.stops import StopView, follow_stops, get_stop, is_stopped, 
 from execution.operations.findings import find_trouble_of_sites
 from execution.operations.overview import Overview, QueueView, list_leases, read_overview, read_task_queues
 from execution.rehearsals.rehearsals import (
+    RecordingForm,
     cancel_rehearsal,
+    export_rehearsal,
     get_rehearsal,
     list_open_rehearsals,
     start_rehearsal,
@@ -81,6 +83,7 @@ __all__ = [
     "Prepared",
     "QuestionView",
     "QueueView",
+    "RecordingForm",
     "RehearsalView",
     "RouteView",
     "RunEventView",
@@ -103,6 +106,7 @@ __all__ = [
     "disarm_program",
     "drop_dead_letter",
     "expire_calls",
+    "export_rehearsal",
     "find_action",
     "find_trouble_of_sites",
     "follow_stops",

@@ -42,7 +42,7 @@ class BadFaults(VipoError):
     status = 422
 
     def __init__(self, why: str, number: int = 0) -> None:
-        super().__init__(f"Fault {number}: {why}" if number else why)
+        super().__init__(f"Fault {number}: {why}" if number else why, {"number": number})
         self.number = number
 
 

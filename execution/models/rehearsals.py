@@ -13,7 +13,8 @@ class Rehearsal(Archivable):
     """A program tried out in a pretend world, or its tests: `kind` says which; tests leave their results elsewhere.
 
     `person` is whose it is. The worker that carries it out has its `claim`, runs on `machine` and says at `beat_at`, by
-    the database's clock, that it goes on; `tries` counts how often it was begun, `course` says how far it is.
+    the database's clock, that it goes on; `tries` counts how often it was begun, `course` says how far it is, `asked`
+    how it was asked for: version, seed, driver, parameters, faults.
     """
 
     class Status(models.TextChoices):
@@ -42,6 +43,7 @@ class Rehearsal(Archivable):
     progress = models.FloatField(default=0.0)
     course = models.JSONField(default=dict)
     job = models.JSONField(default=dict)
+    asked = models.JSONField(default=dict, db_default={})
     document = models.JSONField(default=dict)
     compiled = models.JSONField(default=dict)
     result = models.JSONField(null=True)

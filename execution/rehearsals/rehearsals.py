@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from datetime import UTC, datetime, timedelta
-from typing import Any
+from typing import Any, Literal
 from uuid import UUID
 
 from django.conf import settings
@@ -24,6 +24,7 @@ from execution.floor.layouts import place_facts
 from execution.models import Lease, Rehearsal
 from execution.rehearsals.child_process import scene_to_json
 from execution.rehearsals.queue_order import Entry, order_fairly
+from execution.rehearsals.recording_file import write_json, write_mcap
 from execution.rehearsals.views import RehearsalView, view_rehearsal
 from execution.runs.programs import Prepared
 from registry import services as registry
@@ -34,6 +35,7 @@ QUEUE = "rehearsals"
 RUNNING = Rehearsal.Status.RUNNING
 REMEMBERED = timedelta(hours=1)
 """How long it counts, among equals, that somebody's rehearsal was begun."""
+RecordingForm = Literal["json", "mcap"]
 HEAVY = ("job", "document", "compiled", "result")
 
 
@@ -50,10 +52,12 @@ def start_rehearsal(
         BadFaults: they are not understood, or are of a device, reading or step that there is not.
     """
     refuse_too_many(site=prepared.site, person=person)  # before the scene is made: who asks too often costs little
-    job = {"plan": prepared.plan, "scene": _scene(prepared, seed, faults), "driver": driver,
-           "parameters": dict(prepared.parameters)}  # fmt: skip
+    scene = _scene(prepared, seed, faults)
+    given = {"driver": driver, "parameters": dict(prepared.parameters)}
     row = put_into_queue(
-        site=prepared.site, person=person, program=prepared.program, program_name=prepared.name, job=job,
+        site=prepared.site, person=person, program=prepared.program, program_name=prepared.name,
+        job={"plan": prepared.plan, "scene": scene, **given},
+        asked={"version": prepared.version, "seed": seed, **given, "faults": scene["faults"]["faults"]},
         document=prepared.document, compiled=prepared.compiled, started_by=by,
     )  # fmt: skip
     return view_rehearsal(row, order_of_queue())
@@ -140,6 +144,20 @@ def get_rehearsal(*, rehearsal_id: UUID | str) -> RehearsalView:
     """
     row = _find(Rehearsal.objects.select_related("archive").defer("job"), rehearsal_id)
     return _view(read_rehearsal(row) if row.archive_id else row)
+
+
+def export_rehearsal(*, rehearsal_id: UUID | str, form: RecordingForm) -> bytes:
+    """Return a rehearsal with its recording as a file.
+
+    Raises:
+        NotFound: there is none.
+        NotPossibleNow: it has no result yet, or came to none.
+        HistoryUnreadable: it is in the archive, which cannot be read.
+    """
+    view = get_rehearsal(rehearsal_id=rehearsal_id)
+    if view.result is None:
+        raise NotPossibleNow(f"The rehearsal has no recording: it is {view.status}. One that is done has one.")
+    return write_json(view) if form == "json" else write_mcap(view)
 
 
 def list_open_rehearsals(*, site: str) -> list[RehearsalView]:

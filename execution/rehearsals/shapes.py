@@ -179,9 +179,20 @@ class RehearsalSummaryShape(Schema):
     ended_at: str | None
 
 
-class RehearsalShape(RehearsalSummaryShape):
-    """A rehearsal with its result, once there is one."""
+class AskedFor(Schema):
+    """How a rehearsal was asked for: the version, and the conditions; steps are named by their ids."""
 
+    version: int
+    seed: int
+    driver: Driver
+    parameters: dict[str, Scalar]
+    faults: list[dict[str, Any]]
+
+
+class RehearsalShape(RehearsalSummaryShape):
+    """A rehearsal with its result, once there is one; how the oldest were `asked` for is not known."""
+
+    asked: AskedFor | None
     result: RehearsalResult
     document: Document
     compiled: Compiled

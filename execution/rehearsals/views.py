@@ -17,7 +17,8 @@ from execution.views import iso
 class RehearsalView:
     """A rehearsal with its result, once there is one, or tests in the same queue (`kind`); `progress` goes from 0 to 1.
 
-    `place` counts from 1 in the queue of all sites, while it waits; `tries` is how often it was begun.
+    `place` counts from 1 in the queue of all sites, while it waits; `tries` is how often it was begun. How it was
+    `asked` for is not known of the oldest.
     """
 
     id: UUID
@@ -28,6 +29,7 @@ class RehearsalView:
     status: str
     progress: float
     course: Mapping[str, Any] | None
+    asked: Mapping[str, Any] | None
     place: int | None
     tries: int
     reason: str
@@ -57,6 +59,7 @@ def view_rehearsal(row: Rehearsal, order: Sequence[UUID] = (), *, whole: bool = 
         status=row.status,
         progress=row.progress,
         course=row.course or None,
+        asked=row.asked or None,
         place=order.index(row.id) + 1 if row.id in order else None,
         tries=row.tries,
         reason=row.reason,
@@ -97,6 +100,7 @@ def whole_rehearsal_to_json(rehearsal: RehearsalView, asker: int | None) -> dict
     """Return a rehearsal with its program as it was then, and its result, if there is one."""
     return {
         **rehearsal_to_json(rehearsal, asker),
+        "asked": rehearsal.asked,
         "result": rehearsal.result,
         "document": rehearsal.document,
         "compiled": rehearsal.compiled,

@@ -14,6 +14,8 @@ export class ApiProblem extends Error {
     readonly code: string,
     readonly detail: string,
     readonly fields: readonly FieldProblem[] = [],
+    /** What the refusal is made of, for who shows it at its place. */
+    readonly args: Readonly<Record<string, unknown>> = {},
   ) {
     super(detail);
     this.name = "ApiProblem";
@@ -61,7 +63,7 @@ async function problemOf(response: Response): Promise<ApiProblem> {
   const body = await response.json().then(asProblem, (): ProblemBody => ({}));
   const told = refusalWords(body.code ?? "", body.args);
   const detail = told ?? body.detail ?? i18next.t("shell.problem.unexpected", { status: response.status });
-  return new ApiProblem(response.status, body.code ?? "unexpected", detail, body.fields);
+  return new ApiProblem(response.status, body.code ?? "unexpected", detail, body.fields, body.args);
 }
 
 function asProblem(body: unknown): ProblemBody {

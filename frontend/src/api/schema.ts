@@ -1276,6 +1276,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/rehearsals/{rehearsal}/recording": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Rehearsal
+         * @description Give a rehearsal that is done as a file: JSON with all that is known of it, or MCAP for tools of robots.
+         *
+         *     Both are told of in docs/simulation.md.
+         */
+        get: operations["export_rehearsal"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/rights": {
         parameters: {
             query?: never;
@@ -3603,6 +3625,19 @@ export interface components {
         AskRoutes: {
             pairs: components["schemas"]["AskRoute"][];
         };
+        /** @description How a rehearsal was asked for: the version, and the conditions; steps are named by their ids. */
+        AskedFor: {
+            /** @enum {string} */
+            driver: "physics" | "kinematic";
+            faults: {
+                [key: string]: unknown;
+            }[];
+            parameters: {
+                [key: string]: boolean | number | string;
+            };
+            seed: number;
+            version: number;
+        };
         /** @description A version that waits for the asker's review; `compare_with` is the one before it that was approved last. */
         AskedReviewShape: {
             /** Format: date-time */
@@ -5100,8 +5135,9 @@ export interface components {
             steps: components["schemas"]["RehearsedStep"][];
             waits: components["schemas"]["WaitShape"][];
         };
-        /** @description A rehearsal with its result, once there is one. */
+        /** @description A rehearsal with its result, once there is one; how the oldest were `asked` for is not known. */
         RehearsalShape: {
+            asked: components["schemas"]["AskedFor"] | null;
             began_at: string | null;
             cause: components["schemas"]["Cause"] | null;
             compiled: components["schemas"]["CompiledShape"];
@@ -9349,6 +9385,48 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    export_rehearsal: {
+        parameters: {
+            query?: {
+                form?: "json" | "mcap";
+            };
+            header?: never;
+            path: {
+                rehearsal: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": Record<string, never>;
+                    "application/octet-stream": string;
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

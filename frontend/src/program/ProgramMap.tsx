@@ -1,5 +1,5 @@
 /** A program on its map to look at: for the run monitor and the simulation. */
-import { useMemo } from "react";
+import { type ReactNode, useMemo } from "react";
 import type { FloorPlan } from "@/map/floor/floor";
 import type { Insets } from "@/map/plane/projection";
 import type { RobotSource } from "@/map/robots/robots";
@@ -32,6 +32,8 @@ export interface ProgramMapProps {
   insets?: Insets;
   /** Zoom buttons at the bottom right. */
   controls?: boolean;
+  /** More in the map's plane, in drawing pixels. */
+  plane?: ReactNode;
 }
 
 const NO_INSETS: Insets = { left: 36, top: 36, right: 24, bottom: 24 };
@@ -74,6 +76,7 @@ export function ProgramMap(props: ProgramMapProps) {
       label={t("map_label")}
       mode="pan"
       under={<Zones document={document} t={t} />}
+      plane={props.plane}
       onStep={(step) => onSelect?.(step)}
       onDevice={(device) => props.onSelectDevice?.(device)}
       onFloor={() => onSelect?.(null)}

@@ -1,31 +1,37 @@
-/** What went wrong in a rehearsal, who came too near to whom, and who waited. */
+/** What went wrong in a rehearsal, who came too near to whom, and who waited; a press goes to its moment. */
 import { useTranslation } from "react-i18next";
-import type { NearMiss, RehearsalError, RehearsalResult } from "@/api/types";
+import type { RehearsalError } from "@/api/types";
 import { clock } from "@/design/clock";
-import { waitWords } from "@/i18n/waits";
+import { type Incident, isNow } from "./incidents/incidents";
 import { logWords } from "./logWords";
 import styles from "./ResultPanel.module.css";
 import type { ResultPanelProps } from "./resultProps";
 
 export function Events(props: ResultPanelProps) {
   const { t } = useTranslation();
-  const { errors, collisions, near_misses: near, waits } = props.result;
+  const { incidents, result, wordsOf } = props;
+  const { errors } = result;
+  const met = incidents.some(({ kind }) => kind !== "wait");
   return (
     <div>
-      <h3 className={styles.heading}>{t(errors.length > 0 ? "simulation.problems" : "simulation.waits")}</h3>
-      <ul className={styles.list}>
-        {errors.map((error) => (
-          <Failure key={`${error.t}-${error.step}`} error={error} {...props} />
+      {errors.length > 0 ? (
+        <>
+          <h3 className={styles.heading}>{t("simulation.problems")}</h3>
+          <ul className={styles.list}>
+            {errors.map((error) => (
+              <Failure key={`${error.t}-${error.step}`} error={error} {...props} />
+            ))}
+          </ul>
+        </>
+      ) : null}
+      <h3 className={styles.heading} id="incidents">
+        {t(met ? "simulation.incidents" : "simulation.waits")}
+      </h3>
+      <ul className={styles.list} aria-labelledby="incidents">
+        {incidents.map((incident) => (
+          <Row key={incident.number} incident={incident} {...props} words={wordsOf(incident)} />
         ))}
-        {[...collisions, ...near].map((contact) => (
-          <Contact key={`${contact.t}-${contact.a}-${contact.b}`} contact={contact} {...props} />
-        ))}
-        {waits.map((wait, index) => (
-          <Wait key={`${wait.t}-${wait.robot}`} wait={wait} number={index + 1} {...props} />
-        ))}
-        {waits.length + errors.length + collisions.length + near.length === 0 && (
-          <li className={styles.none}>{t("simulation.noWaits")}</li>
-        )}
+        {incidents.length === 0 ? <li className={styles.none}>{t("simulation.noWaits")}</li> : null}
       </ul>
     </div>
   );
@@ -44,33 +50,30 @@ function Failure({ error, nameOf, numberOf, onJump }: ResultPanelProps & { error
   );
 }
 
-function Contact({ contact, nameOf, onJump }: ResultPanelProps & { contact: NearMiss }) {
+interface RowProps extends ResultPanelProps {
+  incident: Incident;
+  words: string;
+}
+
+function Row({ incident, words, nameOf, onJump, t_s }: RowProps) {
   const { t } = useTranslation();
-  const cm = Math.round(contact.distance_m * 100);
+  const { number, kind, robot, wait } = incident;
   return (
     <li>
-      <button type="button" className={`${styles.event} ${styles.bad}`} onClick={() => onJump(contact.t)}>
-        <b>{clock(contact.t)}</b>
-        {t("simulation.near", { a: nameOf(contact.a), b: nameOf(contact.b), cm })}
-      </button>
-    </li>
-  );
-}
-
-interface WaitProps extends ResultPanelProps {
-  wait: RehearsalResult["waits"][number];
-  number: number;
-}
-
-function Wait({ wait, number, nameOf, onJump }: WaitProps) {
-  return (
-    <li>
-      <button type="button" className={styles.event} onClick={() => onJump(wait.t)}>
-        <span className={styles.pin}>{number}</span>
+      <button
+        type="button"
+        className={styles.event}
+        aria-current={isNow(incident, t_s) || undefined}
+        onClick={() => onJump(incident.t_s)}
+      >
+        <span className={styles.pin} data-kind={kind}>
+          {number}
+        </span>
         <span>
-          <b>{nameOf(wait.robot)}</b> {clock(wait.t)}, {Math.round(wait.duration_s)} s
+          <b>{wait ? nameOf(robot) : t(`simulation.incident.${kind}`)}</b> {clock(incident.t_s)}
+          {wait ? `, ${Math.round(wait.duration_s)} s` : null}
           <br />
-          {waitWords(wait.why, nameOf) ?? wait.reason}
+          {words}
         </span>
       </button>
     </li>

@@ -1,9 +1,14 @@
 import { useMemo } from "react";
+import { Maximize2, Minimize2 } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import type { Compiled, Device, ProgramDocument, RehearsalResult, SiteMap } from "@/api/types";
+import { IconButton } from "@/design/IconButton";
 import { ProgramMap } from "@/program/ProgramMap";
 import type { RobotSource } from "@/map/robots/robots";
 import { latest, poseAt } from "./frames";
+import { IncidentMarks } from "./incidents/IncidentMarks";
+import { type Incident, isNow } from "./incidents/incidents";
+import { InSmall } from "./incidents/InSmall";
 import styles from "./SimulationScreen.module.css";
 import type { Moment } from "./scene/types";
 import { statusesAt } from "./timeline";
@@ -19,6 +24,12 @@ interface MapPaneProps {
   t_s: number;
   selected: string | null;
   onSelect: (step: string | null) => void;
+  incidents: readonly Incident[];
+  wordsOf: (incident: Incident) => string;
+  onJump: (t_s: number) => void;
+  /** The map has the large place, and the 3D view the small one. */
+  large: boolean;
+  onLarge: () => void;
 }
 
 /** Where the recording has the robots at the moment that is shown, asked for with every picture. */
@@ -38,7 +49,7 @@ function useRecordedRobots(devices: Device[], result: RehearsalResult | null, mo
         const load = latest(result?.carrying[robot.id], moment.t_s)?.[1] ?? {};
         return {
           id: robot.id,
-          name: robot.name,
+          name: "",
           status: "idle" as const,
           x,
           y,
@@ -78,11 +89,30 @@ export function MapPane(props: MapPaneProps) {
     const now = result ? statusesAt(result.steps, t_s) : {};
     return Object.fromEntries(Object.entries(now).map(([step, status]) => [step, { status }]));
   }, [result, t_s]);
+  const waiting = props.incidents.filter((each) => each.kind === "wait" && isNow(each, t_s)).map(({ robot }) => robot);
+  const plane = result ? (
+    <>
+      <InSmall
+        robots={props.devices.filter((device) => device.kind === "robot")}
+        frames={result.frames}
+        moment={props.moment}
+        noteOf={(robot) => (waiting.includes(robot) ? t("simulation.waitsNow") : "")}
+      />
+      <IncidentMarks incidents={props.incidents} t_s={t_s} wordsOf={props.wordsOf} onJump={props.onJump} />
+    </>
+  ) : null;
   return (
-    <section className={`${styles.pane} ${styles.map}`} aria-label={t("simulation.map")}>
+    <section
+      className={`${styles.pane} ${styles.map}`}
+      data-large={props.large || undefined}
+      aria-label={t("simulation.map")}
+    >
       <header className={styles.paneHead}>
         <h2>{t("simulation.map")}</h2>
         <span>{t("simulation.sameMoment")}</span>
+        <IconButton label={t(props.large ? "simulation.mapSmaller" : "simulation.mapLarger")} onClick={props.onLarge}>
+          {props.large ? <Minimize2 size={16} aria-hidden="true" /> : <Maximize2 size={16} aria-hidden="true" />}
+        </IconButton>
       </header>
       <div className={styles.mapBody}>
         <ProgramMap
@@ -95,6 +125,7 @@ export function MapPane(props: MapPaneProps) {
           robots={robots}
           selected={props.selected}
           onSelect={props.onSelect}
+          plane={plane}
         />
       </div>
     </section>

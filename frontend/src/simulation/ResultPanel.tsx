@@ -65,6 +65,24 @@ function Use({ id, busy_s, total_s, name }: { id: string; busy_s: number; total_
   );
 }
 
+/** Under which conditions it was rehearsed. */
+function Conditions({ asked }: Pick<ResultPanelProps, "asked">) {
+  const { t } = useTranslation();
+  if (!asked) return null;
+  const parts = [
+    t("simulation.conditions.version", { version: asked.version }),
+    t(`start.rehearse.drivers.${asked.driver}.name`),
+    t("simulation.conditions.seed", { seed: asked.seed }),
+    ...Object.entries(asked.parameters).map(([name, value]) => `${name} = ${String(value)}`),
+    ...(asked.faults.length > 0 ? [t("simulation.conditions.faults", { count: asked.faults.length })] : []),
+  ];
+  return (
+    <p className={styles.conditions}>
+      <b>{t("simulation.conditions.title")}</b> {parts.join(" · ")}
+    </p>
+  );
+}
+
 function Utilisation({ result, nameOf }: ResultPanelProps) {
   const { t } = useTranslation();
   const used = [...Object.entries(result.robots), ...Object.entries(result.machines)].filter(
@@ -96,7 +114,9 @@ export function ResultPanel(props: ResultPanelProps) {
             ? t("simulation.finishes")
             : t("simulation.stopsWithErrors", { count: Math.max(1, result.errors.length) })}
         </span>
+        {props.children}
       </header>
+      <Conditions asked={props.asked} />
       <Facts result={result} />
       <div className={styles.columns}>
         <Utilisation {...props} />

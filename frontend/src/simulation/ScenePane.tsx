@@ -1,8 +1,10 @@
-import { Map as MapIcon, Orbit, Tag, Target } from "lucide-react";
+import { Camera, Map as MapIcon, Orbit, Radar, Tag, Target } from "lucide-react";
 import { lazy, Suspense, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, RehearsalResult, SiteMap } from "@/api/types";
 import { latest } from "./frames";
+import { type Incident, isNow } from "./incidents/incidents";
+import { Lidar } from "./lidar/Lidar";
 import styles from "./SimulationScreen.module.css";
 import type { CameraMode, Moment } from "./scene/types";
 import { clock } from "@/design/clock";
@@ -16,12 +18,15 @@ interface ScenePaneProps {
   moment: Moment;
   t_s: number;
   playing: boolean;
+  incidents: readonly Incident[];
+  onJump: (t_s: number) => void;
 }
 
 const MODES: { mode: CameraMode; icon: typeof Orbit }[] = [
   { mode: "orbit", icon: Orbit },
   { mode: "top", icon: MapIcon },
   { mode: "follow", icon: Target },
+  { mode: "robot", icon: Camera },
 ];
 
 function hasWebgl(): boolean {
@@ -30,9 +35,12 @@ function hasWebgl(): boolean {
 }
 
 /** What is said of each device at the moment: what a robot carries, whether a machine is busy. */
-function useStateOf({ result, t_s }: ScenePaneProps) {
+function useStateOf({ result, t_s, incidents }: ScenePaneProps) {
   const { t } = useTranslation();
+  const now = incidents.filter((each) => each.kind === "wait" && isNow(each, t_s));
   return (device: string): string => {
+    const wait = now.find(({ robot }) => robot === device)?.wait;
+    if (wait) return t("simulation.waitsFor", { seconds: Math.round(wait.duration_s) });
     const load = latest(result?.carrying[device], t_s)?.[1] ?? {};
     const carried = Object.entries(load).filter(([, count]) => count > 0);
     if (carried.length > 0) {
@@ -65,6 +73,8 @@ function CameraBar(props: {
   onFollow: (robot: string) => void;
   names: boolean;
   onNames: () => void;
+  lidar: boolean;
+  onLidar: () => void;
 }) {
   const { t } = useTranslation();
   return (
@@ -82,7 +92,7 @@ function CameraBar(props: {
           </button>
         ))}
       </div>
-      {props.mode === "follow" && (
+      {(props.mode === "follow" || props.mode === "robot" || props.lidar) && (
         <select
           className={styles.select}
           aria-label={t("simulation.followRobot")}
@@ -96,10 +106,15 @@ function CameraBar(props: {
           ))}
         </select>
       )}
-      <span className={styles.simulated}>{t("simulation.nothingMoves")}</span>
-      <button type="button" className={styles.toggle} aria-pressed={props.names} onClick={props.onNames}>
-        <Tag size={15} aria-hidden /> {t("simulation.labels")}
-      </button>
+      <span className={styles.onTheRight}>
+        <span className={styles.simulated}>{t("simulation.nothingMoves")}</span>
+        <button type="button" className={styles.toggle} aria-pressed={props.lidar} onClick={props.onLidar}>
+          <Radar size={15} aria-hidden /> {t("simulation.lidar")}
+        </button>
+        <button type="button" className={styles.toggle} aria-pressed={props.names} onClick={props.onNames}>
+          <Tag size={15} aria-hidden /> {t("simulation.labels")}
+        </button>
+      </span>
     </div>
   );
 }
@@ -112,15 +127,17 @@ export function ScenePane(props: ScenePaneProps) {
   const [mode, setMode] = useState<CameraMode>("orbit");
   const [follow, setFollow] = useState<string | null>(null);
   const [names, setNames] = useState(true);
+  const [lidar, setLidar] = useState(false);
   const [webgl] = useState(hasWebgl);
   const stateOf = useStateOf(props);
   const followed = follow ?? robots[0]?.id ?? null;
   const placed = devices
     .filter((device) => device.lifecycle === "approved")
     .map((d) => ({ ...d, radius_m: d.radius_m ?? 0.18 }));
+  const seeing = lidar ? placed.find(({ id }) => id === followed) : undefined;
   const summary = robots.map((robot) => `${robot.name} ${stateOf(robot.id)}`.trim()).join(", ");
   return (
-    <section className={`${styles.pane} ${styles.scene}`} aria-label={t("simulation.view3d")}>
+    <section className={`${styles.pane} ${styles.scene}`} aria-label={t("simulation.view3d")} data-scene>
       <CameraBar
         mode={mode}
         onMode={setMode}
@@ -129,6 +146,8 @@ export function ScenePane(props: ScenePaneProps) {
         onFollow={setFollow}
         names={names}
         onNames={() => setNames(!names)}
+        lidar={lidar}
+        onLidar={() => setLidar(!lidar)}
       />
       {webgl && map ? (
         <Suspense fallback={<p className={styles.sceneNote}>{t("simulation.loading")}</p>}>
@@ -144,11 +163,16 @@ export function ScenePane(props: ScenePaneProps) {
             t_s={t_s}
             label={t("simulation.sceneLabel", { time: clock(Math.floor(t_s)), summary })}
             stateOf={stateOf}
+            incidents={props.incidents}
+            onJump={props.onJump}
           />
         </Suspense>
       ) : (
         <p className={styles.sceneNote}>{t(webgl ? "simulation.loading" : "simulation.noWebgl")}</p>
       )}
+      {seeing && map && result ? (
+        <Lidar map={map} devices={placed} frames={result.frames} robot={seeing} moment={moment} />
+      ) : null}
       <Legend />
     </section>
   );

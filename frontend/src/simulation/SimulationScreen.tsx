@@ -1,21 +1,24 @@
-import { Button } from "@mantine/core";
-import { ArrowLeft, RefreshCw } from "lucide-react";
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
-import { Link, useParams } from "react-router-dom";
+import { useParams, useSearchParams } from "react-router-dom";
 import { missing } from "@/api/failed";
 import { useDevices, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Rehearsal, RehearsalResult } from "@/api/types";
 import { Crumb, TopBar } from "@/shell/TopBar";
-import { waitWords } from "@/i18n/waits";
 import { useFreshRehearsal } from "@/live/rehearsal";
 import { useSiteLive } from "@/live/site";
+import { momentIn, useMomentInAddress } from "./address";
+import { Actions } from "./Actions";
+import { Filming } from "./film/Filming";
+import { type Incident, incidentsOf } from "./incidents/incidents";
+import { incidentWords } from "./incidents/incidentWords";
 import { MapPane } from "./MapPane";
 import { ResultPanel } from "./ResultPanel";
 import { ScenePane } from "./ScenePane";
+import { Sharing } from "./Sharing";
 import styles from "./SimulationScreen.module.css";
 import { neighbour, segmentsOf, stepStarts } from "./timeline";
-import { Transport, type Marker } from "./Transport";
+import { Transport } from "./Transport";
 import { useMoment } from "./useMoment";
 import { useStartRehearsal } from "./useRehearsals";
 import { WaitingPane } from "./waiting/WaitingPane";
@@ -26,7 +29,10 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
   const { t } = useTranslation();
   const { rehearsal, result, devices, program } = props;
   const map = useSiteMap(program.site).data;
-  const player = useMoment(result.duration_s);
+  const [search] = useSearchParams();
+  const player = useMoment(result.duration_s, momentIn(search));
+  const [filming, setFilming] = useState(false);
+  useMomentInAddress(player.t_s, player.playing);
   const [selected, setSelected] = useState<string | null>(null);
   const { compiled } = rehearsal;
   const topLevel = useMemo(() => {
@@ -35,12 +41,18 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
   }, [compiled]);
   const segments = useMemo(() => segmentsOf(result.steps, topLevel, result.duration_s), [result, topLevel]);
   const starts = useMemo(() => stepStarts(result.steps), [result]);
+  const incidents = useMemo(() => incidentsOf(result), [result]);
+  const [mapLarge, setMapLarge] = useState(false);
   const nameOf = (id: string) => devices.find((device) => device.id === id)?.name ?? id;
+  const wordsOf = (incident: Incident) => incidentWords(incident, nameOf);
   const numberOf = (step: string) => t("simulation.step", { number: compiled.numbers[step] ?? "" });
   return (
     <>
       <MapPane
-        {...{ map, devices, result, compiled, selected }}
+        {...{ map, devices, result, compiled, selected, incidents, wordsOf }}
+        large={mapLarge}
+        onLarge={() => setMapLarge(!mapLarge)}
+        onJump={player.seek}
         site={program.site}
         document={rehearsal.document}
         moment={player.moment}
@@ -49,21 +61,38 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
       />
       <div className={styles.result}>
         <ResultPanel
-          {...{ result, nameOf, numberOf }}
+          {...{ result, nameOf, numberOf, incidents, wordsOf }}
+          t_s={player.t_s}
+          asked={rehearsal.asked}
           onJump={(t_s, step) => {
             player.seek(t_s);
             if (step) setSelected(step);
           }}
+        >
+          <Sharing program={program.id} rehearsal={rehearsal.id} t_s={player.t_s} onFilm={() => setFilming(true)} />
+        </ResultPanel>
+        <Filming
+          rehearsal={rehearsal.id}
+          duration_s={result.duration_s}
+          player={player}
+          opened={filming}
+          onClose={() => setFilming(false)}
         />
       </div>
-      <ScenePane {...{ map, devices, result }} moment={player.moment} t_s={player.t_s} playing={player.playing} />
+      <ScenePane
+        {...{ map, devices, result, incidents }}
+        onJump={player.seek}
+        moment={player.moment}
+        t_s={player.t_s}
+        playing={player.playing}
+      />
       <Transport
         t_s={player.t_s}
         duration_s={result.duration_s}
         playing={player.playing}
         speed={player.speed}
         segments={segments}
-        markers={markersOf(result, nameOf)}
+        markers={incidents.map((each) => ({ ...each, label: wordsOf(each) }))}
         titleOf={(step) => compiled.numbers[step] ?? ""}
         onSeek={player.seek}
         onPlay={player.toggle}
@@ -74,13 +103,6 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
   );
 }
 
-function markersOf(result: RehearsalResult, nameOf: (device: string) => string): Marker[] {
-  return result.waits.map((wait) => ({
-    t_s: wait.t,
-    label: `${nameOf(wait.robot)}: ${waitWords(wait.why, nameOf) ?? wait.reason}`,
-  }));
-}
-
 /** A program's rehearsal: the map and the 3D view at the same moment, the result, and the recording's transport. */
 export function SimulationScreen() {
   const { t } = useTranslation();
@@ -88,8 +110,9 @@ export function SimulationScreen() {
   const program = useProgram(id).data;
   const site = useSite(program?.site).data;
   const devices = useDevices(program?.site).data ?? NO_DEVICES;
+  const map = useSiteMap(program?.site).data;
   const rehearsal = useFreshRehearsal(rehearsalId);
-  const { start, problem } = useStartRehearsal(id);
+  const { start, problem } = useStartRehearsal(id, rehearsal.data);
   useSiteLive(program?.site);
   const data = rehearsal.data;
   const result = data?.status === "done" ? data.result : null;
@@ -106,16 +129,9 @@ export function SimulationScreen() {
           </>
         }
         actions={
-          <>
-            <Button component={Link} to={`/programs/${id}`} variant="default" leftSection={<ArrowLeft size={16} />}>
-              {t("simulation.backToEditor")}
-            </Button>
-            {result && (
-              <Button onClick={start} leftSection={<RefreshCw size={16} />}>
-                {t("simulation.again")}
-              </Button>
-            )}
-          </>
+          program && site && data ? (
+            <Actions {...{ program, site, map, devices }} rehearsal={data} onAgain={start} />
+          ) : null
         }
       />
       <main className={styles.body}>

@@ -3,11 +3,12 @@ import { type PointerEvent as ReactPointerEvent, useRef } from "react";
 import { useTranslation } from "react-i18next";
 import styles from "./Transport.module.css";
 import { clock, tickEvery } from "@/design/clock";
+import { SPEEDS } from "./speeds";
 import type { Segment } from "./timeline";
 
-export const SPEEDS = [1, 5, 20] as const;
-
 export interface Marker {
+  number: number;
+  kind: string;
   t_s: number;
   label: string;
 }
@@ -69,9 +70,10 @@ function Speed({ speed, onSpeed }: Pick<TransportProps, "speed" | "onSpeed">) {
             role="radio"
             aria-checked={choice === speed}
             className={styles.speed}
+            aria-label={t("simulation.times", { speed: choice })}
             onClick={() => onSpeed(choice)}
           >
-            {choice}×
+            {choice === 0.25 ? "¼" : choice === 0.5 ? "½" : choice}×
           </button>
         ))}
       </div>
@@ -142,14 +144,15 @@ function Track(props: TransportProps) {
         if (event.buttons === 1) seek(event);
       }}
     >
-      {markers.map((marker, index) => (
+      {markers.map((marker) => (
         <span
-          key={`${marker.t_s}-${marker.label}`}
+          key={marker.number}
+          data-kind={marker.kind}
           className={styles.marker}
           title={marker.label}
           style={{ left: `${(marker.t_s / Math.max(duration_s, 0.001)) * 100}%` }}
         >
-          {index + 1}
+          {marker.number}
         </span>
       ))}
       <Bar {...props} />

@@ -5,11 +5,12 @@ const REACT_UPDATES_PER_S = 10;
 
 /**
  * The moment of the recording that is shown. `moment` changes with every picture, for what draws itself;
- * `t_s` follows it ten times a second, for what React draws.
+ * `t_s` follows it ten times a second, for what React draws. It begins at `first_s`.
  */
-export function useMoment(duration_s: number) {
-  const moment = useRef<Moment>({ t_s: 0 }).current;
-  const [t_s, setT] = useState(0);
+export function useMoment(duration_s: number, first_s = 0) {
+  const begins_s = Math.min(Math.max(first_s, 0), duration_s);
+  const moment = useRef<Moment>({ t_s: begins_s }).current;
+  const [t_s, setT] = useState(begins_s);
   const [playing, setPlaying] = useState(false);
   const [speed, setSpeed] = useState(5);
 

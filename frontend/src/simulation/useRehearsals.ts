@@ -5,6 +5,7 @@ import { useLocation, useNavigate } from "react-router-dom";
 import { api, ApiProblem } from "@/api/client";
 import { useOnce } from "@/api/once";
 import { keys, useRehearsals } from "@/api/queries";
+import type { Rehearsal } from "@/api/types";
 
 const LIST_MS = 2000;
 
@@ -29,16 +30,23 @@ function useRefusalOfEditor(): string | undefined {
   return typeof told === "string" ? told : undefined;
 }
 
-export function useStartRehearsal(program: string) {
+/** Rehearse the program as it is drawn now; under the conditions of `last`, where there was one. */
+export function useStartRehearsal(program: string, last?: Rehearsal) {
   const navigate = useNavigate();
   const told = useRefusalOfEditor();
   const begin = useOnce();
   const starting = useMutation({
-    mutationFn: () => begin<{ id: string }>(`/programs/${program}/rehearsals`, {}),
+    mutationFn: () => begin<{ id: string }>(`/programs/${program}/rehearsals`, againAs(last?.asked)),
     onSuccess: ({ id }) => void navigate(`/programs/${program}/simulate/${id}`, { replace: true }),
   });
   const refused = starting.error instanceof ApiProblem ? starting.error.detail : undefined;
   return { start: () => starting.mutate(), problem: refused ?? (starting.isIdle ? told : undefined) };
+}
+
+function againAs(asked: Rehearsal["asked"] | undefined) {
+  if (!asked) return {};
+  const { seed, driver, parameters, faults } = asked;
+  return { seed, driver, parameters, faults: { version: 1, faults } };
 }
 
 /** Cancel a rehearsal; one that has ended meanwhile is shown as it is. */

@@ -1,11 +1,14 @@
 """The form of faults: what is read, and what is refused with which sentence."""
 
+import json
 from dataclasses import replace
 
 import pytest
 
+from simulation import fault_form
 from simulation.fault_form import BadFaults, check_faults, faults_to_json, read_faults, read_list
 from simulation.world import Fault
+from tests.kit.files import ROOT
 from tests.unit.simulation.stage_set import BENCH, OVEN
 
 ALL = [
@@ -84,3 +87,26 @@ def test_a_form_that_is_none_is_refused(data, why):
 def test_a_fault_of_what_is_not_there_is_refused(fault, why):
     with pytest.raises(BadFaults, match=why):
         check_faults([fault], [replace(OVEN, id="oven"), replace(BENCH, id="bench")], ["a"])
+
+
+def test_the_screens_form_knows_the_same_words_needs_and_ranges():
+    told = json.loads((ROOT / "frontend/src/shell/start/faultKinds.json").read_text(encoding="utf-8"))
+    assert told["kinds"].keys() == fault_form.KIND_OF.keys()
+    for word, kind in told["kinds"].items():
+        assert tuple(kind["needs"]) == fault_form._NEEDS.get(word, ()), word
+        assert tuple(kind["may"]) == fault_form._MAY.get(word, ()), word
+        assert kind["lasts"] is (word in fault_form._LASTS), word
+    ranges = {name: tuple(limits) for name, limits in told["ranges"].items() if name != "nth"}
+    assert ranges == dict(fault_form._RANGES)
+    assert told["most"] == fault_form.MOST_FAULTS
+
+
+@pytest.mark.parametrize("nth", [0, 10_001])
+def test_the_screens_limits_of_how_often_a_step_begins_are_those_that_are_read(nth):
+    told = json.loads((ROOT / "frontend/src/shell/start/faultKinds.json").read_text(encoding="utf-8"))
+    least, most = told["ranges"]["nth"]
+    assert not least <= nth <= most
+    for good in (least, most):
+        read_list([{"fault": "dead", "device": "oven", "at_step": "a", "nth": good}])
+    with pytest.raises(BadFaults, match="nth"):
+        read_list([{"fault": "dead", "device": "oven", "at_step": "a", "nth": nth}])

@@ -1,5 +1,5 @@
 /** Commands about the program as a whole. */
-import { Box, Library, MapPin, MessageSquarePlus, Play, Settings2 } from "lucide-react";
+import { Box, Library, MapPin, MessageSquarePlus, Play, Settings2, SlidersHorizontal } from "lucide-react";
 import { mayComment } from "@/api/roles";
 import { aboutFrom } from "../comments/about";
 import { useComments, writeAbout } from "../comments/commentsUi";
@@ -30,6 +30,13 @@ export const PROGRAM_COMMANDS: readonly Command[] = [
     keys: ["Ctrl+Shift+Enter"],
     whyNot: ({ canRun }) => (canRun && useScreen.getState().simulate ? null : "commands.why.no_running"),
     run: () => useScreen.getState().simulate?.(),
+  }),
+  command({
+    id: "simulate_with",
+    ...PROGRAM,
+    icon: SlidersHorizontal,
+    whyNot: ({ canRun }) => (canRun ? null : "commands.why.no_running"),
+    run: () => useUi.setState({ dialog: "rehearse" }),
   }),
   command({
     id: "comment_on",

@@ -1,13 +1,20 @@
 /** The dialogs of the editor; what they are made of is loaded once the program is on the screen. */
 import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
+import { loadScreenTexts } from "@/i18n";
 import { useOpenProgram } from "../state/context";
 import { type Dialog, useUi } from "../state/ui";
 import { useAskedFunction } from "./askedFunction";
 
 type Name = NonNullable<Dialog>;
 
+/** A dialog that other screens have, too: its texts are theirs. */
+async function withTexts<T>(module: Promise<T>): Promise<T> {
+  return (await Promise.all([module, loadScreenTexts()]))[0];
+}
+
 const LOAD = {
-  run: () => import("./RunDialog").then(({ RunDialog }) => ({ default: RunDialog })),
+  run: () => withTexts(import("./RunDialog").then(({ RunDialog }) => ({ default: RunDialog }))),
+  rehearse: () => withTexts(import("./RehearseDialog").then(({ RehearseDialog }) => ({ default: RehearseDialog }))),
   function: () => import("./FunctionDialog").then(({ FunctionDialog }) => ({ default: FunctionDialog })),
   library: () => import("./LibraryDialog").then(({ LibraryDialog }) => ({ default: LibraryDialog })),
   save_function: () =>
@@ -19,6 +26,7 @@ const LOAD = {
 };
 const DIALOGS: Record<Name, ComponentType> = {
   run: lazy(LOAD.run),
+  rehearse: lazy(LOAD.rehearse),
   function: lazy(LOAD.function),
   library: lazy(LOAD.library),
   save_function: lazy(LOAD.save_function),

@@ -1,8 +1,9 @@
 /** The editor's top bar: where we are, what is saved, who is here, what can be done. */
 import { Button } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { Box, CircleAlert, EyeOff, Play, Redo2, TriangleAlert, Undo2 } from "lucide-react";
+import { Box, CircleAlert, EyeOff, Play, Redo2, SlidersHorizontal, TriangleAlert, Undo2 } from "lucide-react";
 import { useEffect, useRef, useState, useSyncExternalStore } from "react";
+import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
 import { api, ApiProblem } from "@/api/client";
 import { useOnce } from "@/api/once";
@@ -156,6 +157,7 @@ function Actions() {
       </span>
       <Problems />
       <SimulateButton />
+      <SimulateWith />
       <Button
         data-tour="run"
         leftSection={<Play size={16} aria-hidden="true" />}
@@ -200,6 +202,22 @@ function Problems() {
         </button>
       ) : null}
     </>
+  );
+}
+
+function SimulateWith() {
+  const { canRun } = useOpenProgram();
+  const { t } = useTranslation();
+  return (
+    <span className={classes.arm}>
+      <IconButton
+        label={t("commands.simulate_with.name")}
+        disabled={!canRun}
+        onClick={() => useUi.setState({ dialog: "rehearse" })}
+      >
+        <SlidersHorizontal size={16} aria-hidden="true" />
+      </IconButton>
+    </span>
   );
 }
 

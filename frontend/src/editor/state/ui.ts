@@ -6,7 +6,16 @@ import { RESTING, type Gesture } from "./tool";
 
 export type DrawerTab = "script" | "problems" | "steps" | "tests" | "comments";
 export type Dialog =
-  "run" | "function" | "library" | "save_function" | "shortcuts" | "find" | "strangers" | "templates" | null;
+  | "run"
+  | "rehearse"
+  | "function"
+  | "library"
+  | "save_function"
+  | "shortcuts"
+  | "find"
+  | "strangers"
+  | "templates"
+  | null;
 
 /** A field of the inspector that waits for a press on a device. */
 export interface FieldPick {

@@ -20,7 +20,8 @@ export interface FloorDetail {
 
 type Canvas = CanvasRenderingContext2D;
 
-const ROOM_LABEL = "500 11.5px 'Inter Variable', Inter, sans-serif";
+/** Names are never written smaller than can be read. */
+const roomLabel = (zoom: number) => `500 ${Math.max(11.5, 9 / zoom)}px 'Inter Variable', Inter, sans-serif`;
 const RULER_LABEL = "10.5px 'JetBrains Mono', monospace";
 
 /** Merge the cells into shapes once for each map. */
@@ -162,7 +163,7 @@ function paintPlaces(canvas: Canvas, palette: Palette, plan: FloorPlan, zoom: nu
 
 function paintText(canvas: Canvas, palette: Palette, text: string, at: { x: number; y: number }, zoom: number): void {
   if (zoom < 0.45) return;
-  canvas.font = ROOM_LABEL;
+  canvas.font = roomLabel(zoom);
   canvas.textAlign = "left";
   canvas.textBaseline = "alphabetic";
   canvas.fillStyle = palette["text-3"];
@@ -182,7 +183,7 @@ function paintDock(canvas: Canvas, palette: Palette, at: { x: number; y: number 
   canvas.roundRect(at.x - 13, at.y - 33, 26, 5, 2.5);
   canvas.fill();
   if (zoom < 0.45) return;
-  canvas.font = ROOM_LABEL;
+  canvas.font = roomLabel(zoom);
   canvas.textAlign = "center";
   canvas.fillStyle = palette["text-3"];
   canvas.fillText(name, at.x, at.y - 38);

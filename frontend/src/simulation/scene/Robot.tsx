@@ -17,6 +17,11 @@ interface RobotProps {
   palette: Palette;
 }
 
+interface OwnProps extends RobotProps {
+  /** The view is from its own place. */
+  hidden?: boolean;
+}
+
 function Turtle({ radius, palette }: { radius: number; palette: Palette }) {
   const decks = [0.06, 0.2, 0.34];
   return (
@@ -104,8 +109,8 @@ function PlannedPath({ device, recording, moment, palette }: RobotProps) {
 }
 
 /** A robot where the recording has it, with its load, its trail and its path. */
-export function Robot(props: RobotProps) {
-  const { device, recording, moment, palette } = props;
+export function Robot(props: OwnProps) {
+  const { device, recording, moment, palette, hidden = false } = props;
   const body = useRef<THREE.Group>(null);
   const load = useLoad(recording, device.id, moment);
   useFrame(() => {
@@ -117,7 +122,7 @@ export function Robot(props: RobotProps) {
   const [x, y, theta] = poseAt(recording.frames, device.id, moment.t_s) ?? [device.location.x, device.location.y, 0];
   return (
     <>
-      <group ref={body} name={`robot-${device.id}`} position={[x, 0, -y]} rotation={[0, theta, 0]}>
+      <group ref={body} visible={!hidden} name={`robot-${device.id}`} position={[x, 0, -y]} rotation={[0, theta, 0]}>
         <group scale={ROBOT_SCALE}>
           <Turtle radius={device.radius_m || 0.18} palette={palette} />
           <Load kind={load} palette={palette} />

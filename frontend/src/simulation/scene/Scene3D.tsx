@@ -4,7 +4,9 @@ import { type RefObject, useEffect, useMemo, useRef, useState } from "react";
 import * as THREE from "three";
 import type { OrbitControls as Controls } from "three-stdlib";
 import { poseAt } from "../frames";
+import type { Incident } from "../incidents/incidents";
 import { Building } from "./Building";
+import { Incidents } from "./Incidents";
 import { Machine } from "./Machine";
 import { type Palette, readPalette } from "./palette";
 import { Robot } from "./Robot";
@@ -25,7 +27,14 @@ interface SceneProps {
   t_s: number;
   /** What is said of a device at the moment, beside its name. */
   stateOf?: (device: string) => string;
+  incidents?: readonly Incident[];
+  onJump?: (t_s: number) => void;
 }
+
+const NONE: readonly Incident[] = [];
+const FIELD_OF_VIEW = 38;
+/** A robot's camera looks over its own deck, which is drawn at twice its size. */
+const ROBOT_CAMERA = { height_m: 0.95, ahead_m: 0.2, field: 62, looks_ahead_m: 4, looks_at_m: 0.55 };
 
 /** The palette of the theme that is on, read anew when the theme changes. */
 function usePalette(): Palette {
@@ -51,6 +60,9 @@ function CameraRig({ map, recording, moment, camera: mode, follow }: SceneProps)
   const controls = useRef<Controls>(null);
   const area = useMemo(() => extent(map), [map]);
   useEffect(() => {
+    camera.fov = mode === "robot" ? ROBOT_CAMERA.field : FIELD_OF_VIEW;
+    camera.updateProjectionMatrix();
+    if (mode === "robot") return;
     const half = Math.tan(((camera.fov / 2) * Math.PI) / 180);
     const distance = Math.max((area.width * 0.56) / (half * aspect), (area.depth * 0.62) / half);
     const direction = mode === "top" ? new THREE.Vector3(0, 1, 0.001) : new THREE.Vector3(-0.22, 0.72, 0.66);
@@ -58,6 +70,15 @@ function CameraRig({ map, recording, moment, camera: mode, follow }: SceneProps)
     controls.current?.target.copy(area.centre);
     controls.current?.update();
   }, [camera, area, mode, aspect]);
+  useFrame(() => {
+    const pose = mode === "robot" && recording && follow ? poseAt(recording.frames, follow, moment.t_s) : null;
+    if (!pose) return;
+    const [x, y, theta] = pose;
+    const ahead = (far_m: number, height_m: number) =>
+      new THREE.Vector3(x + Math.cos(theta) * far_m, height_m, -(y + Math.sin(theta) * far_m));
+    camera.position.copy(ahead(ROBOT_CAMERA.ahead_m, ROBOT_CAMERA.height_m));
+    camera.lookAt(ahead(ROBOT_CAMERA.looks_ahead_m, ROBOT_CAMERA.looks_at_m));
+  });
   useFrame(() => {
     const pose = mode === "follow" && recording && follow ? poseAt(recording.frames, follow, moment.t_s) : null;
     if (!pose || !controls.current) return;
@@ -67,7 +88,16 @@ function CameraRig({ map, recording, moment, camera: mode, follow }: SceneProps)
     camera.position.add(shift);
     controls.current.update();
   });
-  return <OrbitControls ref={controls} makeDefault maxPolarAngle={Math.PI / 2.1} minDistance={3} maxDistance={120} />;
+  return (
+    <OrbitControls
+      ref={controls}
+      enabled={mode !== "robot"}
+      makeDefault
+      maxPolarAngle={Math.PI / 2.1}
+      minDistance={3}
+      maxDistance={120}
+    />
+  );
 }
 
 /** Where names are put; without it drei moves them once the canvas is connected, and loses some on the way. */
@@ -160,7 +190,7 @@ export function Scene3D(props: SceneProps) {
         shadows="percentage"
         frameloop={playing ? "always" : "demand"}
         dpr={[1, 2]}
-        camera={{ fov: 38, near: 0.1, far: 400 }}
+        camera={{ fov: FIELD_OF_VIEW, near: 0.1, far: 400 }}
         aria-label={label}
         role="img"
       >
@@ -173,8 +203,22 @@ export function Scene3D(props: SceneProps) {
         ))}
         {recording &&
           robots.map((device) => (
-            <Robot key={device.id} device={device} recording={recording} moment={moment} palette={palette} />
+            <Robot
+              hidden={props.camera === "robot" && props.follow === device.id}
+              key={device.id}
+              device={device}
+              recording={recording}
+              moment={moment}
+              palette={palette}
+            />
           ))}
+        <Incidents
+          incidents={props.incidents ?? NONE}
+          t_s={t_s}
+          palette={palette}
+          layer={layer}
+          onJump={(at_s) => props.onJump?.(at_s)}
+        />
         {labels &&
           machines.map((device) => (
             <Label key={device.id} device={device} state={stateOf?.(device.id) ?? ""} layer={layer} />

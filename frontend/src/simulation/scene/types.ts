@@ -26,4 +26,4 @@ export interface Moment {
   t_s: number;
 }
 
-export type CameraMode = "orbit" | "top" | "follow";
+export type CameraMode = "orbit" | "top" | "follow" | "robot";

@@ -26,6 +26,26 @@ def test_faults_reach_the_rehearsal_that_they_were_asked_for(program):
     assert [job["scene"]["faults"] for job in jobs] == [DEAD, {"version": 1, "faults": []}]
 
 
+def test_how_a_rehearsal_was_asked_for_is_told_with_it(program):
+    client = sign_in_member("operator", SITE)
+    asked = {"seed": 7, "driver": "kinematic", "faults": DEAD}
+    made = post_json(client, f"/api/programs/{program}/rehearsals", asked).json()
+    told = {"version": 1, "seed": 7, "driver": "kinematic", "parameters": {}, "faults": DEAD["faults"]}
+    assert (made["asked"], client.get(f"/api/rehearsals/{made['id']}").json()["asked"]) == (told, told)
+    Rehearsal.objects.update(asked={})  # as those that were made before it was kept
+    assert client.get(f"/api/rehearsals/{made['id']}").json()["asked"] is None
+
+
+def test_a_refusal_says_which_fault_it_is_about(program):
+    faults = [*DEAD["faults"], {"fault": "dead", "device": "nobody"}]
+    refused = post_json(
+        sign_in_member("operator", SITE),
+        f"/api/programs/{program}/rehearsals",
+        {"faults": {"version": 1, "faults": faults}},
+    )
+    assert (refused.status_code, refused.json()["args"]) == (422, {"number": 2})
+
+
 @pytest.mark.parametrize(
     ("fault", "why"),
     [

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { completed } from "./RunParameters";
+import { completed } from "./Parameters";
 
 const PARAMETERS = [
   { name: "boxes", type: "number", default: 2 },

@@ -1,8 +1,10 @@
-/** What a run is told when it starts: the program's parameters, with their defaults. */
+/** What a run or a rehearsal is told when it starts: the program's parameters, with their defaults. */
 import { NumberInput, Select, TextInput } from "@mantine/core";
+import { useTranslation } from "react-i18next";
+import type { Device } from "@/api/types";
+import type { MapPlace } from "@/map/floor/floor";
 import type { Parameter } from "@/program/document/document";
 import { unitText } from "@/program/words/stepWords";
-import { useOpenProgram } from "../state/context";
 
 export type Given = Readonly<Record<string, unknown>>;
 
@@ -12,31 +14,44 @@ export function completed(parameters: readonly Parameter[], given: Given): Given
   return all.some(([, value]) => value === null) ? null : Object.fromEntries(all);
 }
 
-export function RunParameters({ given, onGive }: { given: Given; onGive: (given: Given) => void }) {
-  const { document } = useOpenProgram();
-  return Object.entries(document.parameters).map(([id, parameter]) => (
+interface ParametersProps {
+  parameters: readonly Parameter[];
+  devices: readonly Device[];
+  places: readonly MapPlace[];
+  given: Given;
+  onGive: (given: Given) => void;
+  /** What is wrong with a parameter, by its name. */
+  errors?: Readonly<Record<string, string>>;
+}
+
+export function Parameters({ parameters, given, onGive, errors = {}, ...around }: ParametersProps) {
+  return parameters.map((parameter) => (
     <ParameterInput
-      key={id}
+      key={parameter.name}
+      {...around}
       parameter={parameter}
       value={given[parameter.name] ?? parameter.default ?? null}
+      error={errors[parameter.name]}
       onChange={(value) => onGive({ ...given, [parameter.name]: value })}
     />
   ));
 }
 
-interface InputProps {
+interface InputProps extends Pick<ParametersProps, "devices" | "places"> {
   parameter: Parameter;
   value: unknown;
+  error: string | undefined;
   onChange: (value: unknown) => void;
 }
 
-function ParameterInput({ parameter, value, onChange }: InputProps) {
+function ParameterInput(props: InputProps) {
+  const { parameter, value, error, onChange } = props;
   const unit = unitText(parameter.unit);
   const label = unit ? `${parameter.name} (${unit})` : parameter.name;
   if (parameter.type === "number")
     return (
       <NumberInput
-        label={label}
+        {...{ label, error }}
         value={typeof value === "number" ? value : ""}
         onChange={(next) => onChange(typeof next === "number" ? next : null)}
       />
@@ -44,42 +59,40 @@ function ParameterInput({ parameter, value, onChange }: InputProps) {
   if (parameter.type === "text" || parameter.type === "object")
     return (
       <TextInput
-        label={label}
+        {...{ label, error }}
         value={typeof value === "string" ? value : ""}
         onChange={(event) => onChange(event.currentTarget.value || null)}
       />
     );
-  return <Choice label={label} type={parameter.type} value={value} onChange={onChange} />;
+  return <OneOf {...props} label={label} />;
 }
 
 /** Yes or no, a machine, or a place. */
-function Choice({
+function OneOf({
   label,
-  type,
+  parameter: { type },
   value,
+  error,
   onChange,
-}: {
-  label: string;
-  type: string;
-  value: unknown;
-  onChange: (value: unknown) => void;
-}) {
-  const { t, devices, plan } = useOpenProgram();
+  devices,
+  places,
+}: InputProps & { label: string }) {
+  const { t } = useTranslation();
   const yesNo = [
-    { value: "true", label: t("value.true") },
-    { value: "false", label: t("value.false") },
+    { value: "true", label: t("editor.value.true") },
+    { value: "false", label: t("editor.value.false") },
   ];
-  const places = type === "place" ? (plan?.places ?? []).map((place) => ({ value: place.id, label: place.name })) : [];
+  const named = type === "place" ? places.map((place) => ({ value: place.id, label: place.name })) : [];
   const machines = devices
     .filter((device) => device.kind !== "robot")
     .map((device) => ({ value: device.id, label: device.name }));
   return (
     <Select
-      label={label}
-      data={type === "boolean" ? yesNo : [...machines, ...places]}
+      {...{ label, error }}
+      data={type === "boolean" ? yesNo : [...machines, ...named]}
       value={typeof value === "boolean" ? String(value) : typeof value === "string" ? value : null}
       onChange={(next) => onChange(type === "boolean" && next !== null ? next === "true" : next)}
-      placeholder={t("field.choose")}
+      placeholder={t("editor.field.choose")}
       searchable={type !== "boolean"}
     />
   );
