@@ -116,6 +116,7 @@ from registry.people.sign_in import (
     is_known,
     reopen_account,
 )
+from registry.people.sign_on.attempts import forget_sign_ons
 from registry.people.throttle import forget_attempts
 from registry.people.tokens import (
     TokenView,
@@ -262,6 +263,7 @@ __all__ = [
     "flush_alerts",
     "flush_samples",
     "forget_attempts",
+    "forget_sign_ons",
     "get_demo_grid",
     "get_device",
     "get_device_names",

@@ -14,6 +14,7 @@ from ninja import Field, Router, Schema
 from ninja.responses import Status
 
 from registry.api.authentication import session_only
+from registry.api.people import signed_on_at
 from registry.audit.acting import client_address
 from registry.people import second_factor
 from registry.people.open_sessions import follow_session
@@ -31,7 +32,7 @@ class FactorShape(Schema):
 
 
 class OwnPassword(Asked):
-    """The password that somebody has."""
+    """The password that somebody has; empty where they have none, and have just signed in by their provider."""
 
     password: Annotated[str, AsTyped()] = Field(max_length=1000)
 
@@ -67,7 +68,13 @@ def show_second_factor(request: HttpRequest, response: HttpResponse) -> dict[str
 def begin_second_factor(request: HttpRequest, response: HttpResponse, body: OwnPassword) -> Status[dict[str, Any]]:
     """Make a secret for an authenticator app; it counts once a code of it was sent to `…/confirm`."""
     user = signed_in(request)
-    with checking_own_password(user=user, password=body.password, address=client_address(request), now=timezone.now()):
+    with checking_own_password(
+        user=user,
+        password=body.password,
+        address=client_address(request),
+        now=timezone.now(),
+        signed_on_at=signed_on_at(request),
+    ):
         made = second_factor.begin_factor(user=user)
     response["Cache-Control"] = "no-store"
     return Status(201, asdict(made))
@@ -78,7 +85,13 @@ def confirm_second_factor(request: HttpRequest, response: HttpResponse, body: Pa
     """Turn the second factor on by a code of the app; all other sessions end, and this one goes on."""
     user, now = signed_in(request), timezone.now()
     with (
-        checking_own_password(user=user, password=body.password, address=client_address(request), now=now),
+        checking_own_password(
+            user=user,
+            password=body.password,
+            address=client_address(request),
+            now=now,
+            signed_on_at=signed_on_at(request),
+        ),
         transaction.atomic(),
     ):
         former = str(request.session.session_key)
@@ -95,7 +108,9 @@ def confirm_second_factor(request: HttpRequest, response: HttpResponse, body: Pa
 def renew_recovery_codes(request: HttpRequest, response: HttpResponse, body: PasswordAndCode) -> dict[str, Any]:
     """Give ten other recovery codes; those before end."""
     user, now = signed_in(request), timezone.now()
-    with checking_own_password(user=user, password=body.password, address=client_address(request), now=now):
+    with checking_own_password(
+        user=user, password=body.password, address=client_address(request), now=now, signed_on_at=signed_on_at(request)
+    ):
         codes = second_factor.renew_recovery_codes(user=user, code=body.code, now=now)
     response["Cache-Control"] = "no-store"
     return {"codes": list(codes)}
@@ -105,6 +120,8 @@ def renew_recovery_codes(request: HttpRequest, response: HttpResponse, body: Pas
 def turn_off_second_factor(request: HttpRequest, body: PasswordAndCode) -> dict[str, Any]:
     """Turn the second factor off; sessions and tokens go on."""
     user, now = signed_in(request), timezone.now()
-    with checking_own_password(user=user, password=body.password, address=client_address(request), now=now):
+    with checking_own_password(
+        user=user, password=body.password, address=client_address(request), now=now, signed_on_at=signed_on_at(request)
+    ):
         second_factor.turn_off_factor(user=user, code=body.code, now=now)
     return {"since": None, "recovery_codes": 0}

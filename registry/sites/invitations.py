@@ -203,6 +203,24 @@ def accept_invitation(*, code: str, user: User, address: str, now: datetime) -> 
         return _take_in(_lock_open(found, now), user, now)
 
 
+def find_open_link(*, code: str, address: str, now: datetime) -> Invitation:
+    """Return the invitation of a link that may still be used. Raises UnknownLink, LinkOver, TooManyAttempts."""
+    row = _find(code, address, now)
+    _require_open(row, now)
+    return row
+
+
+def take_in(*, invitation: Invitation, user: User, now: datetime) -> str:
+    """Make somebody a member by an invitation that was found before; a member stays one. Returns the site's slug.
+
+    Called in a transaction. Raises LinkOver.
+    """
+    row = _lock_open(invitation, now)
+    if find_access(user, row.site) is not None:
+        return row.site.slug
+    return _take_in(row, user, now)
+
+
 def join_as_new(*, code: str, person: NewPerson, address: str, now: datetime) -> tuple[User, str]:
     """Make an account for somebody who has a link, and make them a member; return them, and the site's slug.
 

@@ -17,21 +17,22 @@ from registry.api.alerts import router as alerts_router
 from registry.api.audit import router as audit_router
 from registry.api.authentication import token_or_session
 from registry.api.devices import router as devices_router
-from registry.api.invitations import router as invitations_router
 from registry.api.floor.maps import router as maps_router
+from registry.api.floor.places import router as places_router
+from registry.api.floor.zones import router as zones_router
+from registry.api.invitations import router as invitations_router
 from registry.api.members import router as members_router
 from registry.api.mtconnect import router as mtconnect_router
 from registry.api.onboarding import router as onboarding_router
 from registry.api.once import begin_once, watch_request
 from registry.api.people import router as people_router
-from registry.api.floor.places import router as places_router
 from registry.api.second_factor import router as second_factor_router
+from registry.api.sign_on import router as sign_on_router
 from registry.api.sites import router as sites_router
 from registry.api.sparql import router as sparql_router
 from registry.api.things import router as things_router
 from registry.api.tokens import router as tokens_router
 from registry.api.wall_screens import router as wall_screens_router
-from registry.api.floor.zones import router as zones_router
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import BadMessage, parse_plain_json
 from vipo_site.http.making import name_place, note_place
@@ -119,6 +120,7 @@ api.add_decorator(name_place, mode="view")
 api.add_decorator(watch_request, mode="view")
 api.add_router("", people_router)
 api.add_router("", second_factor_router)
+api.add_router("", sign_on_router)
 api.add_router("", sites_router)
 api.add_router("", tokens_router)
 api.add_router("", members_router)
