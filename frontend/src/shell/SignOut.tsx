@@ -31,10 +31,12 @@ export function useSignOut(path: "/sign-out" | "/me/sign-out-everywhere", to: To
   const [waiting, setWaiting] = useState<readonly KeptCopy[]>([]);
   const end = useMutation({
     mutationFn: async () => {
-      await api.post(path);
+      const told = await api.post<{ provider_sign_out?: string }>(path);
       await removeAll();
+      return told.provider_sign_out;
     },
-    onSuccess: async () => {
+    onSuccess: async (elsewhere) => {
+      if (elsewhere) return location.assign(elsewhere);
       await navigate(to);
       queries.clear();
     },

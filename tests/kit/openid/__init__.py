@@ -19,7 +19,7 @@ from tests.kit.node_packages import install_packages
 from tests.kit.servers import answers, find_program, free_port, wait_ready
 
 HERE = Path(__file__).parent
-CLIENT, SECRET = "vipo-tests", "a secret of these tests"
+CLIENT, SECRET = "vipo-tests", "a secret of these tests, long enough for HMAC"
 PEOPLE: dict[str, dict[str, Any]] = {
     "ada": {"email": "author@vipo.example", "email_verified": True, "name": "Ada of the provider"},
     "new": {"email": "new@vipo.example", "email_verified": True, "name": "Nova New"},

@@ -26,6 +26,7 @@ function variantOf({ code, facts }: AuditEntry): string {
 function factsOf(line: AuditEntry): [string, unknown][] {
   return Object.entries(line.facts as Record<string, unknown>).map(([name, value]) => {
     if (ROLES.includes(name)) return [name, i18next.t(`role.${String(value)}`)];
+    if (name === "why") return [name, i18next.t(`people.audit.signOn.${String(value)}`)];
     if (name === "until" && typeof value === "string") return [name, formatMoment(value)];
     return [name, value];
   });
