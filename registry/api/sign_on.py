@@ -117,7 +117,7 @@ def begin_provider_sign_on(
     "/sign-in/providers/{provider}/finish",
     response=SignedOn,
     auth=None,
-    openapi_extra=refuses(401, 403, 404, 409, 410, 429, 502, 503),
+    openapi_extra=refuses(401, 403, 404, 409, 410, 429, 503),
 )
 def finish_provider_sign_on(
     request: HttpRequest, response: HttpResponse, provider: str, body: SignOnAnswer
@@ -163,10 +163,10 @@ def list_my_sign_ons(request: HttpRequest) -> dict[str, Any]:
 @router.post("/me/sign-ons", response=SignOnAddress, auth=session_only, openapi_extra=refuses(404, 429, 503))
 def begin_linking(request: HttpRequest, response: HttpResponse, body: LinkWanted) -> dict[str, str]:
     """Begin to link the asker's account with one of a provider; goes on and ends as a sign-on does."""
-    user, found, now = signed_in(request), find_provider(body.provider), timezone.now()
+    user, now = signed_in(request), timezone.now()
     address, seen = client_address(request), signed_on_at(request)
     with checking_own_password(user=user, password=body.password, address=address, now=now, signed_on_at=seen):
-        return _begin(request, response, found, Purpose(next="/account", link_to=user))
+        return _begin(request, response, find_provider(body.provider), Purpose(next="/account", link_to=user))
 
 
 @router.delete("/me/sign-ons/{int:sign_on}", response={204: None}, auth=session_only, openapi_extra=refuses(409))

@@ -8576,12 +8576,6 @@ export interface operations {
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
-            502: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content?: never;
-            };
             503: components["responses"]["Refused503"];
             /** @description A refusal */
             default: {

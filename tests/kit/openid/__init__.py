@@ -1,4 +1,4 @@
-"""A provider of OpenID Connect that nobody here wrote (npm's oidc-provider), on a port of its own, and who signs in there."""
+"""A provider of OpenID Connect that nobody here wrote (npm's oidc-provider), and who signs in there."""
 
 from __future__ import annotations
 

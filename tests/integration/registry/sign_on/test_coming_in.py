@@ -414,7 +414,7 @@ def test_a_clock_that_is_off_is_told_as_such(acme: OpenId, offset_s: int) -> Non
     link("author", "ada", acme)
     acme.restart(offset_s=offset_s)
     try:
-        assert why(come(Client(), "ada")) == (502, "clock")
+        assert why(come(Client(), "ada")) == (403, "clock")
     finally:
         acme.restart(offset_s=0)
 
