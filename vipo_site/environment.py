@@ -19,6 +19,7 @@ WIDEST_PROXIES = {4: 8, 6: 32}
 LOG_LEVELS = ("DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")
 LOG_FORMS = ("json", "text")
 
+FACTOR_ROLES = ("commenter", "operator", "author", "admin")
 _PROVIDER = re.compile(r"[a-z0-9][a-z0-9-]{0,19}")
 
 Network = IPv4Network | IPv6Network
@@ -216,6 +217,14 @@ def _provider(name: str, *, with_secrets: bool) -> dict[str, object]:
         "acr": _words(f"{setting}_ACR"),
         "signs_out": _switch(f"{setting}_SIGN_OUT"),
     }
+
+
+def demanded_factor() -> str:
+    """Return the least role of which every site demands a second factor, from VIPO_SECOND_FACTOR; empty for none."""
+    value = os.environ.get("VIPO_SECOND_FACTOR", "")
+    if value and value not in FACTOR_ROLES:
+        raise ImproperlyConfigured(f"VIPO_SECOND_FACTOR is {value[:20]!r}; it names one of {', '.join(FACTOR_ROLES)}.")
+    return value
 
 
 def _words(name: str) -> list[str]:

@@ -11,6 +11,7 @@ from urllib.parse import unquote, urlsplit
 from django.core.exceptions import ImproperlyConfigured
 
 from vipo_site.environment import (
+    demanded_factor,
     has_demo,
     is_https,
     is_local,
@@ -235,6 +236,8 @@ EMAIL_HOST_PASSWORD = secret("VIPO_MAIL_PASSWORD") if EMAIL_HOST and _SIGNS else
 EMAIL_TIMEOUT = 10
 DEFAULT_FROM_EMAIL = mail_sender(EMAIL_HOST)
 
+VIPO_SECOND_FACTOR = demanded_factor()
+"""The least role of which every site demands a second factor; a site may demand it of more."""
 VIPO_SIGN_ON = sign_on_providers(with_secrets=_SIGNS)
 """Whom people may sign in by beside passwords, by OpenID Connect."""
 AUTHENTICATION_BACKENDS = ["django.contrib.auth.backends.ModelBackend", "registry.people.backends.TwoFactors"]

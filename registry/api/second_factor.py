@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from datetime import datetime
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from django.contrib.auth import update_session_auth_hash
 from django.db import transaction
@@ -17,9 +17,11 @@ from registry.api.authentication import session_only
 from registry.api.people import signed_on_at
 from registry.audit.acting import client_address
 from registry.people import second_factor
+from registry.people.access import require
 from registry.people.open_sessions import follow_session
 from registry.people.sign_in import checking_own_password
-from registry.shapes import Asked, AsTyped, Line, signed_in
+from registry.shapes import Asked, AsTyped, Line, refuses, signed_in
+from registry.sites import factor_rule
 
 router = Router(tags=["registry"])
 
@@ -55,6 +57,41 @@ class RecoveryCodes(Schema):
     """Ten codes that stand in for the app, each once; told this once."""
 
     codes: list[str]
+
+
+DemandRole = Literal["commenter", "operator", "author", "admin"]
+
+
+class FactorRuleShape(Schema):
+    """From which role on a site demands a second factor, null for none; `of_server`: from which on every site does."""
+
+    demanded_from: DemandRole | None
+    of_server: DemandRole | None
+
+
+class FactorRuleWanted(Asked):
+    """From which role on a second factor is to be demanded, null for nobody."""
+
+    demanded_from: DemandRole | None
+
+
+@router.get("/sites/{slug}/second-factor", response=FactorRuleShape, auth=session_only)
+def show_factor_rule(request: HttpRequest, slug: str) -> dict[str, Any]:
+    """Say of whom a site demands a second factor."""
+    require(signed_in(request), slug, "admin")
+    return _rule_to_json(factor_rule.get_factor_rule(site=slug))
+
+
+@router.put("/sites/{slug}/second-factor", response=FactorRuleShape, auth=session_only, openapi_extra=refuses(409))
+def set_factor_rule(request: HttpRequest, slug: str, body: FactorRuleWanted) -> dict[str, Any]:
+    """Demand a second factor from a role on; who lacks one looks only from now on, until it is set up."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    return _rule_to_json(factor_rule.set_factor_rule(site=slug, demanded_from=body.demanded_from or "", by=user))
+
+
+def _rule_to_json(rule: factor_rule.FactorRule) -> dict[str, Any]:
+    return {"demanded_from": rule.demanded_from or None, "of_server": rule.of_server or None}
 
 
 @router.get("/me/second-factor", response=FactorShape, auth=session_only)

@@ -119,7 +119,7 @@ DEEDS = (
         "session",
         """show_member change_member remove_member list_invitations make_invitation revoke_invitation
         list_wall_screens make_wall_screen revoke_wall_screen
-        reset_second_factor""",
+        reset_second_factor show_factor_rule set_factor_rule""",
     ),
     _deed(
         "come",

@@ -22,6 +22,7 @@ from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import Invitation, Membership, Site, User
 from registry.people.access import NotAllowed, NotAMember, allows, find_access
+from registry.people.demanded_factor import is_vouched_for
 from registry.people.sign_in import create_user
 from registry.people.throttle import Attempt, counted, network_of
 
@@ -267,6 +268,8 @@ _OVER: dict[str, str] = {
 
 def _require_open(row: Invitation, now: datetime) -> None:
     state = _state(row, now)
+    if row.made_by:  # who made it does not ask here: what counts is how they came last
+        row.made_by.has_two_factors = is_vouched_for(row.made_by)
     access = find_access(row.made_by, row.site) if row.made_by else None
     if state == "open" and (access is None or not access.allows("admin") or not allows(access.role, row.role)):
         state = "revoked"

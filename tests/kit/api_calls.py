@@ -73,6 +73,7 @@ BODIES: dict[str, dict[str, Any]] = {
     "join_as_new": {"code": "{code}", "name": "New One", "email": "new-one@vipo.example", "password": "four odd words"},
     "sign_in": {"email": "a", "password": "b"},
     "finish_provider_sign_on": {"state": "none"},
+    "set_factor_rule": {"demanded_from": None},
     "begin_linking": {"provider": "none"},
     "begin_second_factor": {"password": "not this one"},
     **{
