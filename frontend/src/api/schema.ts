@@ -2789,6 +2789,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/second-factor": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Factor Rule
+         * @description Say of whom a site demands a second factor.
+         */
+        get: operations["show_factor_rule"];
+        /**
+         * Set Factor Rule
+         * @description Demand a second factor from a role on; who lacks one looks only from now on, until it is set up.
+         */
+        put: operations["set_factor_rule"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/sparql": {
         parameters: {
             query?: never;
@@ -3714,6 +3738,15 @@ export interface components {
             step: string;
             text?: string | null;
             value?: unknown;
+        };
+        /** @description From which role on a site demands a second factor, null for none; `of_server`: from which on every site does. */
+        FactorRuleShape: {
+            demanded_from: ("commenter" | "operator" | "author" | "admin") | null;
+            of_server: ("commenter" | "operator" | "author" | "admin") | null;
+        };
+        /** @description From which role on a second factor is to be demanded, null for nobody. */
+        FactorRuleWanted: {
+            demanded_from: ("commenter" | "operator" | "author" | "admin") | null;
         };
         /** @description Since when the asker has a second factor, null for none, and how many recovery codes are left. */
         FactorShape: {
@@ -4993,9 +5026,10 @@ export interface components {
             provider_sign_out: string;
             user: components["schemas"]["Person"] | null;
         };
-        /** @description A site as its member sees it. */
+        /** @description A site as its member sees it; `held_role` is what they are once they have the second factor that it demands. */
         SiteShape: {
             has_map: boolean;
+            held_role: ("viewer" | "commenter" | "operator" | "author" | "admin") | null;
             machines: number;
             name: string;
             online: number;
@@ -12524,6 +12558,92 @@ export interface operations {
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_factor_rule: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FactorRuleShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    set_factor_rule: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FactorRuleWanted"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FactorRuleShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

@@ -51,6 +51,7 @@ export type DescriptionLook = Schemas["LookShape"];
 
 export type OwnSession = Schemas["OwnSession"];
 export type Factor = Schemas["FactorShape"];
+export type FactorRule = Schemas["FactorRuleShape"];
 export type NewFactor = Schemas["NewFactorShape"];
 export type RecoveryCodes = Schemas["RecoveryCodes"];
 export type SignOnProvider = Schemas["ProviderShape"];

@@ -19,6 +19,7 @@ export function deedWords(line: AuditEntry): string {
 function variantOf({ code, facts }: AuditEntry): string {
   if (code === "access_end_set" && facts.until === null) return "access_end_none";
   if (code === "invitation_made" && facts.email) return "invitation_mailed";
+  if (code === "second_factor_demanded" && !facts.role) return "second_factor_demanded_none";
   if (code === "run_started" && facts.armed) return "run_armed";
   return code;
 }
