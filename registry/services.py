@@ -15,6 +15,7 @@ from registry.alerts.inbox import (
 from registry.alerts.views import AlertView, alert_to_json
 from registry.alerts.watch import watch_devices
 from registry.audit.acting import VIPO, acting
+from registry.audit.reading import list_server_audit
 from registry.audit.record import note_act, prune_audit
 from registry.bounds.parts import FIRST, Listed, Part, take_part
 from registry.bounds.places import Claim, Places
@@ -299,6 +300,7 @@ __all__ = [
     "list_places",
     "list_positions",
     "list_processes",
+    "list_server_audit",
     "list_sites",
     "list_slugs",
     "list_tokens",

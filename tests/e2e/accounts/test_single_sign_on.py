@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+import pyotp
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
@@ -122,12 +123,25 @@ def test_who_is_refused_is_told_why_and_what_was_given_along_is_not_in_the_addre
         page.context.close()
 
 
+def come_in(page: Page, place: Place, person: str) -> None:
+    cookie = {"name": "sessionid", "value": place.sessions[person], "url": place.url}
+    page.context.add_cookies([cookie])  # type: ignore[list-item]  # a cookie has no more than that
+
+
+def set_up_factor(page: Page, place: Place) -> None:
+    """Give who is signed in a second factor, as their own page does."""
+    headers = {"X-CSRFToken": page.request.get(f"{place.url}/api/me").json()["csrf"]}
+    path = f"{place.url}/api/me/second-factor"
+    begun = page.request.post(path, data={"password": PASSWORD}, headers=headers).json()
+    proof = {"password": PASSWORD, "code": pyotp.TOTP(begun["secret"]).now()}
+    assert page.request.post(f"{path}/confirm", data=proof, headers=headers).ok
+
+
 def test_an_invitation_is_accepted_by_a_provider_and_the_people_page_says_so(
     place: Place, chromium: Browser, faults: list[str]
 ) -> None:
-    cookie = {"name": "sessionid", "value": place.sessions["admin"], "url": place.url}
     admin = open_page(chromium, faults)
-    admin.context.add_cookies([cookie])  # type: ignore[list-item]  # a cookie has no more than that
+    come_in(admin, place, "admin")
     admin.goto(f"{place.url}/sites/hall/people")
     token = {"X-CSRFToken": admin.request.get(f"{place.url}/api/me").json()["csrf"]}
     made = admin.request.post(f"{place.url}/api/sites/hall/invitations", data={"role": "viewer"}, headers=token)
@@ -158,8 +172,7 @@ def test_the_pages_are_sound_in_both_themes_and_three_sizes(
     page.add_init_script(f"localStorage.setItem('vipo.language', '{language}')")
     for path, heading in zip(("/sign-in", "/account"), title, strict=True):
         if path == "/account":
-            cookie = {"name": "sessionid", "value": place.sessions["second"], "url": place.url}
-            page.context.add_cookies([cookie])  # type: ignore[list-item]  # a cookie has no more than that
+            come_in(page, place, "second")
         page.goto(place.url + path)
         for width, height in SIZES:
             page.set_viewport_size({"width": width, "height": height})
@@ -170,3 +183,38 @@ def test_the_pages_are_sound_in_both_themes_and_three_sizes(
                 assert page.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
                 shoot(page, f"sso{path.replace('/', '-')}-{width}-{scheme}-{language}")
     page.context.close()
+
+
+def test_a_second_factor_is_demanded_and_who_lacks_it_is_led_to_set_it_up(
+    place: Place, chromium: Browser, faults: list[str]
+) -> None:
+    admin, operator = open_page(chromium, faults), open_page(chromium, faults)
+    come_in(admin, place, "admin")
+    come_in(operator, place, "operator")
+    admin.goto(f"{place.url}/sites/hall/people")
+    set_up_factor(admin, place)
+    admin.reload()
+    rule = admin.get_by_role("region", name="Second factor")
+    rule.get_by_label("Demanded of").select_option("operator")
+    expect(admin.get_by_text("That holds from now on.")).to_be_visible()
+    assert violations(admin) == []
+    rule.scroll_into_view_if_needed()
+    shoot(admin, "factor-rule")
+    operator.goto(f"{place.url}/sites/hall/runs")
+    strip = operator.get_by_text("This site demands a second factor of the role Operator.", exact=False)
+    expect(strip).to_be_visible()
+    assert violations(operator) == []
+    for width, height in SIZES:
+        operator.set_viewport_size({"width": width, "height": height})
+        assert operator.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
+        shoot(operator, f"factor-strip-{width}")
+    operator.get_by_role("link", name="Set up a second factor").press("Enter")
+    expect(operator.get_by_role("button", name="Set up a second factor")).to_be_visible()
+    set_up_factor(operator, place)
+    operator.goto(f"{place.url}/sites/hall/runs")
+    expect(operator.get_by_role("heading", level=1, name="Runs")).to_be_visible()
+    expect(strip).to_have_count(0)
+    rule.get_by_label("Demanded of").select_option("")
+    expect(rule.get_by_label("Demanded of")).to_have_value("")
+    for page in (admin, operator):
+        page.context.close()

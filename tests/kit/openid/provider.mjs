@@ -7,6 +7,12 @@ const told = JSON.parse(process.argv[2]);
 const now = Date.now;
 Date.now = () => now() + told.offset_s * 1000;
 
+/** The library's own page fetches fonts from elsewhere. */
+function askToSignOut(ctx, form) {
+  ctx.body = `<!doctype html><html lang="en"><title>Sign out</title>${form}
+    <button form="op.logoutForm" name="logout" value="yes">Yes, sign me out</button></html>`;
+}
+
 const provider = new Provider(told.issuer, {
   clients: [told.client],
   jwks: { keys: told.keys },
@@ -14,7 +20,7 @@ const provider = new Provider(told.issuer, {
   claims: { openid: ["sub", "amr"], email: ["email", "email_verified"], profile: ["name"], acr: null },
   enabledJWA: { idTokenSigningAlgValues: ["RS256", "HS256"] },
   ttl: { IdToken: 300 },
-  features: { devInteractions: { enabled: false }, rpInitiatedLogout: { enabled: true } },
+  features: { devInteractions: { enabled: false }, rpInitiatedLogout: { enabled: true, logoutSource: askToSignOut } },
   acrValues: ["two"],
   pkce: { required: () => true },
   interactions: { url: (_, interaction) => `/interaction/${interaction.uid}` },
@@ -46,7 +52,9 @@ async function interact(request, response) {
 }
 
 const handle = provider.callback();
+provider.on("server_error", (_, error) => console.error(error));
 createServer((request, response) => {
+  if (request.url === "/favicon.ico") return response.writeHead(204).end();
   const done = request.url.startsWith("/interaction/") ? interact(request, response) : handle(request, response);
   Promise.resolve(done).catch((error) => response.writeHead(500).end(String(error)));
 }).listen(told.port, "127.0.0.1", () => console.log("ready"));

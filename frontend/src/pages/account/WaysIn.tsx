@@ -153,18 +153,20 @@ export function WaysIn() {
             ))}
           </ul>
         ) : null}
-        <div className={styles.row}>
-          {open.map((each) => (
-            <Button
-              key={each.name}
-              variant="default"
-              leftSection={<Link2 size={16} aria-hidden="true" />}
-              onClick={() => setLinking(each)}
-            >
-              {t("signOn.link", { title: each.title })}
-            </Button>
-          ))}
-        </div>
+        {open.length > 0 ? (
+          <div className={styles.row}>
+            {open.map((each) => (
+              <Button
+                key={each.name}
+                variant="default"
+                leftSection={<Link2 size={16} aria-hidden="true" />}
+                onClick={() => setLinking(each)}
+              >
+                {t("signOn.link", { title: each.title })}
+              </Button>
+            ))}
+          </div>
+        ) : null}
       </div>
       {linking ? <LinkDialog to={linking} asks={hasPassword} onClose={() => setLinking(null)} /> : null}
       {unlinking ? <UnlinkDialog signOn={unlinking} onClose={() => setUnlinking(null)} /> : null}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from datetime import timedelta
 from typing import Any
@@ -17,6 +18,7 @@ from registry.models import AuditLine, Membership, SignOn, SignOnAttempt, User
 from registry.people.sign_on.provider_client import forget_providers
 from tests.kit.openid import OpenId, answer_of, make_key, run_openid, stray_state, visit
 from tests.kit.sign_in import PASSWORD, add_person, find_person, post_json, signed_in
+from vipo_site.cli.main import main
 
 AT = "/api/sign-in/providers/acme"
 
@@ -450,3 +452,14 @@ def test_what_was_kept_for_a_sign_on_is_forgotten(acme: OpenId) -> None:
     assert services.forget_sign_ons(now=timezone.now() + timedelta(hours=2)) == 1
     assert KeptSession.objects.count() == 0, "strangers leave no session behind"
     assert Membership.objects.filter(user=add_person("late")).count() == 0
+
+
+def test_who_serves_vipo_reads_what_no_site_knows(acme: OpenId, capsys: pytest.CaptureFixture[str]) -> None:
+    come(Client(REMOTE_ADDR="192.0.2.7"), "new")
+    assert main(["record"]) == 0
+    line = capsys.readouterr().out.splitlines()[1]
+    assert all(word in line for word in ("sign_on_refused", "provider Acme", "why nobody", "192.0.2.7"))
+    assert main(["record", "--last", "1", "--json"]) == 0
+    assert [row["facts"]["why"] for row in json.loads(capsys.readouterr().out)] == ["nobody"]
+    told = signed_in("admin").get("/api/sites/hall/audit?kind=sign_in").json()
+    assert told == [], "and no admin of a site does"
