@@ -23,7 +23,7 @@ from execution.wall.socket import WallSocket  # noqa: E402
 from registry.api.site_socket import SiteSocket  # noqa: E402
 from vipo_site.http.collecting import leave_out_what_stays  # noqa: E402
 from vipo_site.http.ending import keep_rooms_at_end  # noqa: E402
-from vipo_site.http.entrance import BehindProxies, OwnPagesOnly  # noqa: E402
+from vipo_site.http.entrance import BehindProxies, OwnPagesOnly, leave_forms_to_django  # noqa: E402
 from vipo_site.http.heartbeat import beat_while_serving  # noqa: E402
 from vipo_site.http.memory import give_back_large_blocks  # noqa: E402
 from vipo_site.http.middleware import add_headers  # noqa: E402
@@ -79,3 +79,4 @@ files.files.pop("/index.html", None)
 application = BehindProxies(files, settings.VIPO_PROXIES)
 give_back_large_blocks()
 leave_out_what_stays()
+leave_forms_to_django()

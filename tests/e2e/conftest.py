@@ -96,6 +96,8 @@ def sign_in_by_form(chromium: Browser, demo: Demo, role: str) -> Any:
     page.get_by_label("Password", exact=True).fill(account.password)
     page.get_by_role("button", name="Sign in", exact=True).click()
     page.wait_for_url(f"{demo.url}/")
+    # The site that was last looked at: other tests make sites, and without it the first of all would be theirs.
+    page.evaluate("localStorage.setItem('vipo.site', 'painting-factory')")
     state = context.storage_state()
     context.close()
     return state

@@ -73,7 +73,7 @@ def test_a_wrong_password_is_refused_in_a_sentence_and_the_right_one_opens_home(
 def test_the_new_device_takes_part_once_an_admin_has_approved_it(sign_in: SignIn) -> None:
     admin, author = sign_in("admin"), sign_in("author", "/sites/painting-factory/devices/paintMixer03")
     expect(author.get_by_text("An admin of this site can approve it.")).to_be_visible()
-    admin.get_by_role("link", name=re.compile("^Devices")).click()
+    admin.get_by_role("navigation").get_by_role("link", name=re.compile("^Devices")).first.click()
     row = admin.get_by_role("row", name=re.compile("^paintMixer03"))
     expect(row).to_contain_text("Waiting for approval")
     row.get_by_role("link").click()

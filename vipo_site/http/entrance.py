@@ -1,4 +1,4 @@
-"""What holds before a request is anybody's: where it came from, and which pages may open sockets.
+"""What holds before a request is anybody's: where it came from, which pages may open sockets, who reads its forms.
 
 A proxy says in X-Forwarded-For and X-Forwarded-Proto who asked and how. Anybody can write these headers, so they are
 read only where the connection comes from an address that VIPO_PROXIES names. Behind this, `REMOTE_ADDR` of a request
@@ -8,10 +8,12 @@ and `client` of a socket can be relied on, and `scheme` is what the browser spok
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Mapping, Sequence
+from functools import partialmethod
 from ipaddress import ip_address
 from typing import Any
 from urllib.parse import SplitResult, urlsplit
 
+from daphne.http_protocol import WebRequest
 from django.http.request import split_domain_port, validate_host
 
 from vipo_site.environment import Network
@@ -106,3 +108,12 @@ def _place(origin: str) -> tuple[str, str, int] | None:
     if parts.path or parts.query or parts.fragment or not parts.hostname or parts.username is not None:
         return None
     return parts.scheme, parts.hostname, port
+
+
+def leave_forms_to_django() -> None:
+    """Have Daphne's Twisted hand on forms as they came, since Django reads them.
+
+    By itself Twisted reads each form as e-mail, in the loop that serves everybody (a third of a second for 16 MiB), and
+    answers what it cannot read with 400 and not a word, a form without fields too.
+    """
+    WebRequest.__init__ = partialmethod(WebRequest.__init__, parsePOSTFormSubmission=False)

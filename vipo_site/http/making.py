@@ -37,6 +37,8 @@ MADE = {
     "add_place": Place("show_place", ("slug",), {"place_id": "id"}),
     "add_zone": Place("show_zone", ("slug",), {"zone_id": "id"}),
     "make_invitation": Place("list_invitations", ("slug",), {}),
+    "make_wall_screen": Place("list_wall_screens", ("slug",), {}),
+    "begin_second_factor": Place("show_second_factor", (), {}),
     "join_as_new": Place("show_site", (), {"slug": "site"}),
     "create_program": Place("show_program", (), {"program": "id"}),
     "copy_version": Place("show_program", (), {"program": "id"}),

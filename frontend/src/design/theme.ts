@@ -5,8 +5,6 @@ import {
   Menu,
   Modal,
   Notification,
-  Select,
-  TextInput,
   Tooltip,
   type CSSVariablesResolver,
   type MantineColorsTuple,
@@ -60,8 +58,9 @@ export const makeTheme = (close: string) =>
     respectReducedMotion: true,
     components: {
       Button: Button.extend({ defaultProps: { size: "sm" } }),
-      TextInput: TextInput.extend({ defaultProps: { size: "sm" } }),
-      Select: Select.extend({ defaultProps: { size: "sm", checkIconPosition: "right" } }),
+      // Fields are named only: they are loaded with the forms that have them.
+      TextInput: { defaultProps: { size: "sm" } },
+      Select: { defaultProps: { size: "sm", checkIconPosition: "right" } },
       Menu: Menu.extend({
         defaultProps: { shadow: "lg", radius: "lg", withinPortal: true, withInitialFocusPlaceholder: false },
       }),

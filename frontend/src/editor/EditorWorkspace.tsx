@@ -4,7 +4,7 @@ import { type CSSProperties, lazy, Suspense, useEffect, useMemo } from "react";
 import type { Insets } from "@/map/plane/projection";
 import { EmptyProgram } from "./beginning/EmptyProgram";
 import { NextSteps } from "./beginning/NextSteps";
-import { Tour } from "./beginning/Tour";
+import { useTour } from "./beginning/tourStops";
 import { Announcer } from "./keyboard/Announcer";
 import { ModeBar } from "./keyboard/ModeBar";
 import { useOthersEdits } from "./keyboard/othersEdits";
@@ -17,7 +17,7 @@ import { EditorMap } from "./EditorMap";
 import { useClipboard } from "./gestures/clipboard";
 import { Inspector, loadPanels } from "./inspector/Inspector";
 import { Dialogs } from "./dialogs/Dialogs";
-import { Drawer, loadComments } from "./parts/Drawer";
+import { Drawer } from "./parts/Drawer";
 import { EditorTop } from "./parts/EditorTop";
 import { NotTaken } from "./parts/NotTaken";
 import { Unopened } from "./parts/Unopened";
@@ -32,6 +32,8 @@ import { useUi } from "./state/ui";
 import { useRunning } from "./state/useRunning";
 
 const loadZoneForm = () => import("./zones/ZoneForm");
+const Tour = lazy(async () => ({ default: (await import("./beginning/Tour")).Tour }));
+const loadComments = () => import("./comments/CommentsPanel");
 const ZoneForm = lazy(async () => ({ default: (await loadZoneForm()).ZoneForm }));
 /** So long after the program has come its forms are fetched, so that the first one opens at once. */
 const FETCH_AFTER_MS = 2000;
@@ -49,6 +51,7 @@ export function EditorWorkspace() {
   const device = useUi((ui) => ui.device !== null);
   const wanted = useUi((ui) => (small && !selected && !device ? ui.programSheet : ui.inspector));
   const zone = useGestures((ui) => ui.zone !== null);
+  const touring = useTour((tour) => tour.at !== null);
   const { loaded, canEdit } = useOpenProgram();
   const lifted = (useToolRows(canEdit) - 1) * ROW_PX;
   const inspector = loaded && wanted && (selected || resting);
@@ -91,7 +94,11 @@ export function EditorWorkspace() {
             <ContextMenu />
             <QuickAdd />
             <Drawer small={small} />
-            <Tour />
+            {touring ? (
+              <Suspense fallback={null}>
+                <Tour />
+              </Suspense>
+            ) : null}
           </>
         ) : null}
       </main>

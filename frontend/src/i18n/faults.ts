@@ -33,7 +33,7 @@ export function faultWords(fault: Fault): string {
 /** `Line 2, column 5:`; empty where neither is known. */
 export function faultPlace({ line, column }: Fault): string {
   if (line === 0) return "";
-  return column > 0 ? i18next.t("adding.at", { line, column }) : i18next.t("adding.atLine", { line });
+  return column > 0 ? i18next.t("problems.at", { line, column }) : i18next.t("problems.atLine", { line });
 }
 
 /** All sentences with their places, as one text. */

@@ -10,7 +10,7 @@ const sources = import.meta.glob<string>(["../**/*.{ts,tsx}", "!../**/*.test.{ts
   query: "?raw",
   import: "default",
 });
-const catalogues = import.meta.glob<string>("../i18n/*/*.json", { eager: true, query: "?raw", import: "default" });
+const catalogues = import.meta.glob<string>("../i18n/**/*.json", { eager: true, query: "?raw", import: "default" });
 
 const declared = /^ +StepKind: (.+);$/m.exec(schema)?.[1] ?? "";
 const KINDS = [...declared.matchAll(/"(\w+)"/g)].map(([, kind]) => kind ?? "");

@@ -15,7 +15,7 @@ from registry.floorplan.map_server import write_pgm, write_yaml
 from tests.kit import demo_floor
 from tests.kit.api_rights import OPERATIONS
 from tests.kit.programs import SITE, TASK, document
-from tests.kit.sign_in import find_person, post_json, sign_in_member
+from tests.kit.sign_in import PASSWORD, find_person, post_json, sign_in_member
 from tests.unit.robot_agent.agent import RobotGrid, write_grid
 from vipo_site.http.making import MADE
 
@@ -51,6 +51,8 @@ def make_each(client: Client) -> dict[str, Any]:
     thread = post_json(client, threads, {"text": "Why wait?", "anchor": {"kind": "program"}})
     return {
         "make_invitation": invitation,
+        "make_wall_screen": post_json(client, f"{AT_SITE}/wall-screens", {"name": "Hall 1"}),
+        "begin_second_factor": post_json(client, "/api/me/second-factor", {"password": PASSWORD}),
         "join_as_new": post_json(Client(), "/api/invitations/join", person),
         "upload_site": client.post(
             "/api/sites", {"name": "New", "yaml": SimpleUploadedFile("a.yaml", YAML), "image": image}

@@ -193,6 +193,7 @@ def test_the_map_comes_as_facts_cells_and_ros_files(hall: str) -> None:
         "origin": {"x": 0.0, "y": 0.0, "yaw": 0.0},
         "places": [{"id": "dock1", "name": "Dock 1", "kind": "dock", "x": 1.0, "y": 2.0, "theta": 0.5, "label": None}],
         "walls": [[0.0, 2.0, 3.0, 3.0]],
+        "zones": [],
     }
     cells = client.get("/api/sites/hall/map/cells")
     assert gzip.decompress(cells.content) == bytes([0] * 8 + [100] * 3 + [255])
@@ -230,7 +231,8 @@ def test_a_broken_map_makes_no_site(hall: str) -> None:
     files = {"yaml": SimpleUploadedFile("m.yaml", YAML), "image": SimpleUploadedFile("a.pgm", IMAGE)}
     nameless = client.post("/api/sites", {"name": " ", **files})
     assert (nameless.status_code, nameless.json()["code"]) == (422, "bad_name")
-    assert client.post("/api/sites", {"name": "x"}).json()["code"] == "bad_request"
+    half = client.post("/api/sites", {"name": "x", "image": SimpleUploadedFile("a.pgm", IMAGE)})
+    assert (half.status_code, half.json()["code"]) == (422, "bad_map")
     assert (Site.objects.count(), Membership.objects.filter(user__email="author@vipo.example").count()) == (before, 1)
 
 

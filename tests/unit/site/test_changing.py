@@ -185,9 +185,9 @@ def test_a_new_step_means_at_most_ten_files():
 
 def test_every_form_of_a_description_has_its_names():
     catalogues = {
-        language: json.loads((FRONTEND / "i18n" / language / "pages.json").read_text())["devices"]["form"]
+        language: json.loads((FRONTEND / "i18n" / language / "screens" / "pages.json").read_text())["devices"]["form"]
         for language in ("en", "de")
     }
     tables = {"_NAMES in vipo_site/cli/describe.py": FORM_NAMES}
-    tables |= {f"devices.form in i18n/{language}/pages.json": words for language, words in catalogues.items()}
+    tables |= {f"devices.form in i18n/{language}/screens/pages.json": words for language, words in catalogues.items()}
     assert [sentence for table, found in tables.items() for sentence in lacking(table, DESCRIPTION_FORMS, found)] == []

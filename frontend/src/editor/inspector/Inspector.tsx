@@ -2,6 +2,7 @@
 import { CircleAlert, Copy, Trash2, X } from "lucide-react";
 import { lazy, Suspense, useMemo } from "react";
 import { Avatar } from "@/design/Avatar";
+import { loadScreenTexts } from "@/i18n";
 import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/design/VipoIcon";
 import { useGestures } from "../state/gestures";
@@ -11,16 +12,17 @@ import { duplicateSelected, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { say, useUi } from "../state/ui";
 import { FormBody } from "../canvas/FormBody";
-import { ProgramPanel } from "./ProgramPanel";
 import classes from "../panel.module.css";
 import { StepEditorContext, useStepEditor, type StepEditor } from "./fields/stepEditor";
 
 /** The forms of steps are loaded when the first step is looked at, or once the program is on the screen. */
 const loadStepForm = () => import("./forms/StepForm");
-const loadDevicePanel = () => import("./DevicePanel");
+const loadDevicePanel = async () => (await Promise.all([import("./DevicePanel"), loadScreenTexts()]))[0];
 const loadSeveral = () => import("./Several");
+const loadProgramPanel = () => import("./ProgramPanel");
 const DevicePanel = lazy(async () => ({ default: (await loadDevicePanel()).DevicePanel }));
 const Several = lazy(async () => ({ default: (await loadSeveral()).Several }));
+const ProgramPanel = lazy(async () => ({ default: (await loadProgramPanel()).ProgramPanel }));
 /** Fetch what the inspector shows, so that it opens at once. */
 export const loadPanels = () => Promise.all([loadStepForm(), loadDevicePanel(), loadSeveral()]);
 const StepForm = lazy(async () => ({ default: (await loadStepForm()).StepForm }));
@@ -45,7 +47,12 @@ export function Inspector() {
         <DevicePanel key={device} id={device} />
       </Suspense>
     );
-  return zone === null ? <ProgramPanel /> : null;
+  if (zone !== null) return null;
+  return (
+    <Suspense fallback={null}>
+      <ProgramPanel />
+    </Suspense>
+  );
 }
 
 function One({ id }: { id: string }) {

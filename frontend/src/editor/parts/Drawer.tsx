@@ -15,13 +15,9 @@ import { countUnread, useThreads } from "../comments/threads";
 import { useOpenProgram } from "../state/context";
 import { say, showTab, useUi, type DrawerTab } from "../state/ui";
 import classes from "./drawer.module.css";
-import { ProblemsPanel } from "./ProblemsPanel";
-import { ScriptPanel } from "./ScriptPanel";
-import { StepTree } from "./StepTree";
 
-/** Fetched once the program is there. */
-export const loadComments = () => import("../comments/CommentsPanel");
-const CommentsPanel = lazy(async () => ({ default: (await loadComments()).CommentsPanel }));
+/** What it shows comes after the map, which does not wait for it. */
+const DrawerBody = lazy(async () => ({ default: (await import("./DrawerBody")).DrawerBody }));
 
 export function Drawer({ small }: { small: boolean }) {
   const { t, diagnostics } = useOpenProgram();
@@ -47,7 +43,11 @@ export function Drawer({ small }: { small: boolean }) {
         </div>
         <Actions />
       </div>
-      {drawer.open ? <Body tab={drawer.tab} beside={!small && drawer.tab === "script"} /> : null}
+      {drawer.open ? (
+        <Suspense fallback={<div className={classes.body} aria-busy="true" />}>
+          <DrawerBody tab={drawer.tab} beside={!small && drawer.tab === "script"} />
+        </Suspense>
+      ) : null}
     </section>
   );
 }
@@ -68,26 +68,6 @@ function Actions() {
       <IconButton label={t(drawer.open ? "drawer.hide" : "drawer.show")} aria-expanded={drawer.open} onClick={toggle}>
         <Sign size={16} aria-hidden="true" />
       </IconButton>
-    </div>
-  );
-}
-
-function Body({ tab, beside }: { tab: DrawerTab; beside: boolean }) {
-  return (
-    <div className={classes.body} role="tabpanel" id="drawer-panel" aria-labelledby={`drawer-tab-${tab}`}>
-      {tab === "script" ? <ScriptPanel /> : null}
-      {tab === "problems" ? <ProblemsPanel /> : null}
-      {tab === "steps" ? <StepTree /> : null}
-      {tab === "comments" ? (
-        <Suspense fallback={null}>
-          <CommentsPanel />
-        </Suspense>
-      ) : null}
-      {beside ? (
-        <div className={classes.beside}>
-          <ProblemsPanel titled />
-        </div>
-      ) : null}
     </div>
   );
 }

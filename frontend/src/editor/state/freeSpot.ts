@@ -3,7 +3,7 @@ import { knownBox } from "@/map/floor/floor";
 import { toMetres, toPixels, type Box, type Point } from "@/map/plane/projection";
 import type { PixelPoint } from "@/map/plane/paths";
 import { boxAt, grown, legBoxes, overlaps } from "@/program/scene/geometry";
-import { isFramed } from "@/program/kinds";
+import { isFramed, kindOf } from "@/program/kinds";
 import { outerBox, type Scene } from "@/program/scene/scene";
 import { deviceBox } from "@/program/surroundings";
 import type { OpenProgram } from "./context";
@@ -12,6 +12,10 @@ import { useUi } from "./ui";
 const CHIP = { width: 150, height: 30 };
 /** Room for a frame's first step, too. */
 const FRAME = { width: 190, height: 110 };
+/** Room for both branches, which leave it above and below, and what they say. */
+const DIAMOND = { width: 200, height: 176 };
+/** What a machine is called stands below it. */
+const LABEL = 34;
 const WAYS = [
   [0, 1],
   [1, 0],
@@ -30,12 +34,20 @@ export function freeSpot(open: OpenProgram, kind = "", near?: Point): Point {
   const from = near ? toPixels(near) : ((last ? scene.chips.get(last)?.at : undefined) ?? scene.start);
   const taken = [
     ...[...scene.chips.values()].map((chip) => outerBox(scene, chip.id) ?? chip.box),
-    ...devices.filter((device) => device.kind !== "robot").map(deviceBox),
+    ...devices.filter((device) => device.kind !== "robot").map((device) => labelled(deviceBox(device))),
     boxAt(scene.start, 90, 40),
     ...openEnds(scene),
   ];
-  const size = isFramed(kind) ? FRAME : CHIP;
-  return toMetres(freeNear(from, size, taken, plan ? knownBox(plan) : null) ?? from);
+  return toMetres(freeNear(from, sizeOf(kind), taken, plan ? knownBox(plan) : null) ?? from);
+}
+
+function labelled(machine: Box): Box {
+  return { ...machine, bottom: machine.bottom + LABEL };
+}
+
+function sizeOf(kind: string): { readonly width: number; readonly height: number } {
+  if (isFramed(kind)) return FRAME;
+  return kindOf(kind).shape === "diamond" ? DIAMOND : CHIP;
 }
 
 /** Around the ends of branches without a step: what stands there would look like their step. */

@@ -39,8 +39,14 @@ export function leastCovering<T extends { readonly box: Box }>(
   candidates: readonly [T, ...T[]],
   covers: readonly Box[],
 ): T {
-  const covered = ({ box }: T) => covers.reduce((sum, each) => sum + shared(box, each), 0);
-  return candidates.reduce((best, each) => (covered(each) < covered(best) ? each : best));
+  let [best] = candidates;
+  let least = Infinity;
+  for (const each of candidates) {
+    const covered = covers.reduce((sum, cover) => sum + shared(each.box, cover), 0);
+    if (covered < least) [best, least] = [each, covered];
+    if (covered === 0) break;
+  }
+  return best;
 }
 
 /** The straight legs of a way as thin boxes. */

@@ -12,15 +12,18 @@ const CELL = 256;
 const MOST_CELLS = 64;
 
 export class SpatialIndex<T extends Placed> {
-  readonly #cells = new Map<string, number[]>();
+  readonly #cells = new Map<number, number[]>();
   readonly #large: number[] = [];
+  /** The last search that came upon each item: one that lies in several cells is found once. */
+  readonly #foundBy: Uint32Array;
+  #search = 0;
 
   constructor(readonly items: readonly T[]) {
+    this.#foundBy = new Uint32Array(items.length);
     items.forEach(({ box }, at) => {
       const [left, right, top, bottom] = cellsOf(box);
       if ((right - left + 1) * (bottom - top + 1) > MOST_CELLS) this.#large.push(at);
-      else
-        for (let x = left; x <= right; x += 1) for (let y = top; y <= bottom; y += 1) this.#cell(`${x},${y}`).push(at);
+      else for (let x = left; x <= right; x += 1) for (let y = top; y <= bottom; y += 1) this.#cell(x, y).push(at);
     });
   }
 
@@ -29,21 +32,34 @@ export class SpatialIndex<T extends Placed> {
     const [left, right, top, bottom] = cellsOf(box);
     if ((right - left + 1) * (bottom - top + 1) >= this.#cells.size + MOST_CELLS)
       return this.items.filter((item) => overlaps(item.box, box));
-    const found = new Set(this.#large);
+    this.#search += 1;
+    const found: number[] = [];
+    this.#collect(this.#large, box, found);
     for (let x = left; x <= right; x += 1)
-      for (let y = top; y <= bottom; y += 1) for (const at of this.#cells.get(`${x},${y}`) ?? []) found.add(at);
-    const inOrder = [...found].sort((one, other) => one - other);
-    return inOrder.flatMap((at) => {
-      const item = this.items[at];
-      return item && overlaps(item.box, box) ? [item] : [];
-    });
+      for (let y = top; y <= bottom; y += 1) this.#collect(this.#cells.get(keyOf(x, y)), box, found);
+    return found.sort((one, other) => one - other).flatMap((at) => this.items[at] ?? []);
   }
 
-  #cell(name: string): number[] {
-    const cell = this.#cells.get(name) ?? [];
-    this.#cells.set(name, cell);
+  #collect(candidates: readonly number[] | undefined, box: Box, found: number[]): void {
+    for (const at of candidates ?? []) {
+      if (this.#foundBy[at] === this.#search) continue;
+      this.#foundBy[at] = this.#search;
+      const item = this.items[at];
+      if (item && overlaps(item.box, box)) found.push(at);
+    }
+  }
+
+  #cell(x: number, y: number): number[] {
+    const key = keyOf(x, y);
+    const cell = this.#cells.get(key) ?? [];
+    this.#cells.set(key, cell);
     return cell;
   }
+}
+
+/** One number for a cell, different for any two of a drawing that fits into a million cells each way. */
+function keyOf(x: number, y: number): number {
+  return x * 2 ** 21 + y;
 }
 
 function cellsOf(box: Box): [left: number, right: number, top: number, bottom: number] {

@@ -1,17 +1,22 @@
 /** How many alerts nobody has seen, how bad the worst is, and the list of them; new errors are read aloud. */
 import { Popover } from "@mantine/core";
 import { Bell } from "lucide-react";
-import { useEffect, useRef, useState } from "react";
+import { lazy, Suspense, useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useDevices } from "@/api/queries";
 import type { Alert } from "@/api/types";
 import { StatusGlyph } from "@/design/StatusGlyph";
-import { AlertList } from "./AlertList";
+import { loadScreenTexts } from "@/i18n";
 import { freshErrors, inState, knownOf, worstOf, type Known } from "./alerts";
 import styles from "./alerts.module.css";
 import { useAlerts } from "./useAlerts";
 import { alertWords, ownWords, signOf } from "./alertWords";
 
+/** Loaded when it is opened, with the words of what devices do wrong. */
+const AlertList = lazy(async () => {
+  const [{ AlertList: list }] = await Promise.all([import("./AlertList"), loadScreenTexts()]);
+  return { default: list };
+});
 const MOST_SHOWN = 99;
 
 /** What is new among the errors, in words; it stays until the next. */
@@ -69,7 +74,9 @@ export function AlertsBell({ slug }: { slug: string }) {
           </button>
         </Popover.Target>
         <Popover.Dropdown data-manage="" className={styles.list} aria-label={t("alerts.title")}>
-          <AlertList slug={slug} onLeave={() => setOpened(false)} />
+          <Suspense fallback={null}>
+            <AlertList slug={slug} onLeave={() => setOpened(false)} />
+          </Suspense>
         </Popover.Dropdown>
       </Popover>
       <span className="visually-hidden" role="status">

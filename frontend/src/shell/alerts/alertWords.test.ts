@@ -3,9 +3,9 @@ import { beforeAll, expect, test } from "vitest";
 import type { Alert } from "@/api/types";
 import type { DeviceEvent, Fault } from "@/api/types";
 import { ownWords } from "./alertWords";
-import adding from "@/i18n/de/adding.json";
+import problems from "@/i18n/de/problems.json";
 import device from "@/i18n/de/device.json";
-import fault from "@/i18n/de/fault.json";
+import fault from "@/i18n/de/screens/fault.json";
 import { deviceEventWords } from "@/i18n/deviceEvents";
 import { faultWords, isKnownFault } from "@/i18n/faults";
 import { refusalWords } from "@/i18n/refusals";
@@ -13,7 +13,7 @@ import { refusalWords } from "@/i18n/refusals";
 beforeAll(() =>
   i18next.init({
     lng: "de",
-    resources: { de: { translation: { adding, device, fault } } },
+    resources: { de: { translation: { device, fault, problems } } },
     interpolation: { escapeValue: false },
   }),
 );

@@ -160,7 +160,7 @@ def test_every_sentence_is_said_somewhere() -> None:
 
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_the_screens_have_words_for_every_fault(language: str) -> None:
-    catalogue = ROOT / "frontend" / "src" / "i18n" / language / "fault.json"
+    catalogue = ROOT / "frontend" / "src" / "i18n" / language / "screens" / "fault.json"
     texts = json.loads(catalogue.read_text(encoding="utf-8"))
     assert set(texts) == set(SENTENCES)
     for code, sentence in SENTENCES.items():

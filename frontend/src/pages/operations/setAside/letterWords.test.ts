@@ -1,8 +1,8 @@
 import i18next from "i18next";
 import { beforeAll, expect, test } from "vitest";
 import type { DeadLetter } from "@/api/types";
-import de from "@/i18n/de/operations.json";
-import en from "@/i18n/en/operations.json";
+import de from "@/i18n/de/screens/operations.json";
+import en from "@/i18n/en/screens/operations.json";
 import { eventText, isOver, lossWords, whatWords } from "./letterWords";
 
 const LETTER: DeadLetter = {
