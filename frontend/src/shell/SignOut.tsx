@@ -36,9 +36,9 @@ export function useSignOut(path: "/sign-out" | "/me/sign-out-everywhere", to: To
       return told.provider_sign_out;
     },
     onSuccess: async (elsewhere) => {
-      if (elsewhere) return location.assign(elsewhere);
       await navigate(to);
       queries.clear();
+      if (elsewhere) location.assign(elsewhere);
     },
     onError: () => notifications.show({ color: "red", message: t("shell.signOut.failed") }),
   });

@@ -60,7 +60,7 @@ def shoot(page: Page, name: str) -> None:
 
 def sign_in_there(page: Page, name: str) -> None:
     """Sign in at the provider, by its own page."""
-    page.get_by_label("Name").fill(name)
+    page.get_by_label("Name there").fill(name)
     page.get_by_role("button", name="Continue").click()
 
 

@@ -34,7 +34,7 @@ const provider = new Provider(told.issuer, {
 });
 
 const FORM = `<!doctype html><html lang="en"><title>The test's provider</title><form method="post">
-  <label>Name <input name="name" autofocus></label> <input type="hidden" name="amr"><input type="hidden" name="acr">
+  <label>Name there <input name="name" autofocus></label> <input type="hidden" name="amr"><input type="hidden" name="acr">
   <button name="do" value="in">Continue</button> <button name="do" value="deny">Deny</button></form></html>`;
 
 async function read(request) {
