@@ -7,7 +7,7 @@ import type { FactorRule as Rule } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
 import { TableSkeleton } from "../TableSkeleton";
-import { useFactorRule, useSetFactorRule } from "./people";
+import { useFactorRule, useMembers, useSetFactorRule } from "./people";
 import styles from "./settings.module.css";
 
 type Demanded = Rule["demanded_from"];
@@ -17,6 +17,7 @@ export function FactorRule({ slug }: { slug: string }) {
   const { t } = useTranslation();
   const rule = useFactorRule(slug);
   const set = useSetFactorRule(slug);
+  const lacksOwn = useMembers(slug).data?.some(({ me, second_factor: has }) => me && !has);
   if (rule.isLoadingError) return <LoadProblem error={rule.error} again={() => void rule.refetch()} />;
   if (!rule.data) return <TableSkeleton />;
   const { demanded_from: demanded, of_server: ofServer } = rule.data;
@@ -47,9 +48,11 @@ export function FactorRule({ slug }: { slug: string }) {
           ))}
         </NativeSelect>
         {ofServer ? <p>{t("factor.rule.ofServer", { role: t(`role.${ofServer}`) })}</p> : null}
-        <p>
-          {t("factor.rule.own")} <Link to="/account">{t("factor.toAccount")}</Link>
-        </p>
+        {lacksOwn ? (
+          <p>
+            {t("factor.rule.own")} <Link to="/account">{t("factor.toAccount")}</Link>
+          </p>
+        ) : null}
       </div>
     </Panel>
   );
