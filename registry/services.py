@@ -15,6 +15,7 @@ from registry.alerts.inbox import (
 from registry.alerts.views import AlertView, alert_to_json
 from registry.alerts.watch import watch_devices
 from registry.audit.acting import VIPO, acting
+from registry.audit.reading import list_server_audit
 from registry.audit.record import note_act, prune_audit
 from registry.bounds.parts import FIRST, Listed, Part, take_part
 from registry.bounds.places import Claim, Places
@@ -117,6 +118,7 @@ from registry.people.sign_in import (
     is_known,
     reopen_account,
 )
+from registry.people.sign_on.attempts import forget_sign_ons
 from registry.people.throttle import forget_attempts
 from registry.people.tokens import (
     TokenView,
@@ -264,6 +266,7 @@ __all__ = [
     "flush_alerts",
     "flush_samples",
     "forget_attempts",
+    "forget_sign_ons",
     "get_demo_grid",
     "get_device",
     "get_device_names",
@@ -299,6 +302,7 @@ __all__ = [
     "list_places",
     "list_positions",
     "list_processes",
+    "list_server_audit",
     "list_sites",
     "list_slugs",
     "list_tokens",

@@ -207,7 +207,7 @@ class Stop(Schema):
 
 
 class SiteShape(Schema):
-    """A site as its member sees it."""
+    """A site as its member sees it; `held_role` is what they are once they have the second factor that it demands."""
 
     slug: str
     name: str
@@ -219,6 +219,7 @@ class SiteShape(Schema):
     has_map: bool
     stop: Stop
     simulated: bool
+    held_role: Role | None
 
 
 class Origin(Schema):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import secrets
 from ipaddress import IPv4Network, IPv6Network, ip_network
 from pathlib import Path
@@ -17,6 +18,9 @@ WIDEST_PROXIES = {4: 8, 6: 32}
 """The shortest prefix of a network of proxies; whoever names a wider one has named strangers."""
 LOG_LEVELS = ("DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")
 LOG_FORMS = ("json", "text")
+
+FACTOR_ROLES = ("commenter", "operator", "author", "admin")
+_PROVIDER = re.compile(r"[a-z0-9][a-z0-9-]{0,19}")
 
 Network = IPv4Network | IPv6Network
 
@@ -161,6 +165,77 @@ def mail_sender(host: str) -> str:
     if host and not sender:
         raise ImproperlyConfigured("VIPO_MAIL_FROM is not set; with VIPO_MAIL_HOST it names the sender of mail.")
     return sender or "vipo@localhost"
+
+
+def sign_on_providers(*, with_secrets: bool) -> list[dict[str, object]]:
+    """Return whom people may sign in by (OpenID Connect), in the order of VIPO_SIGN_ON; each has settings by its name.
+
+    What signs nobody in is not told their secrets. docs/operations.md has the settings.
+    """
+    names = [name.strip() for name in os.environ.get("VIPO_SIGN_ON", "").split(",") if name.strip()]
+    for name in names:
+        if not _PROVIDER.fullmatch(name) or names.count(name) > 1:
+            raise ImproperlyConfigured(
+                f"VIPO_SIGN_ON has {name[:40]!r}; it names providers, each once, in 1 to 20 small letters, digits, -."
+            )
+    return [_provider(name, with_secrets=with_secrets) for name in names]
+
+
+def _provider(name: str, *, with_secrets: bool) -> dict[str, object]:
+    setting = f"VIPO_SIGN_ON_{name.upper().replace('-', '_')}"
+    for needed in ("ISSUER", "CLIENT_ID"):
+        if not os.environ.get(f"{setting}_{needed}"):
+            raise ImproperlyConfigured(
+                f"{setting}_{needed} is not set; VIPO_SIGN_ON names {name} (docs/operations.md)."
+            )
+    issuer = os.environ[f"{setting}_ISSUER"]
+    parts = urlsplit(issuer)
+    if parts.scheme != "https" and not (parts.scheme == "http" and is_local(parts.netloc)):
+        raise ImproperlyConfigured(f"{setting}_ISSUER is unsafe: {issuer[:100]!r} has to begin with https://.")
+    if parts.query or parts.fragment or parts.username:
+        raise ImproperlyConfigured(f"{setting}_ISSUER is no issuer: it has neither a query, a # nor a user's name.")
+    key = secret(f"{setting}_CLIENT_SECRET") if with_secrets else "-"
+    if not key:
+        raise ImproperlyConfigured(
+            f"{setting}_CLIENT_SECRET is not set; VIPO_SIGN_ON names {name}. A file may hold it: "
+            f"{setting}_CLIENT_SECRET_FILE."
+        )
+    domains = [word.lower().lstrip("@") for word in _words(f"{setting}_DOMAINS")]
+    if bad := [domain for domain in domains if "." not in domain or "*" in domain]:
+        raise ImproperlyConfigured(
+            f"{setting}_DOMAINS has {bad[0][:60]!r}; name whole mail domains, as in example.com."
+        )
+    return {
+        "name": name,
+        "title": os.environ.get(f"{setting}_TITLE", "")[:40] or name,
+        "issuer": issuer,
+        "client_id": os.environ[f"{setting}_CLIENT_ID"],
+        "client_secret": key,
+        "links_by_email": _switch(f"{setting}_LINK"),
+        "domains": domains,
+        "amr": _words(f"{setting}_AMR"),
+        "acr": _words(f"{setting}_ACR"),
+        "signs_out": _switch(f"{setting}_SIGN_OUT"),
+    }
+
+
+def demanded_factor() -> str:
+    """Return the least role of which every site demands a second factor, from VIPO_SECOND_FACTOR; empty for none."""
+    value = os.environ.get("VIPO_SECOND_FACTOR", "")
+    if value and value not in FACTOR_ROLES:
+        raise ImproperlyConfigured(f"VIPO_SECOND_FACTOR is {value[:20]!r}; it names one of {', '.join(FACTOR_ROLES)}.")
+    return value
+
+
+def _words(name: str) -> list[str]:
+    return [word.strip() for word in os.environ.get(name, "").split(",") if word.strip()]
+
+
+def _switch(name: str) -> bool:
+    value = os.environ.get(name, "") or "0"
+    if value not in {"0", "1"}:
+        raise ImproperlyConfigured(f"{name} is {value[:20]!r}; set it to 1 or 0.")
+    return value == "1"
 
 
 def whole_number(name: str, default: int, least: int = 1) -> int:

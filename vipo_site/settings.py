@@ -11,6 +11,7 @@ from urllib.parse import unquote, urlsplit
 from django.core.exceptions import ImproperlyConfigured
 
 from vipo_site.environment import (
+    demanded_factor,
     has_demo,
     is_https,
     is_local,
@@ -25,6 +26,7 @@ from vipo_site.environment import (
     required_secret,
     secret,
     served_hosts,
+    sign_on_providers,
     whole_number,
     with_password,
 )
@@ -233,6 +235,13 @@ EMAIL_HOST_USER = os.environ.get("VIPO_MAIL_USER", "")
 EMAIL_HOST_PASSWORD = secret("VIPO_MAIL_PASSWORD") if EMAIL_HOST and _SIGNS else ""
 EMAIL_TIMEOUT = 10
 DEFAULT_FROM_EMAIL = mail_sender(EMAIL_HOST)
+
+VIPO_SECOND_FACTOR = demanded_factor()
+"""The least role of which every site demands a second factor; a site may demand it of more."""
+VIPO_SIGN_ON = sign_on_providers(with_secrets=_SIGNS)
+"""Whom people may sign in by beside passwords, by OpenID Connect."""
+AUTHENTICATION_BACKENDS = ["django.contrib.auth.backends.ModelBackend", "registry.people.backends.TwoFactors"]
+"""Passwords; and the mark of a session whose provider vouched for a second factor."""
 
 VIPO_DEMO = has_demo(ALLOWED_HOSTS)
 VIPO_DEMO_SIGN_IN = VIPO_DEMO and not SERVED

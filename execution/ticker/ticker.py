@@ -76,6 +76,7 @@ class Ticker:
             registry.prune_keyed_requests(now=now)
             registry.drop_expired(now=now)
             registry.forget_attempts(now=now)
+            registry.forget_sign_ons(now=now)
             registry.prune_processes()
         return True
 

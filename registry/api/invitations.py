@@ -166,15 +166,9 @@ def join_as_new(request: HttpRequest, response: HttpResponse, body: NewPerson) -
         address=client_address(request),
         now=timezone.now(),
     )
-    begin_session(request, response, _with_backend(user))
+    begin_session(request, response, user)
     response["Cache-Control"] = "no-store"
     return Status(201, {"site": site})
-
-
-def _with_backend(user: User) -> User:
-    """Say by which of Django's ways somebody has come in, which `login` keeps."""
-    user.backend = "django.contrib.auth.backends.ModelBackend"
-    return user
 
 
 def _require_page(request: HttpRequest) -> None:

@@ -25,7 +25,8 @@ class MemberShape(Schema):
 
     `seen_at` is when a page of theirs last showed the site, to the minute; `ends_at` when their access ends, null for
     no end; `came_by` who invited them, if they came by a link; `is_closed` says that they sign in no more,
-    `second_factor` whether they have one.
+    `second_factor` whether they have one, `has_password` and `sign_in_by` by which ways they sign in: the latter are
+    titles of providers.
     """
 
     id: int
@@ -39,6 +40,8 @@ class MemberShape(Schema):
     came_by: str
     is_closed: bool
     second_factor: bool
+    has_password: bool
+    sign_in_by: list[str]
     me: bool
 
 

@@ -25,10 +25,13 @@ from registry.demo.accounts import read_accounts
 from registry.devices.things import call_listeners
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import User
+from registry.people.backends import PASSWORDS
 from registry.people.known_browsers import find_device, remember_browser
 from registry.people.open_sessions import end_session, follow_session, list_open_sessions, note_session
 from registry.people.sign_in import change_password, check_own_password, check_sign_in
 from registry.people.sign_in import sign_out_everywhere as end_all_sessions
+from registry.people.sign_on.provider_client import sign_out_address
+from registry.people.sign_on.providers import list_providers
 from registry.shapes import Me, NewPassword, PartAsked, SignIn, signed_in, tell_rest
 from registry.sites.quota import may_create_sites
 
@@ -39,10 +42,11 @@ router = Router(tags=["registry"])
 def show_me(request: HttpRequest, response: HttpResponse) -> dict[str, Any]:
     """Say who is signed in; strangers get the token that signing in needs."""
     response["Cache-Control"] = "no-store"
-    return _me(request)
+    return tell_me(request)
 
 
-def _me(request: HttpRequest) -> dict[str, Any]:
+def tell_me(request: HttpRequest) -> dict[str, Any]:
+    """Return who is signed in, as `Me` says it."""
     user = request.user
     person = None
     if isinstance(user, User):
@@ -81,12 +85,12 @@ def sign_in(request: HttpRequest, response: HttpResponse, body: SignIn) -> dict[
         code=body.code,
     )
     begin_session(request, response, user)
-    return _me(request)
+    return tell_me(request)
 
 
-def begin_session(request: HttpRequest, response: HttpResponse, user: User) -> None:
+def begin_session(request: HttpRequest, response: HttpResponse, user: User, backend: str = PASSWORDS) -> None:
     """Let somebody be signed in from here on, and this browser be known to be theirs."""
-    login(request, user)
+    login(request, user, backend=backend)
     request.session.save()
     note_session(
         key=str(request.session.session_key),
@@ -97,13 +101,37 @@ def begin_session(request: HttpRequest, response: HttpResponse, user: User) -> N
     remember_browser(request, response, user.email)
 
 
-@router.post("/sign-out", response=Me, auth=session_only)
+class SignedOut(Me):
+    """Nobody any more; `provider_sign_out` is where the browser goes to be signed out at its provider, too.
+
+    It is empty where there is none, or the server's settings do not ask for that.
+    """
+
+    provider_sign_out: str
+
+
+@router.post("/sign-out", response=SignedOut, auth=session_only)
 def sign_out(request: HttpRequest) -> dict[str, Any]:
     """End the session."""
+    kept = request.session.get("sign_on") or {}
     logout(request)
     call_listeners()
     publish(EVERY_SITE, {"type": "members"})
-    return _me(request)
+    return {**tell_me(request), "provider_sign_out": _provider_sign_out(request, kept)}
+
+
+def _provider_sign_out(request: HttpRequest, kept: dict[str, str]) -> str:
+    provider = next((each for each in list_providers() if each.name == kept.get("provider") and each.signs_out), None)
+    if provider is None:
+        return ""
+    back = request.build_absolute_uri("/sign-in")
+    return sign_out_address(provider, id_token=kept.get("id_token", ""), back=back)
+
+
+def signed_on_at(request: HttpRequest) -> datetime | None:
+    """Return when this session was begun by a provider; None where it was not."""
+    kept = request.session.get("sign_on") or {}
+    return datetime.fromisoformat(kept["at"]) if "at" in kept else None
 
 
 @router.post("/me/password", response=Me, auth=session_only)
@@ -118,7 +146,7 @@ def change_my_password(request: HttpRequest, body: NewPassword) -> dict[str, Any
         update_session_auth_hash(request, user)
         request.session.save()
         follow_session(old=former, new=str(request.session.session_key))
-    return _me(request)
+    return tell_me(request)
 
 
 @router.post("/me/sign-out-everywhere", response=Me, auth=session_only)
@@ -126,7 +154,7 @@ def sign_out_everywhere(request: HttpRequest) -> dict[str, Any]:
     """End all sessions of who asks, this one too."""
     end_all_sessions(user=signed_in(request))
     logout(request)
-    return _me(request)
+    return tell_me(request)
 
 
 class OwnSession(Schema):

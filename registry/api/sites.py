@@ -10,7 +10,7 @@ from ninja.files import UploadedFile
 
 from registry import services
 from registry.api.authentication import session_only
-from registry.people.access import require
+from registry.people.access import require, require_factor
 from registry.shapes import (
     SiteShape,
     signed_in,
@@ -36,6 +36,7 @@ def upload_site(
 ) -> dict[str, Any]:
     """Make a site, from a ROS map (two files, or one .zip of both) or without a map; the asker becomes its admin."""
     user = signed_in(request)
+    require_factor(user, "admin")
     files = services.MapFiles(yaml, image, archive)
     site = services.create_site_from_map(name=name, files=files, admin=user)
     require(user, site.slug, "admin")  # noted: an answer that is given again is given to members of the new site
@@ -46,4 +47,4 @@ def upload_site(
 def show_site(request: HttpRequest, slug: str) -> dict[str, Any]:
     """Show a site."""
     access = require(signed_in(request), slug, "viewer")
-    return site_to_json(services.get_site(site=slug, role=access.role))
+    return site_to_json(services.get_site(site=slug, role=access.role, held_role=access.held_role))

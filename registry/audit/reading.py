@@ -40,6 +40,11 @@ def list_audit(*, site: str, kind: Kind | None = None, part: Part = FIRST) -> Li
     return take_part(rows=_rows(site, kind), by="-at", part=part, view=_view)
 
 
+def list_server_audit(*, last: int) -> tuple[AuditView, ...]:
+    """Return what was done at the server and at none of its sites, the newest first, so many lines."""
+    return tuple(map(_view, AuditLine.objects.filter(site=None).order_by("-at", "-pk")[:last]))
+
+
 def count_audit(*, site: str, kind: Kind | None = None) -> int:
     """Return of how many deeds the record tells."""
     return _rows(site, kind).count()

@@ -21,14 +21,14 @@ LEAST_DAYS = 30
 
 def note_act(
     *,
-    site_id: int,
+    site_id: int | None,
     code: str,
     facts: Mapping[str, object] | None = None,
     actor: Actor | None = None,
     by: str = "",
     at: datetime | None = None,
 ) -> None:
-    """Write what is being done at a site; `facts` are what its sentence names.
+    """Write what is being done at a site, or at the server (`site_id` None); `facts` are what its sentence names.
 
     Whoever acts in this request did it, unless `actor` says otherwise. `by` is a person's name where only that is
     known for certain: it counts where nobody acts now, or another person does.

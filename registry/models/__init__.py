@@ -23,6 +23,8 @@ from registry.models.processes import Heartbeat as Heartbeat
 from registry.models.requests import KeyedRequest as KeyedRequest
 from registry.models.second_factor import RecoveryCode as RecoveryCode
 from registry.models.second_factor import SecondFactor as SecondFactor
+from registry.models.sign_on import SignOn as SignOn
+from registry.models.sign_on import SignOnAttempt as SignOnAttempt
 from registry.models.sites import Membership as Membership
 from registry.models.sites import Site as Site
 from registry.models.tokens import ApiToken as ApiToken

@@ -10,10 +10,11 @@ from registry.models.sites import Site
 class AuditLine(models.Model):
     """Who did what, when and from where; `facts` are what its sentence names.
 
-    `person_id` is no foreign key: a line stays as it is, whatever becomes of the person.
+    `person_id` is no foreign key: a line stays as it is, whatever becomes of the person. Without a site it is about the
+    server, such as a sign-on of somebody whom no site knows, and who serves VIPO reads it.
     """
 
-    site = models.ForeignKey(Site, on_delete=models.CASCADE, related_name="+")
+    site = models.ForeignKey(Site, on_delete=models.CASCADE, null=True, related_name="+")
     at = models.DateTimeField()
     kind = models.CharField(max_length=12)
     code = models.CharField(max_length=32)

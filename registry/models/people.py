@@ -50,6 +50,9 @@ class User(AbstractBaseUser):
     grant: Grant | None = None
     """Set where a program asks with one of the person's tokens; None where they have signed in themselves."""
 
+    has_two_factors = False
+    """Set where a session was begun by a provider that vouched for a second factor (registry/people/backends.py)."""
+
     objects: ClassVar[UserManager] = UserManager()
     USERNAME_FIELD = "email"
     EMAIL_FIELD = "email"

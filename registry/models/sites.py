@@ -19,6 +19,8 @@ class Site(models.Model):
     stop_active = models.BooleanField(default=False)
     stop_by = models.CharField(max_length=100, blank=True)
     stop_at = models.DateTimeField(null=True)
+    second_factor_from = models.CharField(max_length=10, blank=True, default="")
+    """The least role of which the site demands a second factor, empty for none."""
     made_by = models.ForeignKey(User, null=True, on_delete=models.SET_NULL, related_name="+")
     created_at = models.DateTimeField(auto_now_add=True)
 

@@ -13,6 +13,7 @@ from django.utils import timezone
 
 from registry.errors import RegistryError
 from registry.models import Membership, Site, User
+from registry.people.demanded_factor import LOOKS, has_two_factors, is_demanded, is_held_back
 from registry.people.roles import ROLES as ROLES
 from registry.people.roles import allows as allows
 
@@ -43,6 +44,12 @@ class NotAllowed(RegistryError):
     status = 403
 
 
+class FactorDemanded(NotAllowed):
+    """The role would allow it, but the site demands a second factor of it, which the user lacks."""
+
+    code = "second_factor_demanded"
+
+
 class OutOfScope(NotAllowed):
     """The person may do this, but has not given the token that right (RFC 6750)."""
 
@@ -51,12 +58,16 @@ class OutOfScope(NotAllowed):
 
 @dataclass(frozen=True, slots=True)
 class Access:
-    """A user's standing at a site; `scopes` are those of the token that was shown, None without one."""
+    """A user's standing at a site; `scopes` are those of the token that was shown, None without one.
+
+    `held_role` is the role that they would have if they had the second factor that is demanded of them; else empty.
+    """
 
     site_id: int
     site: str
     role: str
     scopes: frozenset[str] | None = None
+    held_role: str = ""
 
     def allows(self, role: str, scope: str = "") -> bool:
         """Tell whether this standing includes that role, and a token that scope (unless named, the role's own)."""
@@ -87,12 +98,17 @@ def list_memberships(user: AbstractBaseUser | AnonymousUser) -> QuerySet[Members
 
 
 def access_of(user: User, member: Membership) -> Access:
-    """Return the standing of a member: the lesser of their role and of what their token's scopes stretch to."""
+    """Return the standing of a member: the lesser of their role and of what their token's scopes stretch to.
+
+    Who lacks a second factor that the site demands of their role looks only.
+    """
+    is_held = is_held_back(user, member)
+    role, held = (LOOKS, member.role) if is_held else (member.role, "")
     if user.grant is None:
-        return Access(member.site_id, member.site.slug, member.role)
+        return Access(member.site_id, member.site.slug, role, held_role=held)
     widest = max((_STRETCHES_TO[scope] for scope in user.grant.scopes | {"read"}), key=ROLES.index)
-    role = min(widest, member.role, key=ROLES.index)
-    return Access(member.site_id, member.site.slug, role, user.grant.scopes)
+    held = min(widest, held, key=ROLES.index) if held else ""
+    return Access(member.site_id, member.site.slug, min(widest, role, key=ROLES.index), user.grant.scopes, held)
 
 
 def find_access(user: AbstractBaseUser | AnonymousUser, site: str | Site) -> Access | None:
@@ -145,11 +161,24 @@ def require(user: AbstractBaseUser | AnonymousUser, site: str | Site, role: str,
     wanted = scope or scope_of(role)
     if not access.has_scope(wanted):
         raise OutOfScope(f"This token is not for this; make one with the scope {wanted} (docs/api.md, Tokens).")
+    if access.held_role and not access.allows(role, wanted) and allows(access.held_role, role):
+        raise FactorDemanded(
+            f"This site demands a second factor of the role {access.held_role}. Set one up on the page of your "
+            "account; until then you may look, and press Stop all."
+        )
     if not access.allows(role, wanted):
         raise NotAllowed(f"You are {access.role} of this site; this needs the role {role}. Ask an admin for it.")
     if (noted := _noted.get()) is not None:
         noted.append(Need(access.site, role, wanted))
     return access
+
+
+def require_factor(user: User, role: str) -> None:
+    """Refuse who lacks the second factor that the whole server demands of a role. Raises FactorDemanded."""
+    if is_demanded("", role) and not has_two_factors(user):
+        raise FactorDemanded(
+            f"This server demands a second factor of the role {role}. Set one up on the page of your account first."
+        )
 
 
 def list_visible(user: AbstractBaseUser | AnonymousUser) -> frozenset[str]:

@@ -125,15 +125,22 @@ DEEDS = (
         "session",
         """show_member change_member remove_member list_invitations make_invitation revoke_invitation
         list_wall_screens make_wall_screen revoke_wall_screen
-        reset_second_factor""",
+        reset_second_factor show_factor_rule set_factor_rule""",
     ),
-    _deed("come", "anybody", "anybody", "show_me sign_in look_at_invitation join_as_new open_wall_screen"),
+    _deed(
+        "come",
+        "anybody",
+        "anybody",
+        """show_me sign_in look_at_invitation join_as_new open_wall_screen list_sign_on_providers begin_provider_sign_on
+        finish_provider_sign_on""",
+    ),
     _deed(
         "account",
         "person",
         "session",
         """sign_out change_my_password sign_out_everywhere list_my_sessions end_my_session accept_invitation
-        show_second_factor begin_second_factor confirm_second_factor renew_recovery_codes turn_off_second_factor""",
+        show_second_factor begin_second_factor confirm_second_factor renew_recovery_codes turn_off_second_factor
+        list_my_sign_ons begin_linking remove_my_sign_on""",
     ),
     _deed("find", "person", "read", "list_sites search_library list_rights"),
     _deed("make_site", "maker", "session", "upload_site"),

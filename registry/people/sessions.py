@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from django.contrib.auth import HASH_SESSION_KEY, SESSION_KEY
+from django.contrib.auth import BACKEND_SESSION_KEY, HASH_SESSION_KEY, SESSION_KEY
 from django.contrib.sessions.backends.db import SessionStore
 from django.contrib.sessions.models import Session as KeptSession
 from django.http import HttpRequest
@@ -17,6 +17,8 @@ from django.utils.crypto import constant_time_compare
 
 from registry.models import User
 from registry.people.access import allows
+from registry.people.backends import TWO_FACTORS
+from registry.people.demanded_factor import role_until_then
 from registry.people.tokens import read_standing_roles
 from registry.people.wall_screens import read_standing_sites
 
@@ -102,15 +104,28 @@ def _read_cookies(sessions: Collection[Session]) -> dict[Session, Standing]:
     people: dict[int, User] = {}
     roles: defaultdict[int, dict[str, str]] = defaultdict(dict)
     now = timezone.now()
-    for person, password, generation, site, role, ends_at in rows.values_list(
-        *("pk", "password", "session_generation"),
+    demands: defaultdict[int, dict[str, str]] = defaultdict(dict)
+    protected = set()
+    for person, password, generation, factor_at, site, role, ends_at, demanded in rows.values_list(
+        *("pk", "password", "session_generation", "second_factor__confirmed_at"),
         *("memberships__site__slug", "memberships__role", "memberships__ends_at"),
+        "memberships__site__second_factor_from",
     ):
         people[person] = User(pk=person, password=password, session_generation=generation)
+        if factor_at is not None:
+            protected.add(person)
         if site is not None and (ends_at is None or ends_at > now):
-            roles[person][site] = role
+            roles[person][site], demands[person][site] = role, demanded
+
+    def roles_of(session: Session) -> dict[str, str]:
+        has_factor = session.person in protected or _decode(texts[session.key])[2] == TWO_FACTORS
+        return {
+            site: role_until_then(demands[session.person][site], role, has_factor=has_factor)
+            for site, role in roles[session.person].items()
+        }
+
     return {
-        session: Standing(roles[session.person])
+        session: Standing(roles_of(session))
         for session in sessions
         if session.person in people and session.key in texts and _is_of(texts[session.key], people[session.person])
     }
@@ -118,12 +133,13 @@ def _read_cookies(sessions: Collection[Session]) -> dict[Session, Standing]:
 
 def _is_of(text: str, person: User) -> bool:
     """Tell whether a kept session is this person's, begun with the password that they have now."""
-    signed_in, proof = _decode(text)
+    signed_in, proof, _ = _decode(text)
     proofs = (person.get_session_auth_hash(), *person.get_session_auth_fallback_hash())
     return signed_in == str(person.pk) and any(constant_time_compare(proof, known) for known in proofs)
 
 
 @lru_cache(maxsize=4096)
-def _decode(text: str) -> tuple[str, str]:
+def _decode(text: str) -> tuple[str, str, str]:
     kept = SessionStore().decode(text)
-    return str(kept.get(SESSION_KEY, "")), str(kept.get(HASH_SESSION_KEY, ""))
+    person, proof, backend = (str(kept.get(key, "")) for key in (SESSION_KEY, HASH_SESSION_KEY, BACKEND_SESSION_KEY))
+    return person, proof, backend

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from datetime import datetime
+from datetime import datetime, timedelta
 
 from django.contrib.auth import authenticate
 from django.core.exceptions import ValidationError
@@ -20,6 +20,7 @@ from registry.people.second_factor import check_code
 from registry.people.throttle import Attempt, counted
 
 MOST_NAME = 100
+FRESH = timedelta(minutes=10)
 
 
 class WrongPassword(RegistryError):
@@ -36,6 +37,13 @@ class WrongOldPassword(RegistryError):
     status = 422
 
 
+class SignOnAgain(RegistryError):
+    """Somebody without a password, who proves themselves by having signed in by their provider just now."""
+
+    code = "sign_on_again"
+    status = 403
+
+
 class BadPerson(RegistryError):
     """A person that cannot be added."""
 
@@ -45,12 +53,21 @@ class BadPerson(RegistryError):
 
 def create_user(*, email: str, password: str, display_name: str) -> User:
     """Add a person. Raises BadPerson, BadPassword."""
+    check_new_password(password, User(email=email.strip().lower(), display_name=display_name))
+    return _create(email, password, display_name)
+
+
+def create_person(*, email: str, display_name: str) -> User:
+    """Add a person without a password, who signs in by a provider. Raises BadPerson."""
+    return _create(email, None, display_name)
+
+
+def _create(email: str, password: str | None, display_name: str) -> User:
     email = email.strip().lower()
     if not 0 < len(display_name) <= MOST_NAME or not display_name.isprintable():
         raise BadPerson(f"A person's name has 1 to {MOST_NAME} characters, all of which can be printed.")
     try:
         validate_email(email)
-        check_new_password(password, User(email=email, display_name=display_name))
         with transaction.atomic():
             return User.objects.create_user(email=email, password=password, display_name=display_name)
     except ValidationError as error:
@@ -95,13 +112,19 @@ def check_own_password(*, user: User, password: str, address: str, now: datetime
 
 
 @contextmanager
-def checking_own_password(*, user: User, password: str, address: str, now: datetime) -> Iterator[None]:
+def checking_own_password(
+    *, user: User, password: str, address: str, now: datetime, signed_on_at: datetime | None = None
+) -> Iterator[None]:
     """Do something that asks for the own password; what fails within counts as an attempt, as a wrong code does.
 
-    Raises WrongOldPassword, TooManyAttempts.
+    Who has none has to have signed in by their provider (`signed_on_at`) within the last minutes.
+    Raises WrongOldPassword, SignOnAgain, TooManyAttempts.
     """
     with counted(Attempt(user.email, address, f"own:{user.pk}"), now):
-        if not user.check_password(password):
+        if not user.has_usable_password():
+            if signed_on_at is None or now - signed_on_at > FRESH:
+                raise SignOnAgain("You have no password here. Sign out, sign in again, and do this within 10 minutes.")
+        elif not user.check_password(password):
             raise WrongOldPassword("The password that you have now is another one. Try again.", {"why": "old"})
         yield
 

@@ -17,7 +17,8 @@ from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import ApiToken, Membership, User
 from registry.models.people import Grant
-from registry.people.access import ROLES, SCOPES, NotAllowed, NotAMember, access_of, has_not_ended
+from registry.people.access import ROLES, SCOPES, FactorDemanded, NotAllowed, NotAMember, access_of, has_not_ended
+from registry.people.demanded_factor import is_held_back, is_vouched_for
 from vipo_device.protocol.credentials import broker_hash
 from vipo_device.protocol.topics import reader_name
 
@@ -113,6 +114,11 @@ def keep_token(
     with transaction.atomic():
         member = _lock_member(user, site)
         _check_scopes(scopes, member.role)
+        if is_held_back(user, member) and not {"read", BROKER} >= set(scopes):
+            raise FactorDemanded(
+                f"This site demands a second factor of the role {member.role}, and so of who makes such a token. Set "
+                "one up on the page of your account."
+            )
         if member.tokens.count() >= MOST_OF_MEMBER:
             raise TooManyTokens(f"You have {MOST_OF_MEMBER} tokens at this site. Revoke one that is no longer used.")
         row = ApiToken.objects.create(
@@ -150,13 +156,14 @@ def _check_scopes(scopes: Collection[str], role: str) -> None:
 
 
 def find_member(*, site: str, email: str) -> User:
-    """Return a member of a site by their address. Raises NotAMember."""
+    """Return a member of a site by their address, as their provider vouched for them last. Raises NotAMember."""
     members = Membership.objects.filter(site__slug=site, user__email=email.strip().lower()).select_related("user")
     member = members.first()
     if member is None:
         raise NotAMember(
             f"{email[:100]} is no member of {site[:64]!r}. Try: vipo account EMAIL --site SITE --role ROLE"
         )
+    member.user.has_two_factors = is_vouched_for(member.user)
     return member.user
 
 

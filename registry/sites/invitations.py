@@ -22,6 +22,7 @@ from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import Invitation, Membership, Site, User
 from registry.people.access import NotAllowed, NotAMember, allows, find_access
+from registry.people.demanded_factor import is_vouched_for
 from registry.people.sign_in import create_user
 from registry.people.throttle import Attempt, counted, network_of
 
@@ -203,6 +204,24 @@ def accept_invitation(*, code: str, user: User, address: str, now: datetime) -> 
         return _take_in(_lock_open(found, now), user, now)
 
 
+def find_open_link(*, code: str, address: str, now: datetime) -> Invitation:
+    """Return the invitation of a link that may still be used. Raises UnknownLink, LinkOver, TooManyAttempts."""
+    row = _find(code, address, now)
+    _require_open(row, now)
+    return row
+
+
+def take_in(*, invitation: Invitation, user: User, now: datetime) -> str:
+    """Make somebody a member by an invitation that was found before; a member stays one. Returns the site's slug.
+
+    Called in a transaction. Raises LinkOver.
+    """
+    row = _lock_open(invitation, now)
+    if find_access(user, row.site) is not None:
+        return row.site.slug
+    return _take_in(row, user, now)
+
+
 def join_as_new(*, code: str, person: NewPerson, address: str, now: datetime) -> tuple[User, str]:
     """Make an account for somebody who has a link, and make them a member; return them, and the site's slug.
 
@@ -249,6 +268,8 @@ _OVER: dict[str, str] = {
 
 def _require_open(row: Invitation, now: datetime) -> None:
     state = _state(row, now)
+    if row.made_by:  # who made it does not ask here: what counts is how they came last
+        row.made_by.has_two_factors = is_vouched_for(row.made_by)
     access = find_access(row.made_by, row.site) if row.made_by else None
     if state == "open" and (access is None or not access.allows("admin") or not allows(access.role, row.role)):
         state = "revoked"

@@ -20,6 +20,7 @@ from registry.live.fanout import EVERY_SITE, publish
 from registry.models import ApiToken, Invitation, Membership, Site, User
 from registry.people.access import ROLES, NotAllowed, NotAMember, allows, find_access, has_not_ended, require
 from registry.people.second_factor import reset_factor
+from registry.people.sign_on.providers import title_of
 from registry.sites.sites import BadName, UnknownPerson, find_site
 
 LONGEST = timedelta(days=3660)
@@ -54,7 +55,8 @@ _MOST_IDS = 2**63
 class MemberView:
     """A member; `came_by` is who invited them, if they came by a link, `is_closed` says that they sign in no more.
 
-    `second_factor` tells whether they have one.
+    `second_factor` tells whether they have one, `sign_in_by` the titles of the providers that they sign in by, and
+    `has_password` whether they sign in by a password, too.
     """
 
     id: int
@@ -68,6 +70,8 @@ class MemberView:
     came_by: str
     is_closed: bool
     second_factor: bool
+    has_password: bool
+    sign_in_by: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +102,7 @@ def list_people(*, site: str) -> tuple[PersonView, ...]:
 def list_members(*, site: str, only: User | None = None) -> tuple[MemberView, ...]:
     """Return the members of a site by name, or one of them alone; also those whose access has ended."""
     rows = Membership.objects.filter(site__slug=site).select_related("user__second_factor", "came_by__made_by")
+    rows = rows.prefetch_related("user__sign_ons")
     if only is not None:
         rows = rows.filter(user_id=only.pk)
     return tuple(_view(row) for row in rows.order_by("user__display_name", "user__email"))
@@ -311,5 +316,7 @@ def _view(row: Membership) -> MemberView:
         ends_at=row.ends_at,
         came_by=maker.display_name if maker else "",
         is_closed=not row.user.is_active,
+        has_password=row.user.has_usable_password(),
+        sign_in_by=tuple(title_of(sign_on.provider) for sign_on in row.user.sign_ons.all()),
         second_factor=bool((factor := getattr(row.user, "second_factor", None)) and factor.confirmed_at),
     )

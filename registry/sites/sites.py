@@ -62,7 +62,7 @@ def get_site_id(*, site: str) -> int:
 def list_sites(*, user: User) -> tuple[SiteView, ...]:
     """Return the sites where the user is a member, by name."""
     members = list_memberships(user).order_by("site__name", "site__slug")
-    return tuple(_site_view(m.site, access_of(user, m).role) for m in members)
+    return tuple(_site_view(m.site, access.role, access.held_role) for m in members if (access := access_of(user, m)))
 
 
 def list_slugs() -> tuple[str, ...]:
@@ -70,12 +70,12 @@ def list_slugs() -> tuple[str, ...]:
     return tuple(Site.objects.order_by("slug").values_list("slug", flat=True))
 
 
-def get_site(*, site: str, role: str = "") -> SiteView:
-    """Return a site; `role` is written into the view as it is."""
-    return _site_view(find_site(site), role)
+def get_site(*, site: str, role: str = "", held_role: str = "") -> SiteView:
+    """Return a site; `role` and `held_role` are written into the view as they are."""
+    return _site_view(find_site(site), role, held_role)
 
 
-def _site_view(site: Site, role: str) -> SiteView:
+def _site_view(site: Site, role: str, held_role: str = "") -> SiteView:
     rows = Device.objects.filter(site=site).exclude(lifecycle=Device.Lifecycle.RETIRED).defer("source")
     shown = [d for d in rows if d.description]
     approved = [d for d in shown if d.lifecycle == Device.Lifecycle.APPROVED]
@@ -91,6 +91,7 @@ def _site_view(site: Site, role: str) -> SiteView:
         has_map=SiteMap.objects.filter(site=site).exists(),
         stop=StopView(site.stop_active, site.stop_by, site.stop_at),
         simulated=any(d.description and d.description["simulated"] for d in approved),
+        held_role=held_role,
     )
 
 

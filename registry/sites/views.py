@@ -45,7 +45,10 @@ class StopView:
 
 @dataclass(frozen=True, slots=True)
 class SiteView:
-    """A site and its counts; `role` is what the asking user is there, empty when nobody asks."""
+    """A site and its counts; `role` is what the asking user is there, empty when nobody asks.
+
+    `held_role` is what they would be with the second factor that the site demands of them.
+    """
 
     slug: str
     name: str
@@ -57,10 +60,12 @@ class SiteView:
     has_map: bool
     stop: StopView
     simulated: bool
+    held_role: str = ""
 
 
 def site_to_json(view: SiteView) -> dict[str, Any]:
     """Return the site as the API says it."""
     body = asdict(view)
+    body["held_role"] = view.held_role or None
     body["stop"]["at"] = view.stop.at.isoformat() if view.stop.at else None
     return body

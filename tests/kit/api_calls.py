@@ -79,6 +79,9 @@ BODIES: dict[str, dict[str, Any]] = {
     "accept_invitation": {"code": "{code}"},
     "join_as_new": {"code": "{code}", "name": "New One", "email": "new-one@vipo.example", "password": "four odd words"},
     "sign_in": {"email": "a", "password": "b"},
+    "finish_provider_sign_on": {"state": "none"},
+    "set_factor_rule": {"demanded_from": None},
+    "begin_linking": {"provider": "none"},
     "begin_second_factor": {"password": "not this one"},
     **{
         name: {"password": "not this one", "code": "123456"}
@@ -128,7 +131,7 @@ def make_one_of_each(slug: str) -> dict[str, str]:
         program_id=program, name="It ends", text=ends, created_at=NOW, edited_at=NOW
     ).pk
     named = {"device_id": device, "device": device, "thing": device, "slug": slug, "site": slug, "number": "1"}
-    named |= {"version": "1", "name": "jobStatus", "action": "mix", "session": "0"}
+    named |= {"version": "1", "name": "jobStatus", "action": "mix", "session": "0", "provider": "none", "sign_on": "0"}
     named |= _make_guest(site)
     return {**named, **{name: str(key) for name, key in made.items()}}
 

@@ -11,14 +11,14 @@ from typing import NoReturn
 
 from editor.language.messages.diagnostics import diagnostic_to_json
 from vipo_device.descriptions.forms import FORMS
-from vipo_site.cli import account, call, devices, history, mending, token
+from vipo_site.cli import account, call, devices, history, mending, record, token
 from vipo_site.cli.program_file import FaultyScript, UnreadableFile
 from vipo_site.cli.programs import add_program_commands
 from vipo_site.cli.terminal import CLEAN, FAULTY, INTERRUPTED, UNUSABLE, complain, write_json
 
 _NAMES = (
     *("check", "script", "draw", "plan", "rehearse", "test", "scan", "describe"),
-    *("call", "devices", "alerts", "approve", "enrolment-key", "account", "token", "mend-program", "history"),
+    *("call", "devices", "alerts", "approve", "enrolment-key", "account", "token", "mend-program", "history", "record"),
 )
 
 
@@ -118,6 +118,7 @@ def _parser() -> argparse.ArgumentParser:
         ("token", token.WHAT, token.add_token_arguments),
         ("mend-program", mending.WHAT, mending.add_mending_arguments),
         ("history", history.WHAT, history.add_history_arguments),
+        ("record", record.WHAT, record.add_record_arguments),
     ):
         add(commands.add_parser(word, help=text, description=text))
     word, text = "enrolment-key", devices.ENROLMENT_KEY

@@ -27,6 +27,7 @@ from registry.api.onboarding import router as onboarding_router
 from registry.api.once import begin_once, watch_request
 from registry.api.people import router as people_router
 from registry.api.second_factor import router as second_factor_router
+from registry.api.sign_on import router as sign_on_router
 from registry.api.sites import router as sites_router
 from registry.api.sparql import router as sparql_router
 from registry.api.things import router as things_router
@@ -119,6 +120,7 @@ api.add_decorator(name_place, mode="view")
 api.add_decorator(watch_request, mode="view")
 api.add_router("", people_router)
 api.add_router("", second_factor_router)
+api.add_router("", sign_on_router)
 api.add_router("", sites_router)
 api.add_router("", tokens_router)
 api.add_router("", members_router)

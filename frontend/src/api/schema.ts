@@ -414,6 +414,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/me/sign-ons": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List My Sign Ons
+         * @description Say by which ways the asker signs in.
+         */
+        get: operations["list_my_sign_ons"];
+        put?: never;
+        /**
+         * Begin Linking
+         * @description Begin to link the asker's account with one of a provider; goes on and ends as a sign-on does.
+         */
+        post: operations["begin_linking"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/me/sign-ons/{sign_on}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Remove My Sign On
+         * @description Take a link away; all sessions of the asker end, this one too. Nobody's only way in can be taken away (409).
+         */
+        delete: operations["remove_my_sign_on"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/me/sign-out-everywhere": {
         parameters: {
             query?: never;
@@ -1434,6 +1478,69 @@ export interface paths {
          *     Of whom a second factor is asked, the answer without `code` is 401, `second_factor_needed`.
          */
         post: operations["sign_in"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sign-in/providers": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Sign On Providers
+         * @description List by whom people may sign in here, in the order of their buttons.
+         */
+        get: operations["list_sign_on_providers"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sign-in/providers/{provider}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Begin Provider Sign On
+         * @description Begin a sign-on: tell where to send the browser, which comes back to `/sign-on/{provider}` within ten minutes.
+         */
+        post: operations["begin_provider_sign_on"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sign-in/providers/{provider}/finish": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Finish Provider Sign On
+         * @description Finish a sign-on with what the provider gave along; this begins a session, or links the asker's account.
+         *
+         *     Of whom a second factor is asked, the answer without `factor` is 401, `second_factor_needed`; the same is sent again
+         *     with it then.
+         */
+        post: operations["finish_provider_sign_on"];
         delete?: never;
         options?: never;
         head?: never;
@@ -3120,6 +3227,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/second-factor": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Factor Rule
+         * @description Say of whom a site demands a second factor.
+         */
+        get: operations["show_factor_rule"];
+        /**
+         * Set Factor Rule
+         * @description Demand a second factor from a role on; who lacks one looks only from now on, until it is set up.
+         */
+        put: operations["set_factor_rule"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/sparql": {
         parameters: {
             query?: never;
@@ -4127,6 +4258,15 @@ export interface components {
             text?: string | null;
             value?: unknown;
         };
+        /** @description From which role on a site demands a second factor, null for none; `of_server`: from which on every site does. */
+        FactorRuleShape: {
+            demanded_from: ("commenter" | "operator" | "author" | "admin") | null;
+            of_server: ("commenter" | "operator" | "author" | "admin") | null;
+        };
+        /** @description From which role on a second factor is to be demanded, null for nobody. */
+        FactorRuleWanted: {
+            demanded_from: ("commenter" | "operator" | "author" | "admin") | null;
+        };
         /** @description Since when the asker has a second factor, null for none, and how many recovery codes are left. */
         FactorShape: {
             recovery_codes: number;
@@ -4374,6 +4514,12 @@ export interface components {
         LinkCode: {
             code: string;
         };
+        /** @description By whom the asker wants to sign in, and their password; empty where they have none. */
+        LinkWanted: {
+            /** @default  */
+            password: string;
+            provider: string;
+        };
         /** @description A line of what happened: in English, and `code` with `args` for other languages. */
         LogLine: {
             args: {
@@ -4539,6 +4685,7 @@ export interface components {
             email: string;
             ending: components["schemas"]["EndingShape"];
             ends_at: string | null;
+            has_password: boolean;
             id: number;
             initials: string;
             is_closed: boolean;
@@ -4549,18 +4696,21 @@ export interface components {
             role: "viewer" | "commenter" | "operator" | "author" | "admin";
             second_factor: boolean;
             seen_at: string | null;
+            sign_in_by: string[];
         };
         /**
          * @description A member of a site; `me` marks who asks.
          *
          *     `seen_at` is when a page of theirs last showed the site, to the minute; `ends_at` when their access ends, null for
          *     no end; `came_by` who invited them, if they came by a link; `is_closed` says that they sign in no more,
-         *     `second_factor` whether they have one.
+         *     `second_factor` whether they have one, `has_password` and `sign_in_by` by which ways they sign in: the latter are
+         *     titles of providers.
          */
         MemberShape: {
             came_by: string;
             email: string;
             ends_at: string | null;
+            has_password: boolean;
             id: number;
             initials: string;
             is_closed: boolean;
@@ -4571,6 +4721,7 @@ export interface components {
             role: "viewer" | "commenter" | "operator" | "author" | "admin";
             second_factor: boolean;
             seen_at: string | null;
+            sign_in_by: string[];
         };
         /** @description Something a device can be told to do. */
         MethodShape: {
@@ -4732,7 +4883,7 @@ export interface components {
             tries: number;
             waits_s: number;
         };
-        /** @description The password that somebody has. */
+        /** @description The password that somebody has; empty where they have none, and have just signed in by their provider. */
         OwnPassword: {
             password: string;
         };
@@ -5034,6 +5185,11 @@ export interface components {
                 string | components["schemas"]["ParameterUse"] | components["schemas"]["RoleUse"],
                 string
             ];
+        };
+        /** @description A provider that people may sign in by; `title` is what its button says. */
+        ProviderShape: {
+            name: string;
+            title: string;
         };
         /** @description A number with its unit. */
         Quantity: {
@@ -5491,13 +5647,72 @@ export interface components {
             email: string;
             password: string;
         };
+        /** @description Where the browser goes now. */
+        SignOnAddress: {
+            address: string;
+        };
+        /** @description What the provider gave the browser along, and a code of the second factor where that is asked for. */
+        SignOnAnswer: {
+            /** @default  */
+            code: string;
+            /** @default  */
+            error: string;
+            /** @default  */
+            factor: string;
+            /** @default  */
+            iss: string;
+            state: string;
+        };
+        /** @description Whether the asker has a password, and by which accounts of providers they sign in beside. */
+        SignOnList: {
+            has_password: boolean;
+            sign_ons: components["schemas"]["SignOnShape"][];
+        };
+        /** @description An account of a provider by which the asker signs in; `label` is what it calls them. */
+        SignOnShape: {
+            id: number;
+            label: string;
+            /** Format: date-time */
+            linked_at: string;
+            provider: string;
+            title: string;
+            used_at: string | null;
+        };
+        /** @description Where to go afterwards (a page of VIPO's own), and the code of an invitation, if somebody comes by one. */
+        SignOnWanted: {
+            /** @default  */
+            invitation: string;
+            /** @default  */
+            next: string;
+        };
+        /** @description Who is signed in now, and the page to go to. */
+        SignedOn: {
+            csrf: string;
+            demo_accounts: components["schemas"]["DemoAccount"][];
+            may_create_sites: boolean;
+            next: string;
+            user: components["schemas"]["Person"] | null;
+        };
+        /**
+         * @description Nobody any more; `provider_sign_out` is where the browser goes to be signed out at its provider, too.
+         *
+         *     It is empty where there is none, or the server's settings do not ask for that.
+         */
+        SignedOut: {
+            csrf: string;
+            demo_accounts: components["schemas"]["DemoAccount"][];
+            may_create_sites: boolean;
+            provider_sign_out: string;
+            user: components["schemas"]["Person"] | null;
+        };
         /** @description To which site a program shall go. */
         SiteAsked: {
             site: string;
         };
-        /** @description A site as its member sees it. */
+        /** @description A site as its member sees it; `held_role` is what they are once they have the second factor that it demands. */
         SiteShape: {
             has_map: boolean;
+            held_role: ("viewer" | "commenter" | "operator" | "author" | "admin") | null;
             machines: number;
             name: string;
             online: number;
@@ -6930,6 +7145,128 @@ export interface operations {
             };
             path: {
                 session: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_my_sign_ons: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SignOnList"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    begin_linking: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LinkWanted"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SignOnAddress"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_my_sign_on: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                sign_on: number;
             };
             cookie?: never;
         };
@@ -9728,6 +10065,129 @@ export interface operations {
             };
         };
     };
+    list_sign_on_providers: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProviderShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    begin_provider_sign_on: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                provider: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SignOnWanted"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SignOnAddress"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            410: components["responses"]["Refused410"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    finish_provider_sign_on: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                provider: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SignOnAnswer"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SignedOn"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            410: components["responses"]["Refused410"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     sign_out: {
         parameters: {
             query?: never;
@@ -9746,7 +10206,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Me"];
+                    "application/json": components["schemas"]["SignedOut"];
                 };
             };
             400: components["responses"]["Refused400"];
@@ -13930,6 +14390,92 @@ export interface operations {
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_factor_rule: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FactorRuleShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    set_factor_rule: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FactorRuleWanted"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FactorRuleShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

@@ -51,8 +51,14 @@ export type DescriptionLook = Schemas["LookShape"];
 
 export type OwnSession = Schemas["OwnSession"];
 export type Factor = Schemas["FactorShape"];
+export type FactorRule = Schemas["FactorRuleShape"];
 export type NewFactor = Schemas["NewFactorShape"];
 export type RecoveryCodes = Schemas["RecoveryCodes"];
+export type SignOnProvider = Schemas["ProviderShape"];
+export type SignOnAnswer = Schemas["SignOnAnswer"];
+export type SignedOn = Schemas["SignedOn"];
+export type SignOnList = Schemas["SignOnList"];
+export type OwnSignOn = Schemas["SignOnShape"];
 export type Token = Schemas["TokenShape"];
 export type TokenScope = Token["scopes"][number];
 export type NewToken = Schemas["NewToken"];

@@ -74,6 +74,7 @@ export function makeRouter() {
       errorElement: <RouteProblem />,
       children: [
         ...route("/sign-in", "pages/signin/SignInPage"),
+        ...route("/sign-on/:provider", "pages/signin/SignOnPage"),
         ...route("/invitation", "pages/invitation/InvitationPage"),
         ...route("/wall", "pages/wall/WallPage"),
       ],

@@ -4,6 +4,7 @@ import { useSiteLive } from "@/live/site";
 import { AlertsBell } from "./alerts/AlertsBell";
 import { ConnectionStrip } from "./ConnectionStrip";
 import { useCurrentSite } from "./currentSite";
+import { FactorStrip } from "./FactorStrip";
 import { FindingsStrip } from "./findings/FindingsStrip";
 import { QuestionsBell } from "./questions/QuestionsBell";
 import { ReviewsBell } from "./review/ReviewsBell";
@@ -43,6 +44,7 @@ export function PageShell({ title, chips, actions, detail, children }: PageShell
         </div>
         {slug ? <ConnectionStrip slug={slug} /> : null}
         {slug ? <FindingsStrip slug={slug} /> : null}
+        {slug ? <FactorStrip slug={slug} /> : null}
       </header>
       <main className={styles.page}>{children}</main>
       {detail ? <div className={styles.detail}>{detail}</div> : null}

@@ -31,12 +31,14 @@ export function useSignOut(path: "/sign-out" | "/me/sign-out-everywhere", to: To
   const [waiting, setWaiting] = useState<readonly KeptCopy[]>([]);
   const end = useMutation({
     mutationFn: async () => {
-      await api.post(path);
+      const told = await api.post<{ provider_sign_out?: string }>(path);
       await removeAll();
+      return told.provider_sign_out;
     },
-    onSuccess: async () => {
+    onSuccess: async (elsewhere) => {
       await navigate(to);
       queries.clear();
+      if (elsewhere) location.assign(elsewhere);
     },
     onError: () => notifications.show({ color: "red", message: t("shell.signOut.failed") }),
   });

@@ -10,6 +10,7 @@ from django.test import Client
 
 from registry import services
 from registry.floorplan.plan import Grid
+from registry.models import SignOn
 from registry.people.access import ROLES
 from registry.people.wall_screens import COOKIE, key_of
 from tests.kit.api_calls import ask_each, make_one_of_each
@@ -25,6 +26,7 @@ ASKERS = {
 }
 """Who asks: their site and role; nobody, and a wall screen of the hall, have none."""
 NO_SESSION = ("nobody", "wall")
+SIGNING_IN = ("sign_in", "begin_provider_sign_on", "finish_provider_sign_on")
 pytestmark = pytest.mark.usefixtures("impatient")
 
 
@@ -52,6 +54,14 @@ def own_session(client: Client, person: str) -> str:
     return "0" if person in NO_SESSION else str(client.get("/api/me/sessions").json()[0]["id"])
 
 
+def own_sign_on(person: str) -> str:
+    """Return the number of an account of a provider that who asks is linked with."""
+    if person in NO_SESSION:
+        return "0"
+    told = {"provider": "none", "issuer": "https://none.example", "subject": person, "linked_at": datetime.now(UTC)}
+    return str(SignOn.objects.create(user=find_person(person), **told).pk)
+
+
 def expected(name: str, person: str, site: str) -> int:
     """Return the status with which somebody is refused, by the one table; 0 if they get through."""
     right, (home, role) = RIGHTS[name], ASKERS[person]
@@ -67,8 +77,8 @@ def expected(name: str, person: str, site: str) -> int:
 
 
 def refusal(name: str, answer: Any) -> int:
-    """Return the status if it says who may not; a wrong password at signing in is none."""
-    return answer.status_code if answer.status_code in (401, 403, 404, 405) and name != "sign_in" else 0
+    """Return the status if it says who may not; a wrong password, or a provider that is none, at signing in is none."""
+    return answer.status_code if answer.status_code in (401, 403, 404, 405) and name not in SIGNING_IN else 0
 
 
 def test_every_operation_stands_in_the_table_once() -> None:
@@ -87,6 +97,7 @@ def test_each_person_and_a_wall_screen_may_do_what_the_table_says_and_nothing_el
     if person == "wall":
         client.cookies[COOKIE] = key_of(sites["hall"]["wall_code"])
     named = {**sites[site], "token_id": token, "session": own_session(client, person)}
+    named["sign_on"] = own_sign_on(person)
     for name, answer in ask_each(client, named):
         asked += 1
         told = (refusal(name, answer), answer.status_code < 500)

@@ -130,6 +130,8 @@ UNSAFE = {
     "VIPO_REHEARSAL_MEMORY_MB": ["511"],
     "VIPO_AUDIT_DAYS": ["29", "ever"],
     "VIPO_MAIL_TLS": ["ssl"],
+    "VIPO_SECOND_FACTOR": ["viewer", "all"],
+    "VIPO_SIGN_ON": ["Acme", "acme,acme", "a b", "-a"],
     "VIPO_MAIL_PORT": ["0", "smtp"],
 }
 
@@ -148,6 +150,40 @@ def test_a_way_to_send_mail_is_safe_and_says_from_whom(read_settings: ReadSettin
     assert (shown, said.startswith("VIPO_MAIL_TLS is none and VIPO_MAIL_HOST another machine")) == ("", True), said
     local = {"VIPO_MAIL_HOST": "localhost", "VIPO_MAIL_FROM": "vipo@mail.example", "VIPO_MAIL_TLS": "none"}
     assert read_settings({**SERVED, **local})[0] != ""
+
+
+ACME = {
+    "VIPO_SIGN_ON": "acme-2",
+    "VIPO_SIGN_ON_ACME_2_ISSUER": "https://acme.example/realm",
+    "VIPO_SIGN_ON_ACME_2_CLIENT_ID": "vipo",
+    "VIPO_SIGN_ON_ACME_2_CLIENT_SECRET": "a secret of acme",
+}
+OFF = [
+    *((name, None, f"{name} is not set") for name in ACME if name != "VIPO_SIGN_ON"),
+    ("VIPO_SIGN_ON_ACME_2_ISSUER", "http://acme.example", "VIPO_SIGN_ON_ACME_2_ISSUER is unsafe"),
+    ("VIPO_SIGN_ON_ACME_2_ISSUER", "https://acme.example/?a=b", "VIPO_SIGN_ON_ACME_2_ISSUER is no issuer"),
+    ("VIPO_SIGN_ON_ACME_2_LINK", "yes", "VIPO_SIGN_ON_ACME_2_LINK is 'yes'"),
+    ("VIPO_SIGN_ON_ACME_2_DOMAINS", "acme.example,*", "VIPO_SIGN_ON_ACME_2_DOMAINS has '*'"),
+]
+
+
+@pytest.mark.parametrize(("name", "value", "expected"), OFF)
+def test_a_provider_whose_settings_are_missing_or_unsafe_stops_the_start(
+    read_settings: ReadSettings, name: str, value: str | None, expected: str
+) -> None:
+    shown, said = read_settings({**SERVED, **ACME, name: value})
+    assert (shown, said.startswith(expected)) == ("", True), said
+    assert "a secret of acme" not in said
+
+
+def test_a_provider_is_set_up_and_its_secret_read_from_a_file_by_who_signs_alone(
+    tmp_path: Path, read_settings: ReadSettings
+) -> None:
+    assert read_settings({**SERVED, **ACME})[0] != ""
+    (tmp_path / "secret").write_text("a secret of acme\n")
+    name = "VIPO_SIGN_ON_ACME_2_CLIENT_SECRET"
+    assert read_settings({**SERVED, **ACME, name: None, f"{name}_FILE": str(tmp_path / "secret")})[0] != ""
+    assert read_settings({**SERVED, **ACME, name: None, "VIPO_PROCESS": "worker"})[0] != ""
 
 
 def test_secrets_are_read_from_files(tmp_path: Path, read_settings: ReadSettings) -> None:

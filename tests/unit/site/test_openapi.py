@@ -67,6 +67,7 @@ def test_every_answer_has_a_shape(described):
     assert len(answers) > 80
     assert [key for key, answer in answers.items() if not has_shape(answer)] == [
         ("delete", "/api/me/sessions/{session}", "204"),
+        ("delete", "/api/me/sign-ons/{sign_on}", "204"),
         ("delete", "/api/programs/{program}", "204"),
         ("delete", "/api/programs/{program}/comments/{comment}", "204"),
         ("put", "/api/programs/{program}/document", "204"),

@@ -14,6 +14,8 @@ import { SignOutQuestion, useSignOut } from "@/shell/SignOut";
 import styles from "./account.module.css";
 import { SecondFactor } from "./SecondFactor";
 import { SessionList } from "./SessionList";
+import { WaysIn } from "./WaysIn";
+import { useWaysIn } from "./waysIn";
 
 const EMPTY = { old: "", new: "" };
 
@@ -128,6 +130,7 @@ function Sessions() {
 export function AccountPage() {
   const { t } = useTranslation();
   const user = useMe().data?.user;
+  const ways = useWaysIn().data;
   return (
     <PageShell title={t("pages.account.title")}>
       {user ? (
@@ -136,7 +139,8 @@ export function AccountPage() {
             <strong>{user.name}</strong>
             <span>{user.email}</span>
           </div>
-          <PasswordForm user={user} />
+          {ways?.has_password === false ? null : <PasswordForm user={user} />}
+          <WaysIn />
           <SecondFactor />
           <Sessions />
         </div>

@@ -15,6 +15,7 @@ import { formatMoment } from "@/i18n/format";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
 import pages from "../pages.module.css";
 import styles from "./account.module.css";
+import { useWaysIn } from "./waysIn";
 
 const PATH = "/me/second-factor";
 const KEY = ["me", "factor"] as const;
@@ -62,9 +63,13 @@ interface ProofFormProps {
   onClose: () => void;
 }
 
+/** Whether one proves oneself by a password: who has none has signed in by their provider just now. */
+const useHasPassword = () => useWaysIn().data?.has_password !== false;
+
 function ProofForm({ code, go, error, busy, children, password, onSend, onClose }: ProofFormProps) {
   const { t } = useTranslation();
   const [proof, setProof] = useState<Proof>({ password: password ?? "", code: "" });
+  const hasPassword = useHasPassword();
   const refusedFor = error instanceof ApiProblem ? error.code : "";
   const send = (event: FormEvent) => {
     event.preventDefault();
@@ -73,7 +78,8 @@ function ProofForm({ code, go, error, busy, children, password, onSend, onClose 
   return (
     <form className={`${pages.form} ${styles.form}`} onSubmit={send}>
       {children}
-      {password === undefined ? (
+      {hasPassword ? null : <p>{t("signOn.fresh")}</p>}
+      {password === undefined && hasPassword ? (
         <PasswordInput
           label={t("factor.password")}
           autoComplete="current-password"
@@ -105,7 +111,11 @@ function ProofForm({ code, go, error, busy, children, password, onSend, onClose 
         <Button variant="default" onClick={onClose}>
           {t("factor.cancel")}
         </Button>
-        <Button type="submit" loading={busy} disabled={!proof.password || (code !== undefined && !proof.code)}>
+        <Button
+          type="submit"
+          loading={busy}
+          disabled={(hasPassword && !proof.password) || (code !== undefined && !proof.code)}
+        >
           {go}
         </Button>
       </div>

@@ -13,6 +13,8 @@ import { Logo } from "@/design/Logo";
 import { Panel } from "@/design/Panel";
 import { LoadProblem, problemText, Waiting } from "@/shell/LoadProblem";
 import { SignOutQuestion, useSignOut } from "@/shell/SignOut";
+import { ProviderButtons } from "../signin/ProviderButtons";
+import { useProviders } from "../signin/providers";
 import sign from "../signin/SignInPage.module.css";
 import styles from "./invitation.module.css";
 
@@ -105,6 +107,20 @@ function AsNew({ code }: { code: string }) {
   );
 }
 
+/** Nothing where nobody signs in by a provider. */
+function ByProvider({ code }: { code: string }) {
+  const { t } = useTranslation();
+  const providers = useProviders();
+  if (!providers.data?.length) return null;
+  return (
+    <section className={styles.way} aria-labelledby="by-provider">
+      <h2 id="by-provider">{t("signOn.join")}</h2>
+      <p>{t("signOn.joinText")}</p>
+      <ProviderButtons invitation={code} />
+    </section>
+  );
+}
+
 /** Signing in, and from there back here. The code stays behind the sign #: no log of a server or proxy has it. */
 function useWayToSignIn(): To {
   const { pathname, hash } = useLocation();
@@ -166,6 +182,7 @@ function OfferCard({ offer, code, me }: { offer: Offer; code: string; me: Me }) 
       ) : (
         <>
           <AsNew code={code} />
+          <ByProvider code={code} />
           <WithAccount />
         </>
       )}

@@ -96,6 +96,18 @@ function More({ member, manages, begin }: Pick<RowProps, "member" | "manages" | 
   );
 }
 
+/** By which ways somebody signs in, where that is not a password alone. */
+function WaysOf({ member }: { member: Member }) {
+  const { t } = useTranslation();
+  const { has_password: hasPassword, sign_in_by: providers, second_factor: factor } = member;
+  const ways = [...(hasPassword ? [t("people.ways.password")] : []), ...providers];
+  const words = [
+    ...(providers.length > 0 ? [t("people.ways.by", { ways: ways.join(", ") })] : []),
+    ...(factor ? [t("people.ways.factor")] : []),
+  ];
+  return words.length > 0 ? <small className={pages.reason}>{words.join(" · ")}</small> : null;
+}
+
 function Row({ member, now, manages, last, busy, setRole, begin }: RowProps) {
   const { t } = useTranslation();
   return (
@@ -108,7 +120,10 @@ function Row({ member, now, manages, last, busy, setRole, begin }: RowProps) {
         </span>
         {member.came_by ? <small className={pages.reason}>{t("people.cameBy", { name: member.came_by })}</small> : null}
       </td>
-      <td className={pages.optional}>{member.email}</td>
+      <td className={pages.optional}>
+        {member.email}
+        <WaysOf member={member} />
+      </td>
       <td>
         {manages && !last ? (
           <RoleSelect

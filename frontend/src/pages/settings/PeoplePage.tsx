@@ -12,6 +12,7 @@ import { PageShell } from "@/shell/PageShell";
 import pages from "../pages.module.css";
 import { TableSkeleton } from "../TableSkeleton";
 import { AuditPane } from "./AuditPane";
+import { FactorRule } from "./FactorRule";
 import { Invitations } from "./Invitations";
 import { MemberTable } from "./MemberTable";
 import { LinkShown, NewInvitation } from "./NewInvitation";
@@ -80,6 +81,7 @@ function PeopleOfSite({ slug }: { slug: string }) {
           {members.isPending ? <TableSkeleton /> : null}
           {members.data ? <MemberTable slug={slug} members={members.data} manages={manages} /> : null}
           {manages ? <Inviting slug={slug} making={making} setMaking={setMaking} /> : null}
+          {manages ? <FactorRule slug={slug} /> : null}
           {manages ? <WallScreens slug={slug} /> : null}
           {rights.data ? <RightsTable deeds={rights.data} /> : null}
         </div>

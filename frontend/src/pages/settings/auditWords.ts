@@ -19,6 +19,7 @@ export function deedWords(line: AuditEntry): string {
 function variantOf({ code, facts }: AuditEntry): string {
   if (code === "access_end_set" && facts.until === null) return "access_end_none";
   if (code === "invitation_made" && facts.email) return "invitation_mailed";
+  if (code === "second_factor_demanded" && !facts.role) return "second_factor_demanded_none";
   if (code === "run_started" && facts.armed) return "run_armed";
   return code;
 }
@@ -26,6 +27,7 @@ function variantOf({ code, facts }: AuditEntry): string {
 function factsOf(line: AuditEntry): [string, unknown][] {
   return Object.entries(line.facts as Record<string, unknown>).map(([name, value]) => {
     if (ROLES.includes(name)) return [name, i18next.t(`role.${String(value)}`)];
+    if (name === "why") return [name, i18next.t(`people.audit.signOn.${String(value)}`)];
     if (name === "until" && typeof value === "string") return [name, formatMoment(value)];
     return [name, value];
   });

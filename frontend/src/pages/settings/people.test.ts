@@ -14,6 +14,8 @@ const member = (id: number, some: Partial<Member> = {}): Member => ({
   came_by: "",
   is_closed: false,
   second_factor: false,
+  has_password: true,
+  sign_in_by: [],
   me: false,
   ...some,
 });

@@ -4,6 +4,7 @@ import { api } from "@/api/client";
 import type {
   AuditEntry,
   Deed,
+  FactorRule,
   InvitationList,
   MadeInvitation,
   MadeWallScreen,
@@ -42,6 +43,17 @@ export const useInvitations = (slug: string) =>
     queryFn: () => api.get<InvitationList>(`${siteOf(slug)}/invitations`),
     refetchInterval: EVERY_MS,
   });
+
+export const useFactorRule = (slug: string) =>
+  useQuery({
+    queryKey: [...keyOf(slug), "factor"],
+    queryFn: () => api.get<FactorRule>(`${siteOf(slug)}/second-factor`),
+  });
+
+export const useSetFactorRule = (slug: string) =>
+  useChange(slug, (role: FactorRule["demanded_from"]) =>
+    api.put<FactorRule>(`${siteOf(slug)}/second-factor`, { demanded_from: role }),
+  );
 
 export const useRights = () =>
   useQuery({ queryKey: ["rights"], queryFn: () => api.get<Deed[]>("/rights"), staleTime: Infinity });

@@ -14,6 +14,8 @@ import { Logo } from "@/design/Logo";
 import { Panel } from "@/design/Panel";
 import { takeKeyboard } from "@/design/takeKeyboard";
 import { useWaitingCount } from "@/shell/waitingCopies";
+import { ProviderButtons } from "./ProviderButtons";
+import { safeNext } from "./safeNext";
 import styles from "./SignInPage.module.css";
 
 interface Credentials {
@@ -61,7 +63,7 @@ function DemoAccounts({
   );
 }
 
-function SignInForm({ me }: { me: Me }) {
+function SignInForm({ me, next }: { me: Me; next: string }) {
   const { t } = useTranslation();
   const [who, setWho] = useState<Credentials>({ email: "", password: "" });
   const signIn = useSignIn();
@@ -134,14 +136,10 @@ function SignInForm({ me }: { me: Me }) {
           {t("pages.signIn.go")}
         </Button>
       </form>
+      <ProviderButtons next={next} />
       <DemoAccounts accounts={me.demo_accounts} busy={signIn.isPending} use={use} />
     </Panel>
   );
-}
-
-/** Where to go afterwards: only addresses of this site. */
-export function safeNext(next: string | null): string {
-  return next && /^\/(?![/\\])/.test(next) ? next : "/";
 }
 
 export function SignInPage() {
@@ -157,7 +155,7 @@ export function SignInPage() {
   if (me.data.user) return <Navigate to={next + hash} replace />;
   return (
     <main className={styles.page}>
-      <SignInForm me={me.data} />
+      <SignInForm me={me.data} next={next} />
     </main>
   );
 }

@@ -92,7 +92,7 @@ def test_at_other_sites_of_its_person_a_token_is_a_strangers(ids: dict[str, str]
     token = make_token("admin", site="shed")
     seen = answers(token, ids)
     listed = {name for name, answer in seen.items() if answer.status_code == 200}
-    assert listed == {"show_me", "list_sites", "search_library", "list_rights"}
+    assert listed == {"show_me", "list_sites", "search_library", "list_rights", "list_sign_on_providers"}
     assert [site["slug"] for site in seen["list_sites"].json()] == ["shed"]
     others = {name for name, right in RIGHTS.items() if right.scope not in ("session", "anybody")} - listed
     assert {seen[name].status_code for name in others} == {404}

@@ -1,0 +1,59 @@
+/** From which role on the site demands a second factor; set by its admins, at once. */
+import { NativeSelect } from "@mantine/core";
+import { notifications } from "@mantine/notifications";
+import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
+import type { FactorRule as Rule } from "@/api/types";
+import { Panel } from "@/design/Panel";
+import { LoadProblem, problemText } from "@/shell/LoadProblem";
+import { TableSkeleton } from "../TableSkeleton";
+import { useFactorRule, useMembers, useSetFactorRule } from "./people";
+import styles from "./settings.module.css";
+
+type Demanded = Rule["demanded_from"];
+const ROLES: readonly NonNullable<Demanded>[] = ["commenter", "operator", "author", "admin"];
+
+export function FactorRule({ slug }: { slug: string }) {
+  const { t } = useTranslation();
+  const rule = useFactorRule(slug);
+  const set = useSetFactorRule(slug);
+  const lacksOwn = useMembers(slug).data?.some(({ me, second_factor: has }) => me && !has);
+  if (rule.isLoadingError) return <LoadProblem error={rule.error} again={() => void rule.refetch()} />;
+  if (!rule.data) return <TableSkeleton />;
+  const { demanded_from: demanded, of_server: ofServer } = rule.data;
+  const choose = (role: Demanded) =>
+    set.mutate(role, {
+      onSuccess: () => notifications.show({ message: t("factor.rule.saved") }),
+      onError: (error) =>
+        notifications.show({ color: "red", message: problemText(error, t("shell.problem.screen")), autoClose: 8000 }),
+    });
+  return (
+    <Panel className={styles.section} role="region" aria-labelledby="factor-rule">
+      <div className={styles.head}>
+        <h2 id="factor-rule">{t("factor.rule.title")}</h2>
+      </div>
+      <div className={styles.rule}>
+        <NativeSelect
+          label={t("factor.rule.label")}
+          description={t("factor.rule.text")}
+          value={set.isPending ? (set.variables ?? "") : (demanded ?? "")}
+          disabled={set.isPending}
+          onChange={(event) => choose((event.currentTarget.value || null) as Demanded)}
+        >
+          <option value="">{t("factor.rule.nobody")}</option>
+          {ROLES.map((role) => (
+            <option key={role} value={role}>
+              {t(role === "admin" ? "factor.rule.admins" : "factor.rule.from", { role: t(`role.${role}`) })}
+            </option>
+          ))}
+        </NativeSelect>
+        {ofServer ? <p>{t("factor.rule.ofServer", { role: t(`role.${ofServer}`) })}</p> : null}
+        {lacksOwn ? (
+          <p>
+            {t("factor.rule.own")} <Link to="/account">{t("factor.toAccount")}</Link>
+          </p>
+        ) : null}
+      </div>
+    </Panel>
+  );
+}

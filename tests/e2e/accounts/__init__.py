@@ -1,0 +1,1 @@
+"""Accounts: coming in by a provider, and the second factor that a site demands."""

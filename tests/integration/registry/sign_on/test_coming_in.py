@@ -1,0 +1,465 @@
+"""Who comes in by a provider: linked people, invited ones, addresses that the settings let in; everybody else not."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from datetime import timedelta
+from typing import Any
+
+import pyotp
+import pytest
+from django.contrib.sessions.models import Session as KeptSession
+from django.test import Client
+from django.utils import timezone
+from pytest_django import Settings
+
+from registry.models import AuditLine, Membership, SignOn, SignOnAttempt, User
+from registry.people.sign_on.provider_client import forget_providers
+from tests.kit.openid import OpenId, answer_of, make_key, run_openid, stray_state, visit
+from tests.kit.sign_in import PASSWORD, add_person, find_person, post_json, signed_in
+from vipo_site.cli.main import main
+
+AT = "/api/sign-in/providers/acme"
+
+
+@pytest.fixture(scope="module")
+def openid(tmp_path_factory: pytest.TempPathFactory) -> Iterator[OpenId]:
+    with run_openid(tmp_path_factory.mktemp("openid"), ["http://testserver/sign-on/acme"]) as provider:
+        yield provider
+
+
+@pytest.fixture
+def acme(hall: str, openid: OpenId, settings: Settings) -> Iterator[OpenId]:
+    forget_providers()
+    settings.VIPO_SIGN_ON = [openid.setting()]
+    yield openid
+    forget_providers()
+
+
+def begin(client: Client, **wanted: str) -> str:
+    answer = post_json(client, AT, wanted)
+    assert answer.status_code == 200, answer.content
+    return str(answer.json()["address"])
+
+
+def finish(client: Client, given: dict[str, str], **more: str) -> Any:
+    return post_json(client, f"{AT}/finish", {**answer_of(given), **more})
+
+
+def come(
+    client: Client, name: str, *, next: str = "", amr: str = "", acr: str = "", do: str = "in", **wanted: str
+) -> Any:
+    """Go the whole way as a browser does."""
+    return finish(client, visit(begin(client, next=next, **wanted), name, amr=amr, acr=acr, do=do))
+
+
+def link(name: str, subject: str, openid: OpenId) -> Client:
+    """Link a person who is signed in with an account of the provider, and return their browser."""
+    client = signed_in(name)
+    address = post_json(client, "/api/me/sign-ons", {"provider": "acme", "password": PASSWORD}).json()["address"]
+    assert finish(client, visit(address, subject)).status_code == 200
+    return client
+
+
+def why(answer: Any) -> tuple[int, str]:
+    told = answer.json()
+    assert told["code"] == "sign_on_failed", told
+    return answer.status_code, told["args"]["why"]
+
+
+def refusals() -> list[tuple[str, str]]:
+    """Return whom the record tells of, and why they were refused."""
+    lines = AuditLine.objects.filter(code="sign_on_refused").order_by("pk")
+    return [(line.facts.get("person", ""), line.facts["why"]) for line in lines]
+
+
+def who_is(client: Client) -> str | None:
+    user = client.get("/api/me").json()["user"]
+    return user["email"] if user else None
+
+
+def test_a_linked_person_comes_in_by_issuer_and_subject_and_goes_where_they_wanted(acme: OpenId) -> None:
+    link("operator", "ada", acme)  # her address there is another one's here, and says nothing
+    client = Client()
+    answer = come(client, "ada", next="/sites/hall/programs?x=1")
+    assert (answer.status_code, answer.json()["next"]) == (200, "/sites/hall/programs?x=1")
+    assert who_is(client) == "operator@vipo.example"
+    assert client.get("/api/sites/hall").json()["role"] == "operator"
+    assert [row["here"] for row in client.get("/api/me/sessions").json()].count(True) == 1
+    told = client.get("/api/me/sign-ons").json()
+    assert (told["has_password"], [(row["title"], row["label"]) for row in told["sign_ons"]]) == (
+        True,
+        [("Acme", "author@vipo.example")],
+    )
+
+
+def test_the_buttons_are_told_and_no_secret(acme: OpenId) -> None:
+    told = Client().get("/api/sign-in/providers")
+    assert told.json() == [{"name": "acme", "title": "Acme"}]
+    assert post_json(Client(), "/api/sign-in/providers/other").status_code == 404
+
+
+def test_a_session_of_a_provider_ends_as_those_of_passwords_do(acme: OpenId) -> None:
+    link("viewer", "ada", acme)
+    client, other = Client(), Client()
+    come(client, "ada")
+    come(other, "ada")
+    person = find_person("viewer")
+    assert signed_in("admin").delete(f"/api/sites/hall/members/{person.pk}").status_code == 200
+    assert client.get("/api/sites").status_code == 401, "it was their only site"
+    come(client, "ada")
+    assert client.get("/api/sites").json() == []
+    assert post_json(client, "/api/sign-out").json()["provider_sign_out"] == ""
+    assert client.get("/api/sites").status_code == 401
+
+
+@pytest.mark.parametrize("name", ["new", "ada", "mallory", "vague", "bare"])
+def test_strangers_of_the_provider_are_strangers_here(acme: OpenId, name: str) -> None:
+    people = User.objects.count()
+    client = Client()
+    expected = (403, "address" if name == "ada" else "nobody")  # only who owns an address is told of an account
+    assert why(come(client, name)) == expected
+    assert (who_is(client), User.objects.count(), SignOn.objects.count()) == (None, people, 0)
+    assert refusals() == [("", expected[1])]
+    assert AuditLine.objects.get(code="sign_on_refused").site_id is None
+
+
+def test_a_verified_address_links_where_the_settings_allow_it_and_voids_the_password(
+    acme: OpenId, settings: Settings
+) -> None:
+    settings.VIPO_SIGN_ON = [acme.setting(links_by_email=True)]
+    before = signed_in("author")
+    assert why(come(Client(), "mallory")) == (403, "nobody"), "an address that is not verified links nothing"
+    client = Client()
+    assert come(client, "ada").status_code == 200
+    assert who_is(client) == "author@vipo.example"
+    assert before.get("/api/sites").status_code == 401
+    again = post_json(Client(), "/api/sign-in", {"email": "author@vipo.example", "password": PASSWORD})
+    assert again.status_code == 401
+    lines = AuditLine.objects.filter(code="sign_on_linked")
+    assert [(line.site.slug if line.site else "", line.facts["provider"]) for line in lines] == [("hall", "Acme")]
+
+
+def test_an_address_of_another_domain_links_nothing(acme: OpenId, settings: Settings) -> None:
+    settings.VIPO_SIGN_ON = [acme.setting(links_by_email=True, domains=["acme.example"])]
+    assert why(come(Client(), "ada")) == (403, "address")
+
+
+def test_an_account_is_made_for_a_verified_address_of_a_domain_that_may_come(acme: OpenId, settings: Settings) -> None:
+    settings.VIPO_SIGN_ON = [acme.setting(domains=["vipo.example"])]
+    assert why(come(Client(), "vague")) == (403, "unverified")
+    client = Client()
+    assert come(client, "new").status_code == 200
+    assert client.get("/api/me").json()["user"]["name"] == "Nova New"
+    assert client.get("/api/sites").json() == []
+    assert client.get("/api/me/sign-ons").json()["has_password"] is False
+    only = SignOn.objects.get()
+    assert client.delete(f"/api/me/sign-ons/{only.pk}").json()["code"] == "only_way_in"
+    assert [line.code for line in AuditLine.objects.filter(site=None).order_by("pk")] == [
+        "sign_on_refused",
+        "sign_on_account_made",
+        "sign_on_linked",
+    ]
+
+
+def test_who_was_invited_comes_in_once_as_the_link_says(acme: OpenId) -> None:
+    made = post_json(signed_in("admin"), "/api/sites/hall/invitations", {"role": "operator"}).json()
+    code = made["link"].partition("#")[2]
+    client = Client()
+    answer = come(client, "new", invitation=code)
+    assert (answer.status_code, answer.json()["next"]) == (200, "/sites/hall/programs")
+    assert client.get("/api/sites/hall").json()["role"] == "operator"
+    late = post_json(Client(), AT, {"invitation": code})
+    assert (late.status_code, late.json()["code"]) == (410, "link_over")
+
+
+def test_an_invitation_that_ends_meanwhile_makes_no_account(acme: OpenId) -> None:
+    made = post_json(signed_in("admin"), "/api/sites/hall/invitations", {"role": "operator"}).json()
+    client = Client()
+    given = visit(begin(client, invitation=made["link"].partition("#")[2]), "new")
+    assert signed_in("admin").delete(f"/api/sites/hall/invitations/{made['id']}").status_code == 204
+    assert finish(client, given).json()["code"] == "link_over"
+    assert not User.objects.filter(email="new@vipo.example").exists()
+
+
+def test_linking_asks_for_the_password_and_for_the_same_person_at_its_end(acme: OpenId) -> None:
+    client = signed_in("author")
+    wrong = post_json(client, "/api/me/sign-ons", {"provider": "acme", "password": "not this one"})
+    assert (wrong.status_code, wrong.json()["code"]) == (422, "wrong_old_password")
+    address = post_json(client, "/api/me/sign-ons", {"provider": "acme", "password": PASSWORD}).json()["address"]
+    given = visit(address, "ada")
+    client.force_login(find_person("viewer"))
+    assert why(finish(client, given)) == (403, "signed_out")
+    assert SignOn.objects.count() == 0
+
+
+def test_an_account_of_the_provider_is_one_persons_and_a_person_has_one(acme: OpenId) -> None:
+    link("author", "ada", acme)
+    for name, subject, expected in (("viewer", "ada", "taken"), ("author", "new", "other")):
+        client = signed_in(name)
+        address = post_json(client, "/api/me/sign-ons", {"provider": "acme", "password": PASSWORD}).json()["address"]
+        assert why(finish(client, visit(address, subject))) == (409, expected)
+    assert SignOn.objects.count() == 1
+
+
+def test_a_link_that_is_taken_away_ends_all_sessions_and_lets_nobody_in(acme: OpenId) -> None:
+    client = link("author", "ada", acme)
+    elsewhere = Client()
+    come(elsewhere, "ada")
+    row = SignOn.objects.get()
+    assert signed_in("viewer").delete(f"/api/me/sign-ons/{row.pk}").status_code == 404
+    assert client.delete(f"/api/me/sign-ons/{row.pk}").status_code == 204
+    assert (client.get("/api/sites").status_code, elsewhere.get("/api/sites").status_code) == (401, 401)
+    assert why(come(Client(), "ada")) == (403, "address")
+    assert AuditLine.objects.filter(code="sign_on_unlinked", site__slug="hall").count() == 1
+
+
+def test_a_closed_account_stays_closed(acme: OpenId) -> None:
+    link("author", "ada", acme)
+    User.objects.filter(email="author@vipo.example").update(is_active=False)
+    assert why(come(Client(), "ada")) == (403, "closed")
+    assert refusals() == [("Author Person", "closed")]
+
+
+def give_factor(client: Client) -> pyotp.TOTP:
+    secret = post_json(client, "/api/me/second-factor", {"password": PASSWORD}).json()["secret"]
+    app = pyotp.TOTP(secret)
+    proof = {"password": PASSWORD, "code": app.now()}
+    assert post_json(client, "/api/me/second-factor/confirm", proof).status_code == 200
+    return app
+
+
+def test_the_own_second_factor_is_asked_for_and_a_code_is_taken_once(acme: OpenId) -> None:
+    app = give_factor(link("author", "ada", acme))
+    client = Client()
+    given = visit(begin(client), "ada", amr="pwd mfa")
+    needed = finish(client, given)
+    assert (needed.status_code, needed.json()["code"], who_is(client)) == (401, "second_factor_needed", None)
+    assert finish(client, given, factor="abc").json()["code"] == "wrong_code"
+    code = app.at(timezone.now() + timedelta(seconds=30))
+    assert why(finish(Client(), given, factor=code)) == (403, "browser"), "no other browser goes on with it"
+    assert finish(client, given, factor=code).status_code == 200
+    assert who_is(client) == "author@vipo.example"
+    assert why(finish(client, given, factor=code)) == (403, "replayed")
+    assert SignOnAttempt.objects.exclude(identity=None).count() == 0
+
+
+@pytest.mark.parametrize(("amr", "acr", "stands"), [("pwd mfa", "", True), ("", "two", True), ("pwd", "one", False)])
+def test_the_providers_second_factor_stands_for_it_by_setting_alone(
+    acme: OpenId, settings: Settings, amr: str, acr: str, stands: bool
+) -> None:
+    give_factor(link("author", "ada", acme))
+    settings.VIPO_SIGN_ON = [acme.setting(amr=["mfa"], acr=["two"])]
+    answer = come(Client(), "ada", amr=amr, acr=acr)
+    assert answer.status_code == (200 if stands else 401), answer.content
+
+
+def test_an_address_never_links_past_a_second_factor(acme: OpenId, settings: Settings) -> None:
+    give_factor(signed_in("author"))
+    settings.VIPO_SIGN_ON = [acme.setting(links_by_email=True, amr=["mfa"])]
+    assert come(Client(), "ada", amr="mfa").status_code == 401
+    assert SignOn.objects.count() == 0
+
+
+def test_wrong_codes_are_held_up_as_beside_passwords(acme: OpenId) -> None:
+    give_factor(link("author", "ada", acme))
+    client = Client()
+    given = visit(begin(client), "ada")
+    codes = [finish(client, given, factor=f"{number:06}") for number in range(9)]
+    assert [answer.status_code for answer in codes] == [422] * 8 + [429]
+
+
+def test_who_has_no_password_sets_a_second_factor_up_right_after_coming_in(acme: OpenId, settings: Settings) -> None:
+    settings.VIPO_SIGN_ON = [acme.setting(domains=["vipo.example"])]
+    client = Client()
+    come(client, "new")
+    begun = post_json(client, "/api/me/second-factor", {"password": ""})
+    assert begun.status_code == 201
+    session = client.session
+    session["sign_on"] = {**session["sign_on"], "at": (timezone.now() - timedelta(minutes=11)).isoformat()}
+    session.save()
+    late = post_json(client, "/api/me/second-factor", {"password": ""})
+    assert (late.status_code, late.json()["code"]) == (403, "sign_on_again")
+
+
+def test_signing_out_goes_on_at_the_provider_where_the_settings_say_so(acme: OpenId, settings: Settings) -> None:
+    link("author", "ada", acme)
+    settings.VIPO_SIGN_ON = [acme.setting(signs_out=True)]
+    client = Client()
+    come(client, "ada")
+    address = post_json(client, "/api/sign-out").json()["provider_sign_out"]
+    assert address.startswith(f"{acme.issuer}/session/end?client_id=vipo-tests&id_token_hint=ey")
+    assert address.endswith("post_logout_redirect_uri=http%3A%2F%2Ftestserver%2Fsign-in")
+    assert who_is(client) is None
+    assert post_json(signed_in("author"), "/api/sign-out").json()["provider_sign_out"] == "", "came by a password"
+
+
+# Hostile and unlucky ways
+
+
+def test_the_request_is_proved_by_pkce_state_and_nonce_and_nothing_of_it_is_kept(acme: OpenId) -> None:
+    client = Client()
+    address = begin(client)
+    for part in ("code_challenge_method=S256", "code_challenge=", "state=", "nonce=", "scope=openid+email+profile"):
+        assert part in address
+    assert "secret" not in address
+    cookie = client.cookies["vipo_sign_on"]
+    assert (cookie["httponly"], cookie["samesite"], cookie["path"]) == (True, "Strict", "/api/sign-in")
+    assert cookie.value not in str(list(SignOnAttempt.objects.values())) + address
+
+
+def test_an_answer_is_taken_once(acme: OpenId) -> None:
+    link("author", "ada", acme)
+    client = Client()
+    given = visit(begin(client), "ada")
+    assert finish(client, given).status_code == 200
+    assert why(finish(client, given)) == (403, "replayed")
+
+
+def test_another_browser_cannot_finish_what_one_began(acme: OpenId) -> None:
+    """So nobody is signed in as somebody else by an address that is sent to them."""
+    link("author", "ada", acme)
+    client, victim = Client(), Client()
+    given = visit(begin(client), "ada")
+    begin(victim)
+    assert why(finish(victim, given)) == (403, "browser")
+    assert why(finish(Client(), given)) == (403, "browser")
+    assert who_is(victim) is None
+    assert finish(client, given).status_code == 200, "and nobody can use it up for them"
+
+
+def test_a_stolen_code_is_of_no_use_in_another_sign_on(acme: OpenId) -> None:
+    link("author", "ada", acme)
+    stolen = visit(begin(Client()), "ada")
+    thief = Client()
+    own = visit(begin(thief), "new")
+    assert why(finish(thief, {**own, "code": stolen["code"]})) == (403, "code")
+    assert who_is(thief) is None
+
+
+def test_a_wrong_nonce_is_refused(acme: OpenId) -> None:
+    link("author", "ada", acme)
+    client = Client()
+    address = begin(client)
+    nonce = address.partition("nonce=")[2].partition("&")[0]
+    given = visit(address.replace(nonce, "another-sign-ons-nonce"), "ada")
+    assert why(finish(client, given)) == (403, "nonce")
+    assert who_is(client) is None
+
+
+def test_states_that_are_none_or_old_and_denials_are_refused_and_told(acme: OpenId) -> None:
+    client = Client()
+    assert why(finish(client, {"state": stray_state(), "code": "x"})) == (403, "unknown")
+    given = visit(begin(client), "ada")
+    SignOnAttempt.objects.update(at=timezone.now() - timedelta(minutes=11))
+    assert why(finish(client, given)) == (403, "expired")
+    assert why(come(client, "ada", do="deny")) == (403, "denied")
+    given = visit(begin(client), "ada")
+    assert why(finish(client, {**given, "iss": "https://other.example"})) == (403, "answer")
+    assert [word for _, word in refusals()] == ["unknown", "expired", "denied", "answer"]
+
+
+def test_guessing_is_held_up(acme: OpenId) -> None:
+    client = Client()
+    answers = [finish(client, {"state": stray_state(), "code": "x"}) for _ in range(9)]
+    assert [answer.status_code for answer in answers] == [403] * 8 + [429]
+    assert answers[-1].json()["args"]["why"] == "sign_on"
+    assert len(refusals()) == 8
+
+
+def test_so_many_sign_ons_begin_from_one_place_and_no_more(acme: OpenId) -> None:
+    now = timezone.now()
+    rows = [
+        SignOnAttempt(state_hash=f"{number}", browser_hash="", provider="acme", network="127.0.0.1", at=now)
+        for number in range(200)
+    ]
+    SignOnAttempt.objects.bulk_create(rows)
+    assert post_json(Client(), AT).status_code == 429
+    assert post_json(Client(REMOTE_ADDR="192.0.2.7"), AT).status_code == 200
+
+
+@pytest.mark.parametrize(
+    "address",
+    ["https://evil.example/", "//evil.example", "/\\evil.example", "/\tx", "javascript:alert(1)", "x", "/ok\\..", ""],
+)
+def test_nobody_is_led_elsewhere(acme: OpenId, address: str) -> None:
+    link("author", "ada", acme)
+    client = Client()
+    answer = post_json(client, AT, {"next": address})
+    if answer.status_code == 422:  # no text of one line
+        return
+    assert finish(client, visit(answer.json()["address"], "ada")).json()["next"] == "/"
+
+
+def test_a_page_of_another_site_begins_and_finishes_nothing(acme: OpenId) -> None:
+    strict = Client(enforce_csrf_checks=True)
+    assert post_json(strict, AT).status_code == 403
+    assert finish(strict, {"state": "x"}).status_code == 403
+
+
+# What goes wrong at the provider: it is started anew, so these stand last
+
+
+def test_keys_that_are_changed_are_asked_for_and_old_ones_count_no_more(acme: OpenId) -> None:
+    link("author", "ada", acme)
+    acme.restart(keys=[make_key("second")])
+    assert come(Client(), "ada").status_code == 200
+    acme.restart(keys=[{**make_key("second")}])  # another key by the same name: not signed by whom it is known as
+    assert why(come(Client(), "ada")) == (403, "answer")
+    forget_providers()
+    assert come(Client(), "ada").status_code == 200
+
+
+@pytest.mark.parametrize("offset_s", [-1800, 1800])
+def test_a_clock_that_is_off_is_told_as_such(acme: OpenId, offset_s: int) -> None:
+    link("author", "ada", acme)
+    acme.restart(offset_s=offset_s)
+    try:
+        assert why(come(Client(), "ada")) == (403, "clock")
+    finally:
+        acme.restart(offset_s=0)
+
+
+def test_a_token_that_is_signed_with_a_shared_secret_is_none(acme: OpenId) -> None:
+    acme.restart(client={"id_token_signed_response_alg": "HS256"})
+    try:
+        client = Client()
+        assert why(come(client, "ada")) == (403, "answer")
+    finally:
+        acme.restart(client={})
+
+
+def test_a_provider_that_is_away_or_calls_itself_otherwise_is_told_as_down(acme: OpenId, settings: Settings) -> None:
+    client = Client()
+    given = visit(begin(client), "ada")
+    acme.stop()
+    assert why(finish(client, given)) == (503, "down")
+    forget_providers()
+    assert why(post_json(client, AT)) == (503, "down")
+    acme.start()
+    assert why(finish(client, given)) == (403, "replayed")
+    settings.VIPO_SIGN_ON = [acme.setting(issuer=f"http://localhost:{acme.port}")]
+    assert why(post_json(client, AT)) == (503, "down")
+    assert refusals()[0] == ("", "down")
+
+
+def test_what_was_kept_for_a_sign_on_is_forgotten(acme: OpenId) -> None:
+    from registry import services
+
+    begin(Client())
+    assert services.forget_sign_ons(now=timezone.now()) == 0
+    assert services.forget_sign_ons(now=timezone.now() + timedelta(hours=2)) == 1
+    assert KeptSession.objects.count() == 0, "strangers leave no session behind"
+    assert Membership.objects.filter(user=add_person("late")).count() == 0
+
+
+def test_who_serves_vipo_reads_what_no_site_knows(acme: OpenId, capsys: pytest.CaptureFixture[str]) -> None:
+    come(Client(REMOTE_ADDR="192.0.2.7"), "new")
+    assert main(["record"]) == 0
+    line = capsys.readouterr().out.splitlines()[1]
+    assert all(word in line for word in ("sign_on_refused", "provider Acme", "why nobody", "192.0.2.7"))
+    assert main(["record", "--last", "1", "--json"]) == 0
+    assert [row["facts"]["why"] for row in json.loads(capsys.readouterr().out)] == ["nobody"]
+    told = signed_in("admin").get("/api/sites/hall/audit?kind=sign_in").json()
+    assert told == [], "and no admin of a site does"
