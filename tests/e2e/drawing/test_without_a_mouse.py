@@ -25,6 +25,17 @@ DRAWN = [
     "7, Move, Move to Goods in",
 ]
 
+FLOW = [
+    "1, If, temperature > 60",
+    "1a, Notify, It is hot, inside If 1",
+    "1b, Notify, It is cold, inside If 1",
+    "2, While, temperature > 60",
+    "2a, Wait, wait 5 s, inside While 2",
+    "3, Try",
+    "3a, Operate, Paint \u00b7 2 min at Painting Machine, inside Try 3",
+    "3c, Notify, It did not paint, inside Try 3",  # a try's catches are lettered from c
+]
+
 
 def keys(page: Page, *pressed: str) -> None:
     for each in pressed:
@@ -183,3 +194,81 @@ def undo_and_redo_all(page: Page) -> None:
     for _ in range(undone):
         keys(page, "Control+Shift+z")
     assert steps_in_list(page) == DRAWN
+
+
+def test_branches_are_drawn_by_keyboard_undone_and_reloaded(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "Branches without a mouse")
+    keys(page, "Escape")
+    decide(page, "i", "curing_oven.temperature > 60")
+    keys(page, "b")
+    notify_in(page, "If 1, branch \u201ctrue\u201d", "It is hot")
+    choose_in_list(page, "1, If")
+    keys(page, "b")
+    notify_in(page, "If 1, branch \u201cfalse\u201d", "It is cold")
+    keys(page, "Escape")
+    decide(page, "w", "curing_oven.temperature > 60")
+    keys(page, "b")
+    next_goes(page, "inside While 2")
+    keys(page, "u", "Enter")
+    expect(page.get_by_label("Time", exact=True)).to_be_focused()
+    page.keyboard.type("5")
+    keys(page, "Enter", "Escape", "t", "Enter", "b", "b")
+    notify_in(page, "Try 3, branch \u201ccatch\u201d", "It did not paint")
+    choose_in_list(page, "3, Try")
+    keys(page, "b")
+    next_goes(page, "inside Try 3")
+    operate(page, "painting", "2")
+    assert steps_in_list(page) == FLOW
+    saved(page)
+    page.reload()
+    assert steps_in_list(page) == FLOW
+    golden(page, "branches-outline")
+    page.get_by_role("treeitem").first.focus()
+    keys(page, "Delete")
+    expect(page.get_by_role("treeitem")).to_have_count(5)
+    keys(page, "Control+z")
+    assert steps_in_list(page) == FLOW
+
+
+def next_goes(page: Page, where: str) -> None:
+    expect(page.get_by_text(f"The next step goes here: {where}")).to_be_visible()
+
+
+def panel(page: Page) -> Locator:
+    return page.get_by_role("complementary", name="Selected step")
+
+
+def decide(page: Page, tool: str, condition: str) -> None:
+    """Draw what decides, and write its condition."""
+    keys(page, tool, "Enter")
+    expect(panel(page).get_by_text("Write it yourself")).to_be_visible()
+    keys(page, "Enter", "ArrowRight", "Tab")
+    expect(page.get_by_role("combobox", name="Condition", exact=True)).to_be_focused()
+    page.keyboard.type(condition)
+    keys(page, "Enter")
+    expect(page.get_by_role("application", name="Program on the map")).to_be_focused()
+
+
+def notify_in(page: Page, where: str, message: str) -> None:
+    next_goes(page, where)
+    keys(page, "n", "Enter")
+    expect(page.get_by_label("Message", exact=True)).to_be_focused()
+    page.keyboard.type(message)
+    keys(page, "Enter")
+    expect(panel(page)).to_contain_text("inside")
+
+
+def choose_in_list(page: Page, name: str) -> None:
+    """Go to a step by the list of steps, and from there back to the map."""
+    tab_to(page, "tab", "Steps")
+    page.keyboard.press("Enter")
+    tab_to(page, "treeitem", "")
+    rows = page.get_by_role("treeitem")
+    keys(page, "Home")
+    for _ in range(rows.count()):
+        if (page.locator(":focus").get_attribute("aria-label") or "").startswith(name):
+            break
+        keys(page, "ArrowDown")
+    keys(page, "Enter")
+    expect(panel(page).get_by_role("heading", name=name[3:], exact=True)).to_be_visible()

@@ -14,19 +14,19 @@ import type { OpenProgram } from "../state/context";
 import { freeSpot } from "../state/freeSpot";
 import { selectZone } from "../state/gestures";
 import { chooseNextBranch } from "../state/nextPlace";
-import { askOf, stepBack } from "../state/tool";
+import { setsDownByEnter, stepBack } from "../state/tool";
 import { select, showTab, useUi } from "../state/ui";
 import { command, needsRight, type Command, type On } from "./command";
 import { directionOf } from "./editing";
 
 /** Keys on these are their own. */
-const PRESSED_BY_ENTER = "button, a, [role=treeitem], [role=menuitem], [role=tab]";
+const PRESSED_BY_ENTER = "button, a, [role=menuitem], [role=tab]";
 
 /** The tool in hand sets its step down where there is room; without a tool the selected step is edited. */
 function enter(open: OpenProgram, { target }: On): boolean {
   const { gesture, selected } = useUi.getState();
   if (target instanceof HTMLElement && target.closest(PRESSED_BY_ENTER)) return false;
-  if (open.canEdit && gesture.byKeyboard && askOf(gesture) === "floor") {
+  if (open.canEdit && setsDownByEnter(gesture)) {
     createOnFloor(open, gesture, freeSpot(open, gesture.tool));
     return true;
   }

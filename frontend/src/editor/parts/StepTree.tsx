@@ -14,6 +14,7 @@ import { beside } from "../keyboard/goals";
 import { useOpenProgram } from "../state/context";
 import { shiftInOrder } from "../state/actions";
 import type { Person } from "../state/presence";
+import { setsDownByEnter } from "../state/tool";
 import { select, toggleSelected, useUi } from "../state/ui";
 import classes from "./drawer.module.css";
 
@@ -41,6 +42,7 @@ export function StepTree() {
     if (event.altKey && event.shiftKey && (event.key === "ArrowUp" || event.key === "ArrowDown"))
       shiftInOrder(open, chip.id, event.key === "ArrowUp" ? -1 : 1);
     else if (event.key in LISTED) walk(index, LISTED[event.key] ?? 0);
+    else if (event.key === "Enter" && open.canEdit && setsDownByEnter(useUi.getState().gesture)) return;
     else if (event.key === "Enter" || event.key === " ") select([chip.id]);
     else return;
     event.preventDefault();

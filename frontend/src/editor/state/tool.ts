@@ -43,6 +43,11 @@ export function askOf(gesture: Gesture): Ask {
   }
 }
 
+/** Whether Enter sets down what the tool in hand draws, also from the list of steps. */
+export function setsDownByEnter(gesture: Gesture): boolean {
+  return gesture.byKeyboard && askOf(gesture) === "floor";
+}
+
 /** Take a tool; the same one twice keeps it. */
 export function takeTool(gesture: Gesture, tool: ToolName, byKeyboard: boolean): Gesture {
   const again = gesture.tool === tool && tool !== "select" && tool !== "pan";
