@@ -3,6 +3,7 @@
 import json
 
 from editor.language import compile_document
+from editor.language.signatures.signature import Signature
 from editor.language.site.surroundings import LibraryFacts
 from execution.rehearsals.program_file import read_site
 from tests.kit.files import ROOT
@@ -25,7 +26,7 @@ def site(**more):
 def test_a_site_keeps_what_its_library_has():
     library = [{"id": "lib1", "name": "rest", "versions": [{"number": 2, "parameters": []}]}]
     surroundings, _, _ = read_site(site(library=library), 0)
-    assert surroundings.library == {"lib1": LibraryFacts("rest", {2: ()})}
+    assert surroundings.library == {"lib1": LibraryFacts("rest", {2: Signature()})}
     assert surroundings.floor is not None
 
 
