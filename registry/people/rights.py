@@ -58,17 +58,16 @@ DEEDS = (
         "viewer",
         "read",
         """list_asked_reviews show_review show_review_rule show_function
-        list_function_versions compare_function list_function_uses show_program_origin
-        show_function_version show_program show_compiled show_document show_script show_version
-        list_versions export_version compare_versions wait_until_stored get_rehearsal export_rehearsal
-        list_rehearsals get_run list_events list_armed get_call list_questions plan_route plan_routes list_runs show_site list_alerts
+        list_function_versions compare_function list_function_uses show_program_origin show_function_version
+        show_program show_compiled show_document show_script show_version list_versions export_version
+        compare_versions wait_until_stored get_rehearsal export_rehearsal list_rehearsals get_run list_events
+        list_armed get_call list_questions plan_route plan_routes list_runs show_site list_alerts
         look_at_description list_devices export_devices show_device list_device_events show_property_history
         show_robot_map download_robot_pgm download_robot_yaml show_robot_cells show_difference show_rdf show_map
-        download_pgm download_yaml download_nav2_masks
-        download_lif download_building show_cells list_map_versions show_map_version show_version_cells show_place
-        show_zone current probe sample current_of_device probe_device sample_of_device list_programs ask post_query
-        list_things watch_things show_thing read_expression show_values show_value watch_value await_next_value
-        query_action list_threads show_thread mark_thread_read
+        download_pgm download_yaml download_nav2_masks download_lif download_building show_cells list_map_versions
+        show_map_version show_version_cells show_place show_zone current probe sample current_of_device probe_device
+        sample_of_device list_programs ask post_query list_things watch_things show_thing read_expression
+        show_values show_value watch_value await_next_value query_action list_threads show_thread mark_thread_read
         list_tests export_tests show_test show_version_tests""",
     ),
     _deed("stop", "viewer", "operate", "press_stop"),
