@@ -59,6 +59,7 @@ router.add_router("", retention_router)
 _RECORDINGS = {"json": "application/json", "mcap": "application/octet-stream"}
 _SENDS_RECORDING = {
     "responses": {
+        409: {},
         200: {
             "content": {
                 "application/json": {"schema": {"type": "object"}},

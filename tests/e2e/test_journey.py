@@ -212,7 +212,7 @@ def test_a_rehearsal_is_shown_on_the_map_and_in_3d_at_the_same_moment(sign_in: S
     make_program(page, "To be rehearsed")
     draw_task(page)
     expect(page.get_by_text("Nothing to fix")).to_be_visible()
-    page.get_by_role("button", name="Simulate").click()
+    page.get_by_role("button", name="Simulate", exact=True).click()
     expect(page.get_by_role("progressbar")).to_be_visible()
     expect(page.get_by_role("region", name="Result")).to_contain_text("Finishes without errors", timeout=90_000)
     scene = page.get_by_role("region", name="3D view")
@@ -340,7 +340,7 @@ def test_the_paint_order_is_sound_and_rehearses(sign_in: SignIn) -> None:
     names = steps_in_list(page)
     for kind in ("Parallel", "Function", "Operate", "Try", "While", "Wait", "If", "Move", "Pick-and-Drop"):
         assert any(re.search(f", {kind}(,|$)", name) for name in names), f"{kind} is not in {names}"
-    page.get_by_role("button", name="Simulate").click()
+    page.get_by_role("button", name="Simulate", exact=True).click()
     result = page.get_by_role("region", name="Result")
     expect(result).to_contain_text("Finishes without errors", timeout=120_000)
     expect(result).to_contain_text("by 2 robots")

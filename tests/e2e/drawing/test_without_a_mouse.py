@@ -225,7 +225,7 @@ def test_branches_are_drawn_by_keyboard_undone_and_reloaded(sign_in: SignIn) -> 
     assert steps_in_list(page) == FLOW
     golden(page, "branches-outline")
     page.get_by_role("treeitem").first.focus()
-    keys(page, "Delete")
+    keys(page, "Enter", "Delete")
     expect(page.get_by_role("treeitem")).to_have_count(5)
     keys(page, "Control+z")
     assert steps_in_list(page) == FLOW
@@ -243,7 +243,9 @@ def decide(page: Page, tool: str, condition: str) -> None:
     """Draw what decides, and write its condition."""
     keys(page, tool, "Enter")
     expect(panel(page).get_by_text("Write it yourself")).to_be_visible()
-    keys(page, "Enter", "ArrowRight", "Tab")
+    keys(page, "Enter")
+    expect(page.get_by_role("radio", name="Choose from lists")).to_be_focused()
+    keys(page, "ArrowRight", "Tab")
     expect(page.get_by_role("combobox", name="Condition", exact=True)).to_be_focused()
     page.keyboard.type(condition)
     keys(page, "Enter")

@@ -82,7 +82,7 @@ def test_who_has_as_many_as_may_be_is_told_so_and_makes_room_by_keyboard(author:
     program = make_long(author, "One too many")
     for _ in range(MOST_OF_PERSON):
         start(author, program)
-    author.get_by_role("button", name="Simulate").press("Enter")
+    author.get_by_role("button", name="Simulate", exact=True).press("Enter")
     expect(author.get_by_role("heading", name="Not rehearsed yet")).to_be_visible()
     expect(author.get_by_role("alert").filter(has_text="you may have 5 at a time")).to_be_visible()
     assert violations(author) == []
@@ -90,7 +90,7 @@ def test_who_has_as_many_as_may_be_is_told_so_and_makes_room_by_keyboard(author:
     expect(others).to_have_count(MOST_OF_PERSON)
     others.last.get_by_role("button").press("Enter")
     expect(others).to_have_count(MOST_OF_PERSON - 1)
-    author.get_by_role("button", name="Simulate").press("Enter")
+    author.get_by_role("button", name="Simulate", exact=True).press("Enter")
     expect(author.get_by_role("heading", name="Waiting for its turn")).to_be_visible()
     assert [fault for fault in faults if "429" not in fault] == []
     faults.clear()

@@ -94,7 +94,7 @@ def test_an_empty_site_comes_to_its_first_program_and_a_change_of_its_map(sign_i
         page.keyboard.press("Enter")
         expect(page.get_by_text("Nothing to fix")).to_be_visible()
         saved(page)
-        page.get_by_role("button", name="Simulate").click()
+        page.get_by_role("button", name="Simulate", exact=True).click()
         expect(page.get_by_role("region", name="Result")).to_contain_text("Finishes without errors")
     finally:
         robot.disconnect()
