@@ -52,7 +52,7 @@ class Signature:
 
 
 def signature_to_json(signature: Signature) -> dict[str, Any]:
-    """Return a signature as plain JSON; what is empty is left out."""
+    """Return a signature as plain JSON; what is empty is left out, but for a type that is none."""
     body: dict[str, Any] = {"parameters": [_filled(port) for port in signature.parameters]}
     if signature.result is not None:
         body["result"] = _filled(signature.result)
@@ -68,7 +68,7 @@ def need_to_json(need: Need) -> dict[str, Any]:
 
 def _filled(record: Port | Need) -> dict[str, Any]:
     fields = {name: getattr(record, name) for name in record.__slots__}
-    return {key: value for key, value in fields.items() if value not in (None, "", ())}
+    return {key: value for key, value in fields.items() if key == "type" or value not in (None, "", ())}
 
 
 def signature_from_json(body: Mapping[str, Any]) -> Signature:
