@@ -65,7 +65,7 @@ _SENDS_RECORDING = {
                 "application/json": {"schema": {"type": "object"}},
                 "application/octet-stream": {"schema": {"type": "string", "format": "binary"}},
             }
-        }
+        },
     }
 }
 ABSENT = {
