@@ -171,6 +171,7 @@ def test_a_member_sees_their_sites_with_counts(hall: str) -> None:
         "has_map": True,
         "stop": {"active": False, "by": "", "at": None},
         "simulated": False,
+        "held_role": None,
     }
     assert signed_in("author").get("/api/sites").json() == [expected]
     assert signed_in("stranger").get("/api/sites").json() == []
