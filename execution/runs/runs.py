@@ -17,7 +17,7 @@ from execution.errors import NotFound, NotPossibleNow
 from execution.floor.stops import get_stop, hold_if_stopped
 from execution.floor_protocol import ResumeAsked, ToRun
 from execution.machine.messages import CancelAsked, PauseAsked
-from execution.models import Command, Run, RunEvent
+from execution.models import Command, FloorState, Run, RunEvent
 from execution.runs.programs import Prepared
 from execution.runs.terms import USUAL, Terms, fit_terms
 from execution.views import PRIORITIES, RunEventView, RunView, WholeRunView, run_to_json, view_event, view_run
@@ -45,7 +45,6 @@ def start_run(
     stop = get_stop(site=prepared.site)
     if stop.active:
         raise NotPossibleNow("The site is stopped. Reset the stop before you start a run.", {"why": "stopped"})
-    _require_nobody_explores(prepared.site)
     begin = _Beginning(by, entry, fit_terms(terms, database.now()), stop.fence if fence is None else fence, emergency)
     row = _create_numbered(prepared, begin)
     transaction.on_commit(lambda: hold_if_stopped(row))
@@ -94,6 +93,10 @@ def _create_numbered(prepared: Prepared, begin: _Beginning) -> Run:
 
 def _create(prepared: Prepared, begin: _Beginning) -> Run:
     site = registry.get_site_id(site=prepared.site)
+    # Calls by hand hold this row, too: until the run stands here, no robot begins to explore.
+    FloorState.objects.get_or_create(site_id=site)
+    FloorState.objects.select_for_update(of=("self",)).get(site_id=site)
+    _require_nobody_explores(prepared.site)
     permit = editor.admit_start(
         site=prepared.site, program_id=prepared.program, document=prepared.document, emergency=begin.emergency
     )

@@ -20,6 +20,7 @@ from execution import services
 from execution.engine.drive import advance_site
 from execution.models import ArmedProgram, Command, InboxEvent, Run, SiteStop
 from execution.traffic.messages import CONTROLS
+from registry.models import Device
 from tests.kit.programs import CARRY, SITE, heat_oven
 from tests.kit.waiting import wait_for
 
@@ -87,6 +88,20 @@ def test_a_run_that_starts_while_the_stop_is_pressed_and_reset_stands_still(fact
     with held(db, RUNS, begin) as started:
         stop_and_reset()
     stands_still_until_resumed(factory, started.result().id)
+
+
+def test_a_run_that_starts_while_a_robot_is_told_to_explore_is_refused(factory, db):
+    robot = Device.objects.get(pk="robot03")
+    robot.description["methods"].append({**robot.description["methods"][0], "name": "explore", "parameters": []})
+    robot.save()
+    told = {"site": SITE, "device_id": "robot03", "method": "explore", "arguments": {}, "by": "Otto"}
+    with ThreadPoolExecutor(1) as pool, psycopg.connect(db, autocommit=True) as looking:
+        with held(db, COMMANDS, lambda: services.call_method(**told)) as called:
+            started = pool.submit(in_thread, begin)
+            wait_for("who is held up behind", lambda: looking.execute(WAITING).fetchone() == (2,))
+        assert called.result().status == "pending"
+        assert "explores the floor" in str(started.exception(60))
+    assert not Run.objects.exists()
 
 
 def test_a_start_that_was_asked_for_before_the_stop_stands_still(factory):
