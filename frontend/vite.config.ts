@@ -3,8 +3,9 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 import react from "@vitejs/plugin-react";
-import { defineConfig, type Plugin } from "vite";
+import type { Plugin } from "vite";
 import { VitePWA } from "vite-plugin-pwa";
+import { defineConfig } from "vitest/config";
 
 const backend = process.env.VIPO_BACKEND ?? "http://127.0.0.1:8000";
 
@@ -56,5 +57,6 @@ export default defineConfig({
   plugins: [react(), VitePWA(worker), compressed()],
   resolve: { alias: { "@": fileURLToPath(new URL("./src", import.meta.url)) } },
   build: { target: "es2022", sourcemap: false, chunkSizeWarningLimit: 1500 },
+  test: { testTimeout: 60_000 }, // for what hangs: beside the other tests, a first drawing takes seconds
   server: { proxy: { "/api": backend, "/ws": { target: backend.replace("http", "ws"), ws: true } } },
 });

@@ -23,8 +23,9 @@ from editor.rooms.room import Room
 
 log = logging.getLogger(__name__)
 STRETCH_S = 0.004
-MOST_STEP_S = 0.05
-"""A piece of an update that is applied for longer is no honest one's; the rest is not taken."""
+MOST_STEP_S = 0.2
+"""A piece of an update that is applied for longer is no honest one's, also where processors are shared: usual ones take
+about a hundredth of a second. The rest is not taken."""
 Cut = Callable[[Cutting], Awaitable[CutUpdate]]
 
 

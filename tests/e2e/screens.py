@@ -8,6 +8,7 @@ from typing import Any
 from playwright.sync_api import Locator, Page, expect
 
 from tests.kit.files import ROOT
+from tests.kit.waiting import wait_for
 
 THIN_SPACE = "\u202f"
 OTHERS = re.compile(r"(?:, [A-Z]\w+ [A-Z]\w+)+ here\b")
@@ -148,13 +149,28 @@ AXE = ROOT / "frontend" / "node_modules" / "axe-core" / "axe.min.js"
 SERIOUS = {"serious", "critical"}
 
 
+FRAMES = "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
+
+
 STILL = """() => document.getAnimations().every(
   (each) => each.playState !== "running" || each.effect?.getTiming().iterations === Infinity)"""
 """What fades in has the colours of both: contrast is measured when nothing moves but what always does."""
 
 
+def until(page: Page, expression: str, argument: Any = None) -> None:
+    """Wait until a JavaScript function is true on the page; asked from here, since pages allow no `eval` to wait by."""
+    wait_for(expression, lambda: bool(page.evaluate(expression, argument)))
+
+
+def themed(page: Page, scheme: str) -> None:
+    """Prefer light or dark, as the system does, and wait until the page has followed."""
+    page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]  # one of two words
+    until(page, "(scheme) => document.documentElement.dataset.mantineColorScheme === scheme", scheme)
+
+
 def violations(page: Page) -> list[str]:
-    page.wait_for_function(STILL)
+    page.evaluate(FRAMES)  # what a change of style sets off begins with a frame
+    until(page, STILL)
     page.evaluate(AXE.read_text())
     result: dict[str, Any] = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")
     return [

@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import SITE, TASK, ask, chip, draw_task, make_program, saved, tell, violations
+from tests.e2e.screens import FRAMES, SITE, TASK, ask, chip, draw_task, make_program, saved, tell, violations
 
 pytestmark = pytest.mark.browser
 
@@ -166,7 +166,7 @@ def test_every_screen_is_sound(
 def resize(page: Page, width: int, height: int) -> None:
     """Give the window another size, and wait until what moves into its new place is there."""
     page.set_viewport_size({"width": width, "height": height})
-    page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
+    page.evaluate(FRAMES)
     page.evaluate(MOVED)
 
 

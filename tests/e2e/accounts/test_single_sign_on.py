@@ -13,7 +13,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.e2e.conftest import PATIENCE_MS, listen
-from tests.e2e.screens import violations
+from tests.e2e.screens import themed, violations
 from tests.kit.openid import OpenId, run_openid
 from tests.kit.servers import free_port
 from tests.kit.web import Web, prepare
@@ -90,6 +90,7 @@ def test_an_account_is_linked_and_then_signs_in_by_keyboard_and_out(
     sign_in_there(page, "bare")
     page.wait_for_url(f"{place.url}/sites/hall/runs")
     expect(page.get_by_role("heading", level=1, name="Runs")).to_be_visible()
+    page.wait_for_load_state("networkidle")  # what is asked for while one signs out is refused, and a fault here
     page.get_by_role("button", name="Account").press("Enter")
     page.get_by_role("menuitem", name="Sign out").press("Enter")
     page.wait_for_url(f"{place.openid.issuer}/session/end?**")
@@ -178,7 +179,7 @@ def test_the_pages_are_sound_in_both_themes_and_three_sizes(
         for width, height in SIZES:
             page.set_viewport_size({"width": width, "height": height})
             for scheme in ("light", "dark"):
-                page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]  # one of two words
+                themed(page, scheme)
                 expect(page.get_by_role("heading", name=heading)).to_be_visible()
                 assert violations(page) == [], (path, width, scheme)
                 assert page.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0

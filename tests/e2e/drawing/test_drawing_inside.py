@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Locator, Page, WebSocketRoute, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import ask, chip, click_floor, make_program, open_program, saved, the_map, violations
+from tests.e2e.screens import ask, chip, click_floor, make_program, open_program, saved, the_map, until, violations
 
 pytestmark = pytest.mark.browser
 
@@ -73,10 +73,11 @@ def test_a_step_that_somebody_holds_moves_on_the_others_screen(sign_in: SignIn) 
     author.mouse.down()
     author.mouse.move(x + 60, y + 40, steps=6)
     author.mouse.move(x + 120, y + 80, steps=6)
-    admin.wait_for_function(
+    until(
+        admin,
         "([name, x]) => [...document.querySelectorAll('.react-flow__node')].some((each) =>"
         " each.getAttribute('aria-label')?.startsWith(name) && each.getBoundingClientRect().x > x)",
-        arg=["1, Notify", before[0] + 20],
+        ["1, Notify", before[0] + 20],
     )
     author.mouse.up()
     saved(author)

@@ -46,9 +46,11 @@ export function Drawer({ small }: { small: boolean }) {
         <Actions />
       </div>
       {drawer.open ? (
-        <Suspense fallback={<div className={classes.body} aria-busy="true" />}>
-          <DrawerBody tab={drawer.tab} beside={!small && drawer.tab === "script"} />
-        </Suspense>
+        <div className={classes.body} role="tabpanel" id="drawer-panel" aria-labelledby={`drawer-tab-${drawer.tab}`}>
+          <Suspense fallback={<div aria-busy="true" />}>
+            <DrawerBody tab={drawer.tab} beside={!small && drawer.tab === "script"} />
+          </Suspense>
+        </div>
       ) : null}
     </section>
   );

@@ -16,7 +16,7 @@ const CommentsPanel = lazy(async () => ({ default: (await import("../comments/Co
 
 export function DrawerBody({ tab, beside }: { tab: DrawerTab; beside: boolean }) {
   return (
-    <div className={classes.body} role="tabpanel" id="drawer-panel" aria-labelledby={`drawer-tab-${tab}`}>
+    <>
       {tab === "script" ? <ScriptPanel /> : null}
       {tab === "problems" ? <ProblemsPanel /> : null}
       {tab === "steps" ? <StepTree /> : null}
@@ -29,6 +29,6 @@ export function DrawerBody({ tab, beside }: { tab: DrawerTab; beside: boolean })
           <ProblemsPanel titled />
         </div>
       ) : null}
-    </div>
+    </>
   );
 }
