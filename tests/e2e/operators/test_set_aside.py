@@ -128,6 +128,7 @@ def test_in_german_in_the_dark_on_a_small_screen_it_is_read_and_touched(sign_in:
     letter.get_by_role("button", name="Verwerfen").press("Enter")
     assert violations(page) == []
     page.get_by_role("dialog").get_by_role("button", name="Verwerfen").press("Enter")
+    expect(letter).to_have_count(0)
     section(page, "Beiseitegelegt").get_by_text("Früher erledigt").press("Enter")
     expect(letter).to_contain_text(re.compile("Verworfen von .+, "))
     assert violations(page) == []
