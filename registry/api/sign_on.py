@@ -24,6 +24,7 @@ from registry.people.known_browsers import PATH, find_device
 from registry.people.sign_in import checking_own_password
 from registry.people.sign_on import bindings
 from registry.people.sign_on.attempts import LASTS, Begun, Purpose
+from registry.people.sign_on.provider_sessions import bind_session, end_provider_sessions
 from registry.people.sign_on.providers import Provider, find_provider, list_providers
 from registry.shapes import Asked, AsTyped, Line, Me, refuses, signed_in
 from registry.sites.sign_on import Answer, Arrival, begin_sign_on, finish_sign_on
@@ -32,6 +33,19 @@ router = Router(tags=["registry"])
 COOKIE = "vipo_sign_on"
 PAGE = "/sign-on/"
 """The page that a provider sends browsers back to, with its name."""
+
+_LOGOUT_BODY = {
+    "required": True,
+    "content": {
+        "application/x-www-form-urlencoded": {
+            "schema": {
+                "type": "object",
+                "properties": {"logout_token": {"type": "string", "maxLength": 16384}},
+                "required": ["logout_token"],
+            }
+        }
+    },
+}
 
 
 class ProviderShape(Schema):
@@ -152,6 +166,22 @@ def finish_provider_sign_on(
     return {**tell_me(request), "next": arrival.next}
 
 
+@router.post(
+    "/sign-in/providers/{provider}/logout",
+    response={204: None},
+    auth=None,
+    openapi_extra={**refuses(400, 404, 503), "requestBody": _LOGOUT_BODY},
+)
+def end_sessions_of_provider(request: HttpRequest, response: HttpResponse, provider: str) -> Status[None]:
+    """End the sessions that a provider's logout token names (OpenID Connect Back-Channel Logout 1.0).
+
+    A provider calls this itself, with a form; what proves that it is the provider is the token's signature.
+    """
+    end_provider_sessions(provider=find_provider(provider), token=request.POST.get("logout_token", ""))
+    response["Cache-Control"] = "no-store"
+    return Status(204, None)
+
+
 @router.get("/me/sign-ons", response=SignOnList, auth=session_only)
 def list_my_sign_ons(request: HttpRequest) -> dict[str, Any]:
     """Say by which ways the asker signs in."""
@@ -205,6 +235,7 @@ def _let_in(request: HttpRequest, response: HttpResponse, provider: Provider, ar
     kept = {"provider": provider.name, "at": timezone.now().isoformat(), "id_token": arrival.identity.id_token}
     request.session["sign_on"] = kept
     request.session.save()
+    bind_session(key=str(request.session.session_key), identity=arrival.identity)
 
 
 def _back(request: HttpRequest, provider: Provider) -> str:

@@ -22,6 +22,6 @@ _CODES: dict[Kind, str] = {
         review_withdrawn""",
     "map": "map_published place_added place_changed place_removed zone_added zone_changed zone_removed",
     "sign_in": """sign_in_locked second_factor_on second_factor_off second_factor_reset second_factor_demanded
-        sign_on_linked sign_on_unlinked sign_on_refused sign_on_account_made""",
+        sign_on_linked sign_on_unlinked sign_on_refused sign_on_account_made sign_on_ended""",
 }
 KIND_OF: dict[str, Kind] = {code: kind for kind, codes in _CODES.items() for code in codes.split()}

@@ -98,7 +98,10 @@ class SignInFailure(models.Model):
 
 
 class OpenSession(models.Model):
-    """Whose a session is, and from where it is used; Django keeps the session itself, by the same key."""
+    """Whose a session is, and from where it is used; Django keeps the session itself, by the same key.
+
+    `issuer`, `subject` and `sid` are of the provider by which it began, as its ID token says them; empty otherwise.
+    """
 
     user = models.ForeignKey(User, models.CASCADE, related_name="open_sessions")
     key = models.CharField(max_length=40, unique=True)
@@ -106,11 +109,18 @@ class OpenSession(models.Model):
     system = models.CharField(max_length=40, blank=True)
     begun_at = models.DateTimeField()
     seen_at = models.DateTimeField()
+    issuer = models.CharField(max_length=255, blank=True, default="")
+    subject = models.CharField(max_length=255, blank=True, default="")
+    sid = models.CharField(max_length=255, blank=True, default="")
 
     class Meta:
-        """Listed for one person, the newest first."""
+        """Listed for one person, the newest first; found by what a provider calls its person or its session."""
 
-        indexes = [models.Index(fields=["user", "-begun_at"])]
+        indexes = [
+            models.Index(fields=["user", "-begun_at"]),
+            models.Index(fields=["issuer", "subject"], name="session_of_provider_person"),
+            models.Index(fields=["issuer", "sid"], name="session_of_provider_session"),
+        ]
 
     def __str__(self) -> str:
         return f"{self.user_id}: {self.browser}"

@@ -131,7 +131,7 @@ DEEDS = (
         "anybody",
         "anybody",
         """show_me sign_in look_at_invitation join_as_new open_wall_screen list_sign_on_providers begin_provider_sign_on
-        finish_provider_sign_on""",
+        finish_provider_sign_on end_sessions_of_provider""",
     ),
     _deed(
         "account",

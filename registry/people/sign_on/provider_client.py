@@ -21,9 +21,10 @@ from authlib.oidc.core import CodeIDToken
 from joserfc import jwt
 from joserfc.errors import ClaimError, ExpiredTokenError, InvalidKeyIdError, JoseError
 from joserfc.jwk import KeySet
+from joserfc.jwt import JWTClaimsRegistry
 from requests.adapters import HTTPAdapter
 
-from registry.people.sign_on.providers import Identity, Provider, SignOnFailed, Why
+from registry.people.sign_on.providers import BadLogoutToken, Identity, LoggedOut, Provider, SignOnFailed, Why
 
 ALGORITHMS = ["RS256", "RS384", "RS512", "PS256", "PS384", "PS512", "ES256", "ES384", "ES512", "Ed25519"]
 """Signatures with a public key: none with a shared secret, and never `none`."""
@@ -34,6 +35,11 @@ KEPT_S = 300
 CONNECT_S, ANSWER_S, MOST_BYTES = 4, 10, 1024 * 1024
 _WHY_OF_CLAIM: dict[str, Why] = {"nonce": "nonce", "iat": "clock", "nbf": "clock", "exp": "clock"}
 SCOPE = "openid email profile"
+LOGOUT_EVENT = "http://schemas.openid.net/event/backchannel-logout"
+MOST_TOKEN = 16 * 1024
+"""Characters of a logout token."""
+STRANGERS_EVERY_S = 10
+"""Anybody may send a logout token: so often at most is the provider asked for the key that one names."""
 
 
 class _Bounded(HTTPAdapter):  # type: ignore[misc]  # requests ships no types
@@ -114,6 +120,7 @@ def exchange(provider: Provider, *, code: str, nonce: str, verifier: str, back: 
         name=_text(about.get("name"), 100) or _text(about.get("preferred_username"), 100),
         has_factor=not provider.amr.isdisjoint(map(str, amr or ())) or claims.get("acr") in provider.acr,
         id_token=str(token["id_token"]) if provider.signs_out else "",
+        sid=_text(claims.get("sid"), 255),
     )
 
 
@@ -126,6 +133,37 @@ def sign_out_address(provider: Provider, *, id_token: str, back: str) -> str:
     asked = {"client_id": provider.client_id, "id_token_hint": id_token, "post_logout_redirect_uri": back}
     joint = "&" if "?" in endpoint else "?"
     return f"{endpoint}{joint}{urlencode({k: v for k, v in asked.items() if v})}" if endpoint else ""
+
+
+def read_logout_token(provider: Provider, text: str) -> LoggedOut:
+    """Return whose session has ended at the provider (OpenID Connect Back-Channel Logout 1.0, section 2.6).
+
+    Raises BadLogoutToken, SignOnFailed (down).
+    """
+    right = JWTClaimsRegistry(
+        leeway=LEEWAY_S,
+        iss={"essential": True, "value": provider.issuer},
+        aud={"essential": True, "value": provider.client_id},
+        iat={"essential": True},
+        exp={"essential": True},
+        jti={"essential": True},
+    )
+    try:
+        if len(text) > MOST_TOKEN:
+            raise BadLogoutToken("It is too long.")
+        claims = _decode(provider, text, again_after_s=STRANGERS_EVERY_S).claims
+        right.validate(claims)
+    except (JoseError, ValueError, TypeError, KeyError, AttributeError) as error:
+        raise BadLogoutToken(f"It is not right: {type(error).__name__}.") from error
+    events = claims.get("events")
+    if not isinstance(events, dict) or not isinstance(events.get(LOGOUT_EVENT), dict) or "nonce" in claims:
+        raise BadLogoutToken("It is a token for something else.")
+    subject, sid = (claims.get(name, "") for name in ("sub", "sid"))
+    if not all(isinstance(each, str) and len(each) <= 255 and "\0" not in each for each in (subject, sid)):
+        raise BadLogoutToken("Its sub or sid is none.")
+    if not subject and not sid:
+        raise BadLogoutToken("It has neither sub nor sid.")
+    return LoggedOut(provider.issuer, subject, sid, at=max(0.0, float(claims["iat"])))
 
 
 def _session(provider: Provider, back: str = "") -> Any:
@@ -172,11 +210,17 @@ def _read_token(provider: Provider, token: dict[str, Any], nonce: str) -> dict[s
     return dict(claims)
 
 
-def _decode(provider: Provider, text: str) -> Any:
-    """Read a token by the provider's keys; one that is not known yet is asked for, as keys are changed."""
+def _decode(provider: Provider, text: str, *, again_after_s: float = 0.0) -> Any:
+    """Read a token by the provider's keys; one that is not known yet is asked for, as keys are changed.
+
+    Not if the keys were read within the last `again_after_s`.
+    """
+    known = _known_of(provider)
     try:
-        return jwt.decode(text, KeySet.import_key_set(_known_of(provider).keys), algorithms=ALGORITHMS)
+        return jwt.decode(text, KeySet.import_key_set(known.keys), algorithms=ALGORITHMS)
     except InvalidKeyIdError:
+        if time.monotonic() - known.at < again_after_s:
+            raise
         return jwt.decode(text, KeySet.import_key_set(_ask(provider).keys), algorithms=ALGORITHMS)
 
 

@@ -60,6 +60,16 @@ class SignOnFailed(RegistryError):
         super().__init__(sentence.format(provider=provider), {"why": why, "provider": provider})
 
 
+class BadLogoutToken(RegistryError):
+    """What says that a session has ended at a provider, and is not the provider's word."""
+
+    code = "bad_logout_token"
+    status = 400
+
+    def __init__(self, why: str) -> None:
+        super().__init__(f"This is no logout token that VIPO takes. {why}")
+
+
 @dataclass(frozen=True, slots=True)
 class Provider:
     """A provider as the settings have it; `title` is what its button says.
@@ -82,7 +92,10 @@ class Provider:
 
 @dataclass(frozen=True, slots=True)
 class Identity:
-    """Who somebody is, as a provider has proved it; `has_factor`: also by a second factor, as the settings read it."""
+    """Who somebody is, as a provider has proved it; `has_factor`: also by a second factor, as the settings read it.
+
+    `sid` is what the provider calls their session there, if it says so.
+    """
 
     issuer: str
     subject: str
@@ -91,6 +104,17 @@ class Identity:
     name: str = ""
     has_factor: bool = False
     id_token: str = field(default="", repr=False)
+    sid: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedOut:
+    """Whose session has ended at a provider: of a subject all, or the one called `sid`; `at` in seconds since 1970."""
+
+    issuer: str
+    subject: str
+    sid: str
+    at: float
 
 
 def list_providers() -> tuple[Provider, ...]:

@@ -26,7 +26,7 @@ ASKERS = {
 }
 """Who asks: their site and role; nobody, and a wall screen of the hall, have none."""
 NO_SESSION = ("nobody", "wall")
-SIGNING_IN = ("sign_in", "begin_provider_sign_on", "finish_provider_sign_on")
+SIGNING_IN = ("sign_in", "begin_provider_sign_on", "finish_provider_sign_on", "end_sessions_of_provider")
 pytestmark = pytest.mark.usefixtures("impatient")
 
 

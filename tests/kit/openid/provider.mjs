@@ -20,8 +20,13 @@ const provider = new Provider(told.issuer, {
   claims: { openid: ["sub", "amr"], email: ["email", "email_verified"], profile: ["name"], acr: null },
   enabledJWA: { idTokenSigningAlgValues: ["RS256", "HS256"] },
   ttl: { IdToken: 300 },
-  features: { devInteractions: { enabled: false }, rpInitiatedLogout: { enabled: true, logoutSource: askToSignOut } },
+  features: {
+    devInteractions: { enabled: false },
+    backchannelLogout: { enabled: true },
+    rpInitiatedLogout: { enabled: true, logoutSource: askToSignOut },
+  },
   acrValues: ["two"],
+  fetch: (url, { dispatcher: _, ...options }) => fetch(url, options), // it refuses addresses of one's own machine, and VIPO is here
   pkce: { required: () => true },
   interactions: { url: (_, interaction) => `/interaction/${interaction.uid}` },
   findAccount: (_, id) => (told.people[id] ? { accountId: id, claims: () => ({ sub: id, ...told.people[id] }) } : undefined),
@@ -53,6 +58,7 @@ async function interact(request, response) {
 
 const handle = provider.callback();
 provider.on("server_error", (_, error) => console.error(error));
+provider.on("backchannel.error", (_, error) => console.error(error));
 createServer((request, response) => {
   if (request.url === "/favicon.ico") return response.writeHead(204).end();
   const done = request.url.startsWith("/interaction/") ? interact(request, response) : handle(request, response);
