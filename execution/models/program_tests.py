@@ -39,6 +39,10 @@ class TrialRun(models.Model):
 
     `rehearsal` is its place in the queue. `whole` is True where all tests of the program were asked for. `ways` are
     those through the program. What is over has `ended_at`; `reason` says why it came to nothing.
+
+    `seeds` is how many each test was carried out with besides its own. `tries_changes` tells whether it was asked which
+    changes of the program no test notices; `changes` is what came of that. `site` names by digests what of the site it
+    was carried out on: map, places, zones, and each device.
     """
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
@@ -52,6 +56,10 @@ class TrialRun(models.Model):
     total = models.PositiveIntegerField()
     passed = models.PositiveIntegerField(default=0)
     ways = models.JSONField(default=list)
+    seeds = models.PositiveSmallIntegerField(default=0, db_default=0)
+    tries_changes = models.BooleanField(default=False, db_default=False)
+    changes = models.JSONField(null=True)
+    site = models.JSONField(default=dict, db_default={})
     reason = models.CharField(max_length=500, blank=True)
     created_at = models.DateTimeField()
     ended_at = models.DateTimeField(null=True)

@@ -11,6 +11,7 @@ from django.db.models import QuerySet
 
 from editor import services as editor
 from execution.models import ProgramTest, Rehearsal, TrialResult, TrialRun
+from execution.program_tests.site_digests import Digests, digests_of, what_changed
 from execution.program_tests.stored_tests import MOST_TESTS, tag_of
 from execution.reasons import cause_of
 from execution.rehearsals.rehearsals import HEAVY
@@ -26,6 +27,7 @@ Latest = Mapping[UUID, TrialResult]
 def show_tests(*, program: UUID, asker: int) -> dict[str, Any]:
     """Return a program's tests with their last results, as JSON (`ProgramTestsShape`). Raises NoSuchProgram."""
     digest = editor.get_digest(program_id=program)
+    site = digests_of(editor.get_program(program_id=program).site)
     rows = ProgramTest.objects.filter(program=program).select_related("edited_by").defer("text")
     tests = list(rows.order_by("created_at", "name"))
     known = TrialResult.objects.filter(test__program=program).order_by("-at", "-pk")
@@ -36,10 +38,11 @@ def show_tests(*, program: UUID, asker: int) -> dict[str, Any]:
     over = next((run for run in runs if status_of(run) not in Rehearsal.OPEN), None)
     return {
         "most": MOST_TESTS,
-        "tests": [_test_to_json(test, latest.get(test.pk), digest) for test in tests],
+        "tests": [_test_to_json(test, latest.get(test.pk), digest, site) for test in tests],
         "under_way": [run_to_json(run, asker) for run in reversed(under_way)],
         "last": run_to_json(over, asker) if over else None,
         "coverage": _coverage(program, results, digest),
+        "changes": _changes(program, tests, digest),
     }
 
 
@@ -68,6 +71,8 @@ def run_to_json(run: TrialRun, asker: int) -> dict[str, Any]:
         "status": status_of(run),
         "passed": run.passed,
         "total": run.total,
+        "seeds": run.seeds,
+        "tries_changes": run.tries_changes,
         "by_itself": run.by_itself,
         "started_by": run.started_by,
         "mine": bool(rehearsal and rehearsal.person == asker),
@@ -78,21 +83,24 @@ def run_to_json(run: TrialRun, asker: int) -> dict[str, Any]:
     }
 
 
-def _test_to_json(test: ProgramTest, result: TrialResult | None, digest: str) -> dict[str, Any]:
+def _test_to_json(test: ProgramTest, result: TrialResult | None, digest: str, site: Digests) -> dict[str, Any]:
     return {
         "id": test.pk,
         "name": test.name,
         "tag": tag_of(test.revision),
         "edited_at": test.edited_at,
         "edited_by": test.edited_by.display_name if test.edited_by else "",
-        "result": None if result is None else _result_to_json(result, test, digest),
+        "result": None if result is None else _result_to_json(result, test, digest, site),
     }
 
 
-def _result_to_json(result: TrialResult, test: ProgramTest, digest: str) -> dict[str, Any]:
+def _result_to_json(result: TrialResult, test: ProgramTest, digest: str, site: Digests) -> dict[str, Any]:
+    change = what_changed(result.run.site, site)
+    is_older = "program" if result.digest != digest else "test" if result.revision != test.revision else None
     return {
         "status": result.status,
-        "stale": "program" if result.digest != digest else "test" if result.revision != test.revision else None,
+        "stale": is_older or ("site" if change else None),
+        "site_change": change,
         "number": result.run.number,
         "digest": result.digest,
         "seed": result.seed,
@@ -100,6 +108,17 @@ def _result_to_json(result: TrialResult, test: ProgramTest, digest: str) -> dict
         "at": result.at,
         **result.detail,
     }
+
+
+def _changes(program: UUID, tests: Sequence[ProgramTest], digest: str) -> dict[str, Any] | None:
+    """Return which changes of the program no test noticed when they were tried last."""
+    run = TrialRun.objects.filter(program=program, changes__isnull=False).order_by("-created_at").first()
+    if run is None:
+        return None
+    found = dict(run.changes or {})
+    tried_with = found.pop("tests")
+    is_same = run.digest == digest and tried_with == sorted([str(test.pk), test.revision] for test in tests)
+    return {**found, "stale": not is_same, "number": run.number, "at": run.ended_at}
 
 
 def _latest(results: Sequence[Key]) -> Latest:

@@ -27,7 +27,7 @@ from execution.program_tests.shapes import (
     TestToWrite,
     VersionTestsShape,
 )
-from execution.program_tests.test_runs import Asker, start_tests
+from execution.program_tests.test_runs import Asker, Extent, start_tests
 from registry.services import NotAMember, require
 from registry.shapes import refuses, sends, signed_in
 
@@ -136,9 +136,10 @@ def delete_test(
 def run_tests(request: HttpRequest, program: UUID, body: TestsToRun | None = None) -> Status[dict[str, Any]]:
     """Carry out tests of a program, all or some, on what is drawn now or on a version; queued as rehearsals are."""
     _program(request, program, "operator")
-    person, body = signed_in(request), body or TestsToRun(tests=None)
+    person, body = signed_in(request), body or TestsToRun(tests=None, seeds=0, changes=False)
     asker = Asker(person.pk, person.display_name)
-    started = start_tests(program=program, asker=asker, tests=body.tests, number=body.version)
+    extent = Extent(body.seeds, body.changes)
+    started = start_tests(program=program, asker=asker, tests=body.tests, number=body.version, extent=extent)
     run = runs_of(program).get(pk=started)
     return Status(202, run_to_json(run, person.pk))
 

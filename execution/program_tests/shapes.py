@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Literal
+from typing import Any, Literal
 from uuid import UUID
 
 from ninja import Field, Schema
 
 from execution.program_tests.stored_tests import MOST_TESTS, MOST_TEXT
+from execution.program_tests.test_runs import MOST_SEEDS
 from execution.shapes import Cause, OfVersion
 from registry.shapes import Asked
 
@@ -26,24 +27,67 @@ class TestTextShape(Schema):
 
 
 class ExpectationShape(Schema):
-    """What a test expected, on which line of its text, and what was seen; `t_s` is when, in virtual time."""
+    """What a test expected, on which line of its text, and what was seen; `t_s` is when, in virtual time.
+
+    `expected` and `saw` are English; `kind` with `says`, and `seen` with its `code`, are what sentences of other
+    languages are made of (empty in results from before there were such). `figure` is what was measured.
+    """
 
     expected: str
     line: int
     ok: bool
     saw: str
     t_s: float | None
+    figure: float | None = None
+    kind: str = ""
+    says: Any = None
+    seen: dict[str, Any] = {}
+
+
+class SpanShape(Schema):
+    """The least, the median, the 95th percentile and the most of what was measured."""
+
+    least: float
+    median: float
+    p95: float
+    most: float
+
+
+class OddsShape(Schema):
+    """What came of a test with `seeds` of the `asked` seeds from 1 on, as many as there was time for.
+
+    So many `failed`, the first of them `failing`; the 95 % interval of that share is from `low` to `high`. `took_s`
+    spans the virtual times of those that passed, `figures` what each expectation has measured.
+    """
+
+    asked: int
+    seeds: int
+    failed: int
+    low: float
+    high: float
+    failing: list[int]
+    took_s: SpanShape | None
+    figures: list[SpanShape | None]
+
+
+class SiteChange(Schema):
+    """What of the site has changed since; `devices` are the ids of some of those that joined, left or differ."""
+
+    what: Literal["map", "places", "zones", "devices"]
+    devices: list[str]
 
 
 class TestResultShape(Schema):
     """What came of a test: on which content of the program, with which seed, how long it took in virtual time.
 
-    `stale` says what has changed since: the program, or the test. An unusable test names what there is not, on a
-    `line` (0: unknown) and `why`; a stopped one was not done when the time for all was over.
+    `stale` says what has changed since: the program, the test, or the site, of which `site_change` tells more. An
+    unusable test names what there is not, on a `line` (0: unknown) and `why`; a stopped one was not done when the time
+    for all was over.
     """
 
     status: Literal["passed", "failed", "unusable", "stopped"]
-    stale: Literal["program", "test"] | None
+    stale: Literal["program", "test", "site"] | None
+    site_change: SiteChange | None
     number: int | None
     digest: str
     seed: int
@@ -53,6 +97,7 @@ class TestResultShape(Schema):
     errors: list[str]
     line: int
     why: str
+    odds: OddsShape | None = None
 
 
 class ProgramTestShape(Schema):
@@ -70,7 +115,8 @@ class TestRunShape(Schema):
     """Tests carried out together, on a version or on what was drawn (no `number`).
 
     `rehearsal` is what they are in the queue, by which they are followed and cancelled; `by_itself` is true where they
-    are those of a version that was named.
+    are those of a version that was named. Each was carried out with so many `seeds` besides its own; `tries_changes`
+    says whether changes of the program were tried.
     """
 
     id: UUID
@@ -79,6 +125,8 @@ class TestRunShape(Schema):
     status: Status
     passed: int
     total: int
+    seeds: int
+    tries_changes: bool
     by_itself: bool
     started_by: str
     mine: bool
@@ -104,14 +152,49 @@ class CoverageShape(Schema):
     constructs: list[CoveredConstruct]
 
 
+class UnnoticedChange(Schema):
+    """A change of the program that no test notices: at a step (its id, empty for a role) and a line of the script.
+
+    `code` is what was changed, `name` of which role; `reached` tells whether any test comes there at all.
+    """
+
+    step: str
+    line: int
+    code: str
+    name: str
+    reached: bool
+
+
+class ChangesShape(Schema):
+    """Which changes of a program no test notices: how many `there_are`, were `tried` and `noticed`, and the others.
+
+    `stale` says that the program or a test has changed since. `why` is empty, or why none was tried: a test is
+    `failing`. `out_of_time` is true where the time ended before all were tried.
+    """
+
+    stale: bool
+    number: int | None
+    at: datetime | None
+    there_are: int
+    tried: int
+    noticed: int
+    unnoticed: list[UnnoticedChange]
+    why: Literal["", "failing"]
+    out_of_time: bool
+
+
 class ProgramTestsShape(Schema):
-    """The tests of a program, at most `most`; the runs of them that are under way, and the last that is over."""
+    """The tests of a program, at most `most`; the runs of them that are under way, and the last that is over.
+
+    `changes` is what came of trying changes of the program last, if anybody has.
+    """
 
     most: int
     tests: list[ProgramTestShape]
     under_way: list[TestRunShape]
     last: TestRunShape | None
     coverage: CoverageShape | None
+    changes: ChangesShape | None
 
 
 class VersionTestsShape(Schema):
@@ -157,7 +240,13 @@ class FirstTextShape(Schema):
 
 
 class TestsToRun(Asked):
-    """Which tests are carried out (all, if none are named), on which version (what is drawn now, if none)."""
+    """Which tests are carried out (all, if none are named), on which version (what is drawn now, if none).
+
+    With so many `seeds`, 1, 2, 3 and so on, besides its own each; `changes` of the program are tried once all pass. All
+    of it has the time of one rehearsal.
+    """
 
     tests: list[UUID] | None = Field(None, min_length=1, max_length=MOST_TESTS)
     version: OfVersion = None
+    seeds: int = Field(0, ge=0, le=MOST_SEEDS)
+    changes: bool = False

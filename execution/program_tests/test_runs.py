@@ -16,6 +16,7 @@ from editor import services as editor
 from execution.errors import NotFound, NotReady, TooManyRehearsals
 from execution.floor.layouts import place_facts
 from execution.models import ProgramTest, Rehearsal, TrialRun
+from execution.program_tests.site_digests import digests_of
 from execution.program_tests.stored_tests import say_changed
 from execution.rehearsals.child_process import scene_to_json
 from execution.rehearsals.rehearsals import put_into_queue, refuse_too_many
@@ -27,6 +28,22 @@ from vipo_device.protocol.errors import VipoError
 log = logging.getLogger(__name__)
 VERSIONS_AT_ONCE = 20
 NO_TESTS = "The program has no tests yet. Write one first."
+MOST_SEEDS = 100
+MOST_CHANGES = 100
+
+
+@dataclass(frozen=True, slots=True)
+class Extent:
+    """How much is asked: with how many seeds besides its own each test, and whether changes of the program are tried.
+
+    Both have the time of one rehearsal; what there is no time for is left out, and told.
+    """
+
+    seeds: int = 0
+    tries_changes: bool = False
+
+
+PLAIN = Extent()
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,8 +56,9 @@ class Asker:
 
 
 def start_tests(
-    *, program: UUID, asker: Asker, tests: Collection[UUID] | None = None, number: int | None = None
-) -> UUID:
+    *, program: UUID, asker: Asker, tests: Collection[UUID] | None = None, number: int | None = None,
+    extent: Extent = PLAIN,
+) -> UUID:  # fmt: skip
     """Queue tests of a program, all or some, on what is drawn now or on a version; returns the id of the run of them.
 
     Raises:
@@ -52,7 +70,7 @@ def start_tests(
     rows = _find(program, tests)
     content = editor.get_content(program_id=program, number=number)
     refuse_too_many(site=content.site, person=asker.person)  # before it is compiled: who asks too often costs little
-    job = _job(content, rows)
+    job = _job(content, rows) | {"seeds": extent.seeds, "changes": MOST_CHANGES if extent.tries_changes else 0}
     with transaction.atomic():
         return _put(content, rows, asker, job, whole=tests is None)
 
@@ -71,7 +89,9 @@ def _job(content: editor.ContentView, tests: Sequence[ProgramTest]) -> dict[str,
     compiled = editor.compile_content(content=content)
     if compiled.plan is None:
         raise not_ready(compiled.errors)
+    site = digests_of(content.site)  # before the scene: what changes in between makes results stale
     return {
+        "site": site,
         "plan": json.loads(compiled.plan),
         "numbers": compiled.compiled()["numbers"],
         "scene": _scene(content.site),
@@ -95,7 +115,8 @@ def _put(
         site=content.site, person=asker.person, kind=Rehearsal.Kind.TESTS, program=content.program,
         program_name=content.name, job=job, started_by=asker.name,
     )  # fmt: skip
-    return _note(content, tests, asker, whole=whole, rehearsal=rehearsal)
+    asked = {"seeds": job.get("seeds", 0), "tries_changes": bool(job.get("changes"))}
+    return _note(content, tests, asker, whole=whole, rehearsal=rehearsal, site=job["site"], **asked)
 
 
 def _note(content: editor.ContentView, tests: Sequence[ProgramTest], asker: Asker, **columns: Any) -> UUID:

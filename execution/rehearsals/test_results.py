@@ -33,6 +33,9 @@ def keep_results(*, rehearsal: UUID, found: Mapping[str, Any]) -> None:
     TrialResult.objects.bulk_create(rows)
     passed = sum(row.status == TrialResult.Status.PASSED for row in rows)
     columns = {"passed": passed, "total": len(rows), "ways": found["ways"], "ended_at": Now()}
+    if "changes" in found:
+        tried_with = sorted([each["test"], each["revision"]] for each in found["tests"])
+        columns["changes"] = {**found["changes"], "tests": tried_with}
     TrialRun.objects.filter(pk=run.pk).update(**columns)
     _forget_old(run, [row.test_id for row in rows])
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import combinations
 from math import hypot
 from typing import Any
@@ -29,45 +29,66 @@ class Seen:
 
 
 @dataclass(frozen=True, slots=True)
+class Saw:
+    """What was seen: an English sentence, what it is made of (`code`, `args`), when, and the figure, if it is one."""
+
+    sentence: str
+    code: str
+    args: Mapping[str, Any] = field(default_factory=dict)
+    t_s: float | None = None
+    figure: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Verdict:
-    """Whether an expectation holds; `saw` says what was seen, `t_s` when, if at one time."""
+    """Whether an expectation holds; `saw` says what was seen, `t_s` when, if at one time.
+
+    Screens make sentences of their own: of `kind` and `says` what was expected, of `seen` (a code and what it is made
+    of) what was seen. `figure` is what was measured: seconds, pieces, rounds or the reading that came nearest.
+    """
 
     expected: str
     line: int
     ok: bool
     saw: str
     t_s: float | None = None
+    figure: float | None = None
+    kind: str = ""
+    says: Mapping[str, Any] = field(default_factory=dict)
+    seen: Mapping[str, Any] = field(default_factory=dict)
 
 
 def judge(expectation: Expectation, seen: Seen) -> Verdict:
     """Hold an expectation against what was seen."""
-    expected, ok, saw, t_s = _JUDGES[expectation.kind](expectation.says, seen)
-    return Verdict(expected, expectation.line, ok, saw, t_s)
+    expected, says, ok, saw = _JUDGES[expectation.kind](expectation.says, seen)
+    told = {"code": saw.code, **saw.args}
+    return Verdict(expected, expectation.line, ok, saw.sentence, saw.t_s, saw.figure, expectation.kind, says, told)
 
 
-_Answer = tuple[str, bool, str, float | None]
+_Answer = tuple[str, Mapping[str, Any], bool, Saw]
+"""What was expected, what that sentence is made of, whether it holds, and what was seen."""
 
 
 def _ends_well(says: Any, seen: Seen) -> _Answer:
-    if seen.result["ok"]:
-        return "ends well", True, _ended(seen), None
-    return "ends well", False, *_how_it_failed(seen)
+    ok = bool(seen.result["ok"])
+    return "ends well", {}, ok, _ended(seen) if ok else _how_it_failed(seen)
 
 
 def _fails(says: str, seen: Seen) -> _Answer:
-    expected, result = f"fails with “{says}”", seen.result
+    expected, result, made_of = f"fails with “{says}”", seen.result, {"word": says}
     if result["ok"]:
-        return expected, False, _ended(seen), None
+        return expected, made_of, False, _ended(seen)
     word = says.casefold()
     for error in result["errors"]:
         if word in error["message"].casefold() or word == error["kind"]:
-            return expected, True, _error(error, seen), error["t"]
-    return expected, False, *_how_it_failed(seen)
+            return expected, made_of, True, _error(error, seen)
+    return expected, made_of, False, _how_it_failed(seen)
 
 
 def _within(says: float, seen: Seen) -> _Answer:
     took_s = seen.result["duration_s"]
-    return f"ends within {says:g} s", took_s <= says, f"it took {took_s:g} s", None
+    saw = Saw(f"it took {took_s:g} s", "took", {"t_s": took_s}, figure=took_s)
+    return f"ends within {says:g} s", {"most_s": says}, took_s <= says, saw
 
 
 def _item(says: Mapping[str, Any], seen: Seen) -> _Answer:
@@ -76,19 +97,21 @@ def _item(says: Mapping[str, Any], seen: Seen) -> _Answer:
     held = (loads[-1][1] if loads else {}) if loads is not None else seen.stocks.get(where, {})
     has = held.get(name, 0)
     expected = f"{where} holds {'some' if count is None else count} {name} at the end"
-    return expected, has > 0 if count is None else has == count, f"it holds {has}", None
+    saw = Saw(f"it holds {has}", "holds", {"held": has}, figure=has)
+    return expected, dict(says), has > 0 if count is None else has == count, saw
 
 
 def _never_two(says: Mapping[str, Any], seen: Seen) -> _Answer:
     is_in, where = _area(says, seen)
-    frames, expected = seen.result["frames"], f"never two robots in {where}"
+    frames, expected, made_of = seen.result["frames"], f"never two robots in {where}", {"within_m": BESIDE_M, **says}
     robots: Mapping[str, Sequence[Sequence[float]]] = frames["robots"]
     for moment in range(max((len(f) for f in robots.values()), default=0)):
         inside = [r for r, f in robots.items() if moment < len(f) and is_in((f[moment][0], f[moment][1]))]
         for a, b in combinations(inside, 2):
             t_s = round(moment * frames["dt_s"], 1)
-            return expected, False, f"{a} and {b} were in it at {t_s:g} s", t_s
-    return expected, True, "no two were", None
+            saw = Saw(f"{a} and {b} were in it at {t_s:g} s", "two_were", {"a": a, "b": b, "t_s": t_s}, t_s)
+            return expected, made_of, False, saw
+    return expected, made_of, True, Saw("no two were", "never_met")
 
 
 def _area(says: Mapping[str, Any], seen: Seen) -> tuple[Callable[[Point], bool], str]:
@@ -110,7 +133,7 @@ def _is_inside(point: Point, corners: Sequence[Point]) -> bool:
 
 
 def _commands(says: Sequence[str], seen: Seen) -> _Answer:
-    expected = f"commands in this order: {', '.join(says)}"
+    expected, made_of = f"commands in this order: {', '.join(says)}", {"commands": list(says)}
     given = [(f"{line['device']}.{line['args']['method']}", line["t"]) for line in seen.result["log"]
              if line["code"] == "command"]  # fmt: skip
     at = 0
@@ -118,9 +141,11 @@ def _commands(says: Sequence[str], seen: Seen) -> _Answer:
         if at < len(says) and says[at] in {command, command.partition(".")[2]}:
             at += 1
     if at == len(says):
-        return expected, True, "they came", None
-    after = f" after {says[at - 1]}" if at else ""
-    return expected, False, f"{says[at]} did not come{after}", None
+        return expected, made_of, True, Saw("they came", "came")
+    if not at:
+        return expected, made_of, False, Saw(f"{says[0]} did not come", "not_come", {"command": says[0]})
+    missing = {"command": says[at], "after": says[at - 1]}
+    return expected, made_of, False, Saw(f"{says[at]} did not come after {says[at - 1]}", "not_come_after", missing)
 
 
 def _property(says: Mapping[str, Any], seen: Seen) -> _Answer:
@@ -128,14 +153,27 @@ def _property(says: Mapping[str, Any], seen: Seen) -> _Answer:
     word = next(word for word in ("is", "at_least", "at_most") if word in says)
     wanted = says[word]
     expected = f"{device}.{name} {word.replace('_', ' ')} {wanted!s}"
+    made_of = {"device": device, "name": name, "word": word, "value": wanted}
     shown = [(t, v) for t, known, v in seen.result["properties"].get(device, []) if known == name]
-    for t_s, value in shown:
-        if _fits(word, value, wanted):
-            return expected, True, f"it was {value} at {t_s:g} s", t_s
     values = [v for _, v in shown]
     numbers = [v for v in values if isinstance(v, int | float) and not isinstance(v, bool)]
-    spread = f"from {min(numbers):g} to {max(numbers):g}" if numbers else ", ".join(dict.fromkeys(map(str, values)))
-    return expected, False, f"it was {spread or 'never shown'}", None
+    nearest = None if word == "is" or not numbers else max(numbers) if word == "at_least" else min(numbers)
+    for t_s, value in shown:
+        if _fits(word, value, wanted):
+            saw = Saw(f"it was {value} at {t_s:g} s", "was_at", {"value": value, "t_s": t_s}, t_s, nearest)
+            return expected, made_of, True, saw
+    return expected, made_of, False, _shown(values, numbers, nearest)
+
+
+def _shown(values: Sequence[Any], numbers: Sequence[float], nearest: float | None) -> Saw:
+    """Say what a property was, none of which was what was expected."""
+    if numbers:
+        least, most = min(numbers), max(numbers)
+        return Saw(f"it was from {least:g} to {most:g}", "was_from", {"least": least, "most": most}, figure=nearest)
+    if not values:
+        return Saw("it was never shown", "never_shown")
+    listed = ", ".join(dict.fromkeys(map(str, values)))
+    return Saw(f"it was {listed}", "was", {"values": listed[:200]})
 
 
 def _fits(word: str, value: object, wanted: Any) -> bool:
@@ -148,10 +186,11 @@ def _fits(word: str, value: object, wanted: Any) -> bool:
 
 def _step(says: Mapping[str, Any], seen: Seen) -> _Answer:
     step, times = says["step"], says.get("times")
-    begun = [s for s in seen.result["steps"] if s["step"] == step]
+    begun = len([s for s in seen.result["steps"] if s["step"] == step])
     number = seen.steps.get(step, step)
     expected = f"step {number} is carried out{'' if times is None else f' {times} times'}"
-    return expected, bool(begun) if times is None else len(begun) == times, f"it was, {len(begun)} times", None
+    saw = Saw(f"it was, {begun} times", "times", {"times": begun}, figure=begun)
+    return expected, {**says, "number": number}, begun > 0 if times is None else begun == times, saw
 
 
 _JUDGES: Mapping[str, Callable[[Any, Seen], _Answer]] = {
@@ -160,20 +199,25 @@ _JUDGES: Mapping[str, Callable[[Any, Seen], _Answer]] = {
 }  # fmt: skip
 
 
-def _ended(seen: Seen) -> str:
-    return f"it ended well after {seen.result['duration_s']:g} s"
+def _ended(seen: Seen) -> Saw:
+    took_s = seen.result["duration_s"]
+    return Saw(f"it ended well after {took_s:g} s", "ended_well", {"t_s": took_s})
 
 
-def _how_it_failed(seen: Seen) -> tuple[str, float | None]:
+def _how_it_failed(seen: Seen) -> Saw:
     result = seen.result
     if result["collisions"]:
         touch = result["collisions"][0]
-        return f"{touch['a']} touched {touch['b']} at {touch['t']:g} s", touch["t"]
+        a, b, t_s = touch["a"], touch["b"], touch["t"]
+        return Saw(f"{a} touched {b} at {t_s:g} s", "touched", {"a": a, "b": b, "t_s": t_s}, t_s)
     if not result["errors"]:
-        return f"it did not end well, after {result['duration_s']:g} s", None
-    return _error(result["errors"][-1], seen), result["errors"][-1]["t"]
+        took_s = result["duration_s"]
+        return Saw(f"it did not end well, after {took_s:g} s", "not_well", {"t_s": took_s})
+    return _error(result["errors"][-1], seen)
 
 
-def _error(error: Mapping[str, Any], seen: Seen) -> str:
-    step = error["step"]
-    return f"at {error['t']:g} s, step {seen.steps.get(step, step) or 'none'}: {error['message']}"
+def _error(error: Mapping[str, Any], seen: Seen) -> Saw:
+    t_s, message = error["t"], error["message"]
+    number = seen.steps.get(error["step"], error["step"])
+    sentence = f"at {t_s:g} s, step {number or 'none'}: {message}"
+    return Saw(sentence, "error", {"t_s": t_s, "number": number, "message": message[:300]}, t_s)

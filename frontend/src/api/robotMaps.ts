@@ -55,6 +55,7 @@ export const staleWithSiteMap = (slug: string) => [
   keys.sites,
   mapKeys.versions(slug),
   mapKeys.differences(slug),
+  ["tests"], // their results are of the site as it was
 ];
 
 /** Change the site's map; whatever comes of it, what is shown of it is fetched anew. */

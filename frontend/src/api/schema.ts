@@ -3940,6 +3940,24 @@ export interface components {
             ][];
             skipped: components["schemas"]["ValueChangeShape"][];
         };
+        /**
+         * @description Which changes of a program no test notices: how many `there_are`, were `tried` and `noticed`, and the others.
+         *
+         *     `stale` says that the program or a test has changed since. `why` is empty, or why none was tried: a test is
+         *     `failing`. `out_of_time` is true where the time ended before all were tried.
+         */
+        ChangesShape: {
+            at: string | null;
+            noticed: number;
+            number: number | null;
+            out_of_time: boolean;
+            stale: boolean;
+            there_are: number;
+            tried: number;
+            unnoticed: components["schemas"]["UnnoticedChange"][];
+            /** @enum {string} */
+            why: "" | "failing";
+        };
         /** @description Changes that are made where their old values still stand: {path, old, new}; what is left out is absent. */
         ChangesToMake: {
             changes: {
@@ -4247,12 +4265,25 @@ export interface components {
             signs_out: boolean;
             tokens: string[];
         };
-        /** @description What a test expected, on which line of its text, and what was seen; `t_s` is when, in virtual time. */
+        /**
+         * @description What a test expected, on which line of its text, and what was seen; `t_s` is when, in virtual time.
+         *
+         *     `expected` and `saw` are English; `kind` with `says`, and `seen` with its `code`, are what sentences of other
+         *     languages are made of (empty in results from before there were such). `figure` is what was measured.
+         */
         ExpectationShape: {
             expected: string;
+            figure?: number | null;
+            /** @default  */
+            kind: string;
             line: number;
             ok: boolean;
             saw: string;
+            says?: unknown;
+            /** @default {} */
+            seen: {
+                [key: string]: unknown;
+            };
             t_s: number | null;
         };
         /** @description What a device is set up with; `credential` is its key, told this once, `broker` may be empty. */
@@ -4845,6 +4876,22 @@ export interface components {
             rule: "keep_out" | "slow" | "one_at_a_time";
             speed_m_s?: number | null;
         };
+        /**
+         * @description What came of a test with `seeds` of the `asked` seeds from 1 on, as many as there was time for.
+         *
+         *     So many `failed`, the first of them `failing`; the 95 % interval of that share is from `low` to `high`. `took_s`
+         *     spans the virtual times of those that passed, `figures` what each expectation has measured.
+         */
+        OddsShape: {
+            asked: number;
+            failed: number;
+            failing: number[];
+            figures: (components["schemas"]["SpanShape"] | null)[];
+            high: number;
+            low: number;
+            seeds: number;
+            took_s: components["schemas"]["SpanShape"] | null;
+        };
         /** @description What a link offers. */
         OfferShape: {
             /** Format: date-time */
@@ -5145,8 +5192,13 @@ export interface components {
             result: components["schemas"]["TestResultShape"] | null;
             tag: string;
         };
-        /** @description The tests of a program, at most `most`; the runs of them that are under way, and the last that is over. */
+        /**
+         * @description The tests of a program, at most `most`; the runs of them that are under way, and the last that is over.
+         *
+         *     `changes` is what came of trying changes of the program last, if anybody has.
+         */
         ProgramTestsShape: {
+            changes: components["schemas"]["ChangesShape"] | null;
             coverage: components["schemas"]["CoverageShape"] | null;
             last: components["schemas"]["TestRunShape"] | null;
             most: number;
@@ -5731,6 +5783,12 @@ export interface components {
         SiteAsked: {
             site: string;
         };
+        /** @description What of the site has changed since; `devices` are the ids of some of those that joined, left or differ. */
+        SiteChange: {
+            devices: string[];
+            /** @enum {string} */
+            what: "map" | "places" | "zones" | "devices";
+        };
         /** @description A site as its member sees it; `held_role` is what they are once they have the second factor that it demands. */
         SiteShape: {
             has_map: boolean;
@@ -5763,6 +5821,13 @@ export interface components {
             x: number;
             y: number;
             z: number;
+        };
+        /** @description The least, the median, the 95th percentile and the most of what was measured. */
+        SpanShape: {
+            least: number;
+            median: number;
+            most: number;
+            p95: number;
         };
         /** @description Where a device stands: metres and radians in the map frame. */
         StandsAt: {
@@ -5844,8 +5909,9 @@ export interface components {
         /**
          * @description What came of a test: on which content of the program, with which seed, how long it took in virtual time.
          *
-         *     `stale` says what has changed since: the program, or the test. An unusable test names what there is not, on a
-         *     `line` (0: unknown) and `why`; a stopped one was not done when the time for all was over.
+         *     `stale` says what has changed since: the program, the test, or the site, of which `site_change` tells more. An
+         *     unusable test names what there is not, on a `line` (0: unknown) and `why`; a stopped one was not done when the time
+         *     for all was over.
          */
         TestResultShape: {
             /** Format: date-time */
@@ -5856,8 +5922,10 @@ export interface components {
             expectations: components["schemas"]["ExpectationShape"][];
             line: number;
             number: number | null;
+            odds?: components["schemas"]["OddsShape"] | null;
             seed: number;
-            stale: ("program" | "test") | null;
+            site_change: components["schemas"]["SiteChange"] | null;
+            stale: ("program" | "test" | "site") | null;
             /** @enum {string} */
             status: "passed" | "failed" | "unusable" | "stopped";
             why: string;
@@ -5866,7 +5934,8 @@ export interface components {
          * @description Tests carried out together, on a version or on what was drawn (no `number`).
          *
          *     `rehearsal` is what they are in the queue, by which they are followed and cancelled; `by_itself` is true where they
-         *     are those of a version that was named.
+         *     are those of a version that was named. Each was carried out with so many `seeds` besides its own; `tries_changes`
+         *     says whether changes of the program were tried.
          */
         TestRunShape: {
             by_itself: boolean;
@@ -5881,10 +5950,12 @@ export interface components {
             passed: number;
             reason: string;
             rehearsal: string | null;
+            seeds: number;
             started_by: string;
             /** @enum {string} */
             status: "queued" | "running" | "done" | "failed" | "cancelled";
             total: number;
+            tries_changes: boolean;
         };
         /** @description A test as it is written; `tag` is its ETag, by which it is written anew. */
         TestTextShape: {
@@ -5902,8 +5973,17 @@ export interface components {
         TestsToImport: {
             text: string;
         };
-        /** @description Which tests are carried out (all, if none are named), on which version (what is drawn now, if none). */
+        /**
+         * @description Which tests are carried out (all, if none are named), on which version (what is drawn now, if none).
+         *
+         *     With so many `seeds`, 1, 2, 3 and so on, besides its own each; `changes` of the program are tried once all pass. All
+         *     of it has the time of one rehearsal.
+         */
         TestsToRun: {
+            /** @default false */
+            changes: boolean;
+            /** @default 0 */
+            seeds: number;
             tests?: string[] | null;
             /** @description The version of the program that is taken; as it is drawn now if none. */
             version?: number | null;
@@ -5953,6 +6033,18 @@ export interface components {
         /** @description A topic that a device asks for, exactly as it names it. */
         Topic: {
             topic: string;
+        };
+        /**
+         * @description A change of the program that no test notices: at a step (its id, empty for a role) and a line of the script.
+         *
+         *     `code` is what was changed, `name` of which role; `reached` tells whether any test comes there at all.
+         */
+        UnnoticedChange: {
+            code: string;
+            line: number;
+            name: string;
+            reached: boolean;
+            step: string;
         };
         /** @description Which robot's map, and the versions that were looked at: of the robot's map, and of the site's (0: none). */
         UseRobotMap: {

@@ -5,15 +5,17 @@ import { useEffect, useId, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { ApiProblem } from "@/api/client";
 import { mayOperate } from "@/api/roles";
-import type { ProgramTest, TestResult } from "@/api/types";
-import { formatSpan } from "@/i18n/format";
+import type { ProgramTest, TestOdds, TestResult } from "@/api/types";
+import { formatNumber, formatSpan } from "@/i18n/format";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
 import drawer from "../parts/drawer.module.css";
 import { useOpenProgram } from "../state/context";
 import { say } from "../state/ui";
+import { formatShare } from "./odds";
+import { expectedWords, seenWords } from "./sentences";
 import classes from "./tests.module.css";
 import { keepDraft, lookAt, openTest, readTest, useTesting, useTestsUi, useTestText } from "./tests";
-import { Status } from "./TestList";
+import { Status, staleWords } from "./TestList";
 import { useRun } from "./useRun";
 import type { Fault, YamlView } from "./yamlView";
 
@@ -88,7 +90,7 @@ function DetailHead({ opened, test, most }: DetailProps) {
               variant="default"
               leftSection={<Play size={13} aria-hidden="true" />}
               loading={run.isPending}
-              onClick={() => run.start({ tests: [test.id] })}
+              onClick={() => run.start({ tests: [test.id], seeds: useTestsUi.getState().seeds })}
             >
               {t("tests.run_this")}
             </Button>
@@ -270,7 +272,7 @@ function Result({ result }: { result: TestResult }) {
     result.number === null ? t("tests.on_draft") : t("tests.on_version", { number: result.number }),
     result.duration_s > 0 ? formatSpan(result.duration_s) : "",
     t("tests.seed", { seed: result.seed }),
-    result.stale ? t(`tests.stale.${result.stale}`) : "",
+    staleWords(result, t),
   ];
   return (
     <section className={classes.result} aria-label={t("tests.result")}>
@@ -289,11 +291,15 @@ function Result({ result }: { result: TestResult }) {
             ) : (
               <X size={14} aria-label={t("tests.fails")} />
             )}
-            <span lang="en">{each.expected}</span>
-            {each.ok ? null : <small lang="en">{t("tests.saw", { what: each.saw })}</small>}
+            <span lang={expectedWords(each, t).lang}>{expectedWords(each, t).text}</span>
+            {each.ok ? null : (
+              <small lang={seenWords(each, t).lang}>{t("tests.saw", { what: seenWords(each, t).text })}</small>
+            )}
+            <Measured span={result.odds?.figures[index] ?? null} />
           </li>
         ))}
       </ul>
+      {result.odds && result.odds.seeds > 0 ? <OddsWords odds={result.odds} /> : null}
       {result.errors.length > 0 ? (
         <>
           <h3>{t("tests.errors")}</h3>
@@ -305,5 +311,29 @@ function Result({ result }: { result: TestResult }) {
         </>
       ) : null}
     </section>
+  );
+}
+
+/** What an expectation has measured with many seeds. */
+function Measured({ span }: { span: TestOdds["figures"][number] }) {
+  const { t } = useTranslation();
+  if (!span || span.least === span.most) return null;
+  return (
+    <small>{t("tests.odds_figure", { least: formatNumber(span.least, 1), most: formatNumber(span.most, 1) })}</small>
+  );
+}
+
+function OddsWords({ odds }: { odds: TestOdds }) {
+  const { t } = useTranslation();
+  const { seeds, asked, failed, failing, took_s: took } = odds;
+  const shares = { share: formatShare(failed / seeds), low: formatShare(odds.low), high: formatShare(odds.high) };
+  const listed = failing.join(", ") + (failed > failing.length ? ", …" : "");
+  return (
+    <div className={classes.oddsWords}>
+      <p>{t("tests.odds_words", { failed, seeds, ...shares })}</p>
+      {seeds < asked ? <p>{t("tests.odds_cut", { seeds, asked })}</p> : null}
+      {failing.length > 0 ? <p>{t("tests.odds_failing", { seeds: listed })}</p> : null}
+      {took ? <p>{t("tests.odds_took", { median: formatSpan(took.median), p95: formatSpan(took.p95) })}</p> : null}
+    </div>
   );
 }

@@ -1,9 +1,13 @@
 /** The list of a program's tests: how each came out last, and whether that still says something. */
 import { Ban, CircleCheck, CircleDashed, CircleX, Clock } from "lucide-react";
+import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
-import type { ProgramTest, ProgramTests } from "@/api/types";
+import type { ProgramTest, ProgramTests, TestResult } from "@/api/types";
 import { formatSpan } from "@/i18n/format";
 import { useOpenProgram } from "../state/context";
+import { scaleOf, type Scale } from "./odds";
+import { OddsCells } from "./OddsCells";
+import { expectedWords, seenWords, type Expectation } from "./sentences";
 import classes from "./tests.module.css";
 import { NEW, openTest, useTestsUi } from "./tests";
 
@@ -13,13 +17,14 @@ export function TestList({ tests }: { tests: ProgramTests }) {
   const { t } = useTranslation();
   const { canEdit } = useOpenProgram();
   const fresh = useTestsUi((ui) => ui.drafts[NEW] !== undefined);
+  const scale = useMemo(() => scaleOf(tests.tests), [tests.tests]);
   if (tests.tests.length === 0 && !fresh)
     return <p className={classes.none}>{t(canEdit ? "tests.none" : "tests.none_look")}</p>;
   return (
-    <ul className={classes.list} aria-label={t("tests.list")}>
+    <ul className={classes.list} aria-label={t("tests.list")} data-odds={tests.tests.some(hasOdds) || undefined}>
       {fresh ? <Fresh /> : null}
       {tests.tests.map((test) => (
-        <Row key={test.id} test={test} />
+        <Row key={test.id} test={test} scale={scale} />
       ))}
     </ul>
   );
@@ -40,12 +45,23 @@ function Fresh() {
   );
 }
 
-function Row({ test }: { test: ProgramTest }) {
+const hasOdds = ({ result }: ProgramTest) => Boolean(result?.odds);
+
+/** What of the site, or what else, has changed since a result; empty: nothing. */
+export function staleWords({ stale, site_change: change }: TestResult, t: Words): string {
+  if (!stale) return "";
+  if (stale !== "site" || !change) return t(`tests.stale.${stale}`);
+  return t(`tests.stale_site.${change.what}`, { count: change.devices.length, devices: change.devices.join(", ") });
+}
+
+type Words = (key: string, values?: Record<string, unknown>) => string;
+
+function Row({ test, scale }: { test: ProgramTest; scale: Scale | null }) {
   const { t } = useTranslation();
   const opened = useTestsUi((ui) => ui.opened === test.id);
   const unsaved = useTestsUi((ui) => ui.drafts[test.id] !== undefined);
   const { result } = test;
-  const stale = result?.stale ? t(`tests.stale.${result.stale}`) : "";
+  const stale = result ? staleWords(result, t) : "";
   const broken = result?.expectations.find(({ ok }) => !ok);
   const notes = [unsaved ? t("tests.unsaved") : "", stale].filter(Boolean);
   return (
@@ -54,7 +70,7 @@ function Row({ test }: { test: ProgramTest }) {
       <button type="button" className={classes.open} aria-pressed={opened} onClick={() => openTest(test.id)}>
         <span>{test.name}</span>
         {notes.length > 0 ? <small>{notes.join(", ")}</small> : null}
-        {broken && notes.length === 0 ? <small lang="en">{`${broken.expected}: ${broken.saw}`}</small> : null}
+        {broken && notes.length === 0 ? <Broken expectation={broken} /> : null}
       </button>
       <span className={classes.took}>
         {result && result.duration_s > 0 ? (
@@ -65,7 +81,18 @@ function Row({ test }: { test: ProgramTest }) {
         ) : null}
       </span>
       <span className={classes.seed}>{result ? t("tests.seed", { seed: result.seed }) : ""}</span>
+      <OddsCells odds={result?.odds ?? null} scale={scale} stale={stale !== ""} />
     </li>
+  );
+}
+
+function Broken({ expectation }: { expectation: Expectation }) {
+  const { t } = useTranslation();
+  const [expected, saw] = [expectedWords(expectation, t), seenWords(expectation, t)];
+  return (
+    <small>
+      <span lang={expected.lang}>{expected.text}</span>: <span lang={saw.lang}>{saw.text}</span>
+    </small>
   );
 }
 

@@ -13,6 +13,7 @@ import { reasonWords } from "@/i18n/reasons";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
 import { useOpenProgram } from "../state/context";
 import { say } from "../state/ui";
+import { ChangesList } from "./ChangesList";
 import { CoverageList } from "./CoverageList";
 import { TestDetail } from "./TestDetail";
 import { TestList } from "./TestList";
@@ -49,7 +50,10 @@ export function TestsPanel() {
       </div>
       <div className={classes.right}>
         {opened === null ? (
-          <CoverageList tests={tests.data} />
+          <>
+            <CoverageList tests={tests.data} />
+            <ChangesList tests={tests.data} />
+          </>
         ) : (
           <TestDetail key={opened} opened={opened} test={test} most={tests.data.most} />
         )}
@@ -84,6 +88,7 @@ function Head({ tests }: { tests: ProgramTests }) {
         {mayOperate(site.role) && tests.tests.length > 0 ? (
           <>
             <VersionChoice version={version} onChange={setVersion} />
+            <SeedsChoice />
             <RunAll version={version} busy={under !== undefined} />
           </>
         ) : null}
@@ -129,7 +134,7 @@ function UnderWay({ run }: { run: TestRun }) {
   const rehearsal = useTestProgress(run.rehearsal).data;
   const course = rehearsal?.course;
   const words = course
-    ? `${t("tests.under_way", { at: Math.min(course.steps_done + 1, course.steps), count: course.steps })}, ${t("tests.virtual", { time: formatSpan(course.virtual_s) })}`
+    ? `${t(run.seeds > 0 || run.tries_changes ? "tests.rehearsal_of" : "tests.under_way", { at: Math.min(course.steps_done + 1, course.steps), count: course.steps })}, ${t("tests.virtual", { time: formatSpan(course.virtual_s) })}`
     : rehearsal?.place
       ? t("tests.waits", { place: rehearsal.place })
       : t("tests.waits_soon");
@@ -180,16 +185,34 @@ function VersionChoice({
   );
 }
 
+const SEEDS = [0, 20, 100];
+
+function SeedsChoice() {
+  const { t } = useTranslation();
+  const seeds = useTestsUi((ui) => ui.seeds);
+  const words = (count: number) => (count === 0 ? t("tests.seeds_own") : t("tests.seeds_each", { count }));
+  return (
+    <NativeSelect
+      size="xs"
+      aria-label={t("tests.seeds")}
+      data={SEEDS.map((count) => ({ value: String(count), label: words(count) }))}
+      value={String(seeds)}
+      onChange={(event) => useTestsUi.setState({ seeds: Number(event.currentTarget.value) })}
+    />
+  );
+}
+
 function RunAll({ version, busy }: { version: number | undefined; busy: boolean }) {
   const { t } = useTranslation();
   const run = useRun();
+  const seeds = useTestsUi((ui) => ui.seeds);
   return (
     <Button
       size="compact-sm"
       leftSection={<Play size={13} aria-hidden="true" />}
       loading={run.isPending}
       disabled={busy}
-      onClick={() => run.start(version === undefined ? {} : { version })}
+      onClick={() => run.start({ ...(version === undefined ? {} : { version }), seeds })}
     >
       {t("tests.run_all")}
     </Button>

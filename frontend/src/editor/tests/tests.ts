@@ -20,12 +20,22 @@ export interface TestsUi {
   readonly drafts: Readonly<Record<string, Draft>>;
   /** What tests take is drawn on the map. */
   readonly marks: boolean;
+  /** With so many seeds each test is carried out besides its own. */
+  readonly seeds: number;
   /** The panel is open, so its texts are here. */
   readonly shown: boolean;
 }
 
+/** What is asked to be carried out: all tests or some, on what is drawn or a version, how widely. */
+export interface Asked {
+  readonly tests?: readonly string[];
+  readonly version?: number;
+  readonly seeds?: number;
+  readonly changes?: boolean;
+}
+
 export const NEW = "new";
-const START: TestsUi = { opened: null, drafts: {}, marks: true, shown: false };
+const START: TestsUi = { opened: null, drafts: {}, marks: true, seeds: 0, shown: false };
 export const useTestsUi = create<TestsUi>(() => START);
 
 /** Another program: nothing opened, nothing written. */
@@ -95,7 +105,7 @@ export function useTesting(program: string) {
       done(() => api.put<TestText>(`${path}/tests/${id}`, { text }, tag)),
     remove: (id: string, tag: string) => done(() => api.delete(`${path}/tests/${id}`, tag)),
     bringIn: (text: string) => done(() => api.post<TestText[]>(`${path}/tests/import`, { text })),
-    run: (asked: { tests?: string[]; version?: number }) => done(() => begin<TestRun>(`${path}/test-runs`, asked)),
+    run: (asked: Asked) => done(() => begin<TestRun>(`${path}/test-runs`, asked)),
     cancel: (rehearsal: string) => done(() => api.post(`/rehearsals/${rehearsal}/cancel`)),
   };
 }

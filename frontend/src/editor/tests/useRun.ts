@@ -3,7 +3,7 @@ import { useTranslation } from "react-i18next";
 import { problemText } from "@/shell/LoadProblem";
 import { useOpenProgram } from "../state/context";
 import { say } from "../state/ui";
-import { useTesting } from "./tests";
+import { useTesting, type Asked } from "./tests";
 
 /** Say a refusal for a moment. */
 export const tell = (t: (key: string) => string) => (problem: unknown) =>
@@ -14,7 +14,7 @@ export function useRun() {
   const { t } = useTranslation();
   const { program, shared } = useOpenProgram();
   const act = useTesting(program.id);
-  const start = (asked: { tests?: string[]; version?: number }) =>
+  const start = (asked: Asked) =>
     void shared
       .stored()
       .then(() => act.run(asked))

@@ -1,0 +1,119 @@
+"""Tests carried out with many seeds, changes of the program that no test notices, and results of a site of before."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import Any
+
+import pytest
+from django.test import Client
+
+from editor import services as editor
+from execution.models import TrialRun
+from execution.program_tests.site_digests import MOST_NAMED, what_changed
+from execution.rehearsals import worker
+from registry import services as registry
+from tests.integration.execution.program_tests.conftest import FAILS, PASSES, UNUSABLE, add, put
+from tests.kit.programs import SITE, document, step
+from tests.kit.sign_in import post_json, sign_in_member
+
+pytestmark = pytest.mark.django_db(transaction=True)
+NOTICES = "name: It waits\nthen:\n  - ends: well\n  - step: {step: pause, times: 1}\n"
+
+
+@pytest.fixture
+def client(program: Any) -> Client:
+    return sign_in_member("author", SITE)
+
+
+def shown(client: Client, program: Any) -> dict[str, Any]:
+    return dict(client.get(f"/api/programs/{program}/tests").json())
+
+
+def carry_out(client: Client, program: Any, **asked: Any) -> dict[str, Any]:
+    started = post_json(client, f"/api/programs/{program}/test-runs", asked)
+    assert started.status_code == 202, started.content
+    assert worker.carry_out_waiting() == 1
+    return shown(client, program)
+
+
+def test_each_test_is_carried_out_with_many_seeds_and_its_odds_are_told(client: Client, program: Any) -> None:
+    for text in (PASSES, FAILS, UNUSABLE):
+        add(client, program, text)
+    told = carry_out(client, program, seeds=3)
+    assert (told["last"]["seeds"], told["last"]["tries_changes"], told["changes"]) == (3, False, None)
+    passed, failed, unusable = (test["result"]["odds"] for test in told["tests"])
+    assert (passed["asked"], passed["seeds"], passed["failed"], passed["failing"]) == (3, 3, 0, [])
+    assert passed["low"] == 0
+    assert 0 < passed["high"] < 1
+    assert passed["took_s"] == {"least": 5.0, "median": 5.0, "p95": 5.0, "most": 5.0}
+    assert (failed["failed"], failed["failing"], failed["took_s"]) == (3, [1, 2, 3], None)
+    assert failed["figures"][0]["least"] == 5.0
+    assert unusable is None
+    assert carry_out(client, program)["tests"][0]["result"]["odds"] is None
+
+
+def test_changes_that_no_test_notices_are_named_until_something_is_changed(client: Client, program: Any) -> None:
+    made = add(client, program, "name: It ends\nthen:\n  - ends: well\n")
+    changes = carry_out(client, program, changes=True)["changes"]
+    assert (changes["stale"], changes["why"], changes["out_of_time"], changes["noticed"]) == (False, "", False, 0)
+    assert changes["tried"] == changes["there_are"] == 3
+    assert [(each["step"], each["code"], each["reached"]) for each in changes["unnoticed"]] == [
+        ("choice", "turned", True),
+        ("choice", "always", True),
+        ("choice", "never", True),
+    ]
+    put(client, f"/api/programs/{program}/tests/{made['id']}", NOTICES, '"1"')
+    assert shown(client, program)["changes"]["stale"] is True
+    again = carry_out(client, program, changes=True)["changes"]
+    assert (again["stale"], again["noticed"]) == (False, 2)
+    assert [each["code"] for each in again["unnoticed"]] == ["always"], "it always holds anyway"
+
+
+def test_a_test_that_fails_notices_everything_so_nothing_is_tried(client: Client, program: Any) -> None:
+    add(client, program, FAILS)
+    changes = carry_out(client, program, changes=True)["changes"]
+    assert (changes["why"], changes["tried"], changes["unnoticed"]) == ("failing", 0, [])
+
+
+def test_what_there_is_no_time_for_is_told(client: Client, factory: Any, settings: Any) -> None:
+    """A program that takes the processor long is cut off by the limit that holds for one rehearsal."""
+    settings.VIPO_REHEARSAL_LIMIT_S = 3
+    rounds = step("repeat", times=20_000)
+    busy = document({"repeat": rounds, "pause": step("wait", ("repeat", "body"), duration=0.1)})
+    program = editor.create_program(site=SITE, name="Busy", document=busy).id
+    add(client, program, "name: It ends\nthen:\n  - ends: well\n")
+    told = carry_out(client, program, seeds=100, changes=True)
+    result = told["tests"][0]["result"]
+    assert result["status"] == "stopped" or result["odds"]["seeds"] < result["odds"]["asked"]
+
+
+@pytest.mark.parametrize("asked", [{"seeds": -1}, {"seeds": 101}, {"seeds": "many"}, {"changes": "perhaps"}])
+def test_what_cannot_be_asked_is_refused(client: Client, program: Any, asked: dict[str, Any]) -> None:
+    add(client, program, PASSES)
+    assert post_json(client, f"/api/programs/{program}/test-runs", asked).status_code == 422
+    assert TrialRun.objects.count() == 0
+
+
+def test_a_result_is_stale_once_the_site_has_changed(client: Client, program: Any) -> None:
+    add(client, program, PASSES)
+    assert carry_out(client, program)["tests"][0]["result"]["stale"] is None
+    now = datetime.now(UTC)
+    registry.update_device(site=SITE, device_id="paintMixer02", name="Renamed", by=None, at=now)
+    assert shown(client, program)["tests"][0]["result"]["stale"] is None
+    registry.retire_device(site=SITE, device_id="curingOven01", by=None, at=now)
+    result = shown(client, program)["tests"][0]["result"]
+    assert (result["stale"], result["site_change"]) == ("site", {"what": "devices", "devices": ["curingOven01"]})
+    grid = registry.get_map(site=SITE).grid
+    registry.save_map(site=SITE, grid=grid)
+    result = shown(client, program)["tests"][0]["result"]
+    assert (result["stale"], result["site_change"]["what"]) == ("site", "map")
+    assert carry_out(client, program)["tests"][0]["result"]["stale"] is None
+
+
+def test_what_nobody_knows_of_a_site_is_no_change() -> None:
+    now = {"map": 1, "places": "a", "zones": "b", "devices": {f"d{n}": "x" for n in range(40)}}
+    assert what_changed({}, now) is None
+    assert what_changed(now, now) is None
+    assert what_changed(now, {**now, "zones": "c", "devices": {}}) == {"what": "zones", "devices": []}
+    assert len((what_changed(now, {**now, "devices": {}}) or {})["devices"]) == MOST_NAMED
