@@ -72,6 +72,17 @@ def test_a_test_is_written_mended_and_carried_out_by_keyboard(sign_in: SignIn, f
     shoot(page, "tests-coverage")
     assert violations(page) == []
 
+    panel.get_by_label("Seeds", exact=True).select_option("20")
+    press(panel, "Run all")
+    expect(row).to_contain_text("Odds to fail", timeout=90_000)
+    expect(row.get_by_title(re.compile("^0 of 20 seeds failed: 0%, 95 % range 0% to "))).to_be_visible()
+    assert violations(page) == []
+    shoot(page, "tests-odds")
+    press(panel, "Try changes")
+    changes = panel.get_by_role("region", name="What no test notices")
+    expect(changes.get_by_text("There is nothing in the program to take out.")).to_be_visible(timeout=90_000)
+    shoot(page, "tests-changes")
+
     program = program_named(page, "Tested from the keyboard")
     tell(page, f"/api/programs/{program}/versions", {"name": "Tested"})
     page.goto(f"{page.url.split('/programs/')[0]}/sites/painting-factory/history/{program}")

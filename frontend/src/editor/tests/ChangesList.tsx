@@ -97,6 +97,7 @@ function Unnoticed({ change }: { change: UnnoticedChange }) {
         <Button
           size="compact-xs"
           variant="subtle"
+          className={classes.write}
           leftSection={<Plus size={12} aria-hidden="true" />}
           aria-label={`${t("tests.changes.write")}: ${where.trim()}`}
           onClick={write}

@@ -1,12 +1,12 @@
 /** On the map at each step: how many tests come there, and what of it none of them takes. */
 import { useReactFlow, useStoreApi } from "@xyflow/react";
 import { Check, TriangleAlert } from "lucide-react";
-import { useEffect, useMemo, useRef } from "react";
+import { type CSSProperties, useEffect, useMemo, useRef } from "react";
 import { useTranslation } from "react-i18next";
 import type { Chip } from "@/program/scene/chips";
 import { useOpenProgram } from "../state/context";
 import { select } from "../state/ui";
-import { marksOf, wordsOf } from "./coverage";
+import { liftsOf, marksOf, wordsOf } from "./coverage";
 import classes from "./tests.module.css";
 import { useTests, useTestsUi } from "./tests";
 
@@ -26,22 +26,44 @@ function Marks() {
       const chip = scene.chips.get(mark.step);
       return chip ? [{ ...mark, chip }] : [];
     });
-    return all.sort((one, other) => Number(other.missed.length > 0) - Number(one.missed.length > 0)).slice(0, MOST);
+    const shown = all
+      .sort((one, other) => Number(one.missed.length > 0) - Number(other.missed.length > 0))
+      .slice(-MOST);
+    const lifts = liftsOf(
+      shown.map(({ chip, tests, missed }) => ({ ...cornerOf(chip), width: widthOf(tests, missed) })),
+    );
+    return shown.map((mark, index) => ({ ...mark, lift: lifts[index] ?? 0 }));
   }, [coverage, scene]);
   const plane = useOwnSize();
   return (
     <div ref={plane} className={`${classes.marks} nopan nodrag`} data-stale={coverage?.stale || undefined}>
       {marks.map((mark) => (
-        <Mark key={mark.step} chip={mark.chip} tests={mark.tests} missed={mark.missed} />
+        <Mark key={mark.step} {...mark} />
       ))}
     </div>
   );
 }
 
-function Mark({ chip, tests, missed }: { chip: Chip; tests: number; missed: readonly string[] }) {
+const cornerOf = (chip: Chip) => ({ x: chip.at.x + chip.width / 2, y: chip.at.y - chip.height / 2 });
+
+/** About as wide as it is drawn: a number, and words that are cut. */
+function widthOf(tests: number, missed: readonly string[]): number {
+  return (tests > 0 ? 36 : 0) + (missed.length > 0 ? 195 : 0);
+}
+
+interface MarkProps {
+  chip: Chip;
+  tests: number;
+  missed: readonly string[];
+  /** Pixels that it stands higher, so that it covers no other. */
+  lift: number;
+}
+
+function Mark({ chip, tests, missed, lift }: MarkProps) {
   const { t } = useTranslation();
   const words = missed.map((way) => (way === "reached" ? t("tests.never") : wordsOf(way, t))).join(", ");
-  const style = { left: chip.at.x + chip.width / 2, top: chip.at.y - chip.height / 2 };
+  const { x: left, y: top } = cornerOf(chip);
+  const style = { left, top, "--lift": `${String(lift)}px` } as CSSProperties;
   return (
     <div className={classes.mark} style={style}>
       {tests > 0 ? (

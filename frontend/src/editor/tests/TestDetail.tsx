@@ -295,7 +295,7 @@ function Result({ result }: { result: TestResult }) {
             {each.ok ? null : (
               <small lang={seenWords(each, t).lang}>{t("tests.saw", { what: seenWords(each, t).text })}</small>
             )}
-            <Measured span={result.odds?.figures[index] ?? null} />
+            <Measured span={result.odds?.figures[index] ?? null} inTime={each.kind === "within_s"} />
           </li>
         ))}
       </ul>
@@ -315,12 +315,11 @@ function Result({ result }: { result: TestResult }) {
 }
 
 /** What an expectation has measured with many seeds. */
-function Measured({ span }: { span: TestOdds["figures"][number] }) {
+function Measured({ span, inTime }: { span: TestOdds["figures"][number]; inTime: boolean }) {
   const { t } = useTranslation();
   if (!span || span.least === span.most) return null;
-  return (
-    <small>{t("tests.odds_figure", { least: formatNumber(span.least, 1), most: formatNumber(span.most, 1) })}</small>
-  );
+  const [least, most] = [span.least, span.most].map((value) => (inTime ? formatSpan(value) : formatNumber(value, 1)));
+  return <small>{t("tests.odds_figure", { least, most })}</small>;
 }
 
 function OddsWords({ odds }: { odds: TestOdds }) {

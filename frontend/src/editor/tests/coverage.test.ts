@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { TestCoverage } from "@/api/types";
-import { figuresOf, marksOf, missedOf, wordsOf } from "./coverage";
+import { figuresOf, liftsOf, marksOf, missedOf, wordsOf } from "./coverage";
 
 const CONSTRUCTS: TestCoverage["constructs"] = [
   { step: "late", line: 9, ways: { reached: 0, true: 0, false: 0 } },
@@ -33,4 +33,9 @@ test("each step has how many tests came there, and what of it none took", () => 
     { step: "choice", tests: 2, missed: ["false"] },
     { step: "guard", tests: 1, missed: ["catch timed_out"] },
   ]);
+});
+
+test("marks that would lie on each other stand above each other", () => {
+  const at = (x: number, y: number) => ({ x, y, width: 36 });
+  expect(liftsOf([at(0, 100), at(10, 105), at(20, 95), at(200, 100)])).toEqual([0, 38, 57, 0]);
 });

@@ -55,3 +55,27 @@ export function marksOf(constructs: Constructs): { step: string; tests: number; 
     missed: missed.get(step) ?? [],
   }));
 }
+
+export interface Placed {
+  readonly x: number;
+  readonly y: number;
+  readonly width: number;
+}
+
+const MARK_HIGH = 19;
+const MOST_UP = 4;
+
+/** How far up each mark moves, in pixels at full size, so that none lies on one before it. */
+export function liftsOf(marks: readonly Placed[]): number[] {
+  const done: Placed[] = [];
+  return marks.map((mark) => {
+    let lift = 0;
+    const meets = (other: Placed) =>
+      Math.abs(other.y - (mark.y - lift)) < MARK_HIGH &&
+      mark.x < other.x + other.width &&
+      other.x < mark.x + mark.width;
+    while (lift < MOST_UP * MARK_HIGH && done.some(meets)) lift += MARK_HIGH;
+    done.push({ ...mark, y: mark.y - lift });
+    return lift;
+  });
+}
