@@ -19,6 +19,7 @@ export function CoverageMarks() {
 }
 
 function Marks() {
+  const { t } = useTranslation();
   const { program, scene } = useOpenProgram();
   const coverage = useTests(program.id).data?.coverage;
   const marks = useMemo(() => {
@@ -29,11 +30,10 @@ function Marks() {
     const shown = all
       .sort((one, other) => Number(one.missed.length > 0) - Number(other.missed.length > 0))
       .slice(-MOST);
-    const lifts = liftsOf(
-      shown.map(({ chip, tests, missed }) => ({ ...cornerOf(chip), width: widthOf(tests, missed) })),
-    );
-    return shown.map((mark, index) => ({ ...mark, lift: lifts[index] ?? 0 }));
-  }, [coverage, scene]);
+    const told = shown.map((mark) => ({ ...mark, words: missedWords(mark.missed, t) }));
+    const lifts = liftsOf(told.map(({ chip, tests, words }) => ({ ...cornerOf(chip), width: widthOf(tests, words) })));
+    return told.map((mark, index) => ({ ...mark, lift: lifts[index] ?? 0 }));
+  }, [coverage, scene, t]);
   const plane = useOwnSize();
   return (
     <div ref={plane} className={`${classes.marks} nopan nodrag`} data-stale={coverage?.stale || undefined}>
@@ -46,22 +46,25 @@ function Marks() {
 
 const cornerOf = (chip: Chip) => ({ x: chip.at.x + chip.width / 2, y: chip.at.y - chip.height / 2 });
 
+const missedWords = (missed: readonly string[], t: (key: string) => string) =>
+  missed.map((way) => (way === "reached" ? t("tests.never") : wordsOf(way, t))).join(", ");
+
 /** About as wide as it is drawn: a number, and words that are cut. */
-function widthOf(tests: number, missed: readonly string[]): number {
-  return (tests > 0 ? 36 : 0) + (missed.length > 0 ? 195 : 0);
+function widthOf(tests: number, words: string): number {
+  return (tests > 0 ? 36 : 0) + (words ? Math.min(195, 30 + 6 * words.length) : 0);
 }
 
 interface MarkProps {
   chip: Chip;
   tests: number;
-  missed: readonly string[];
+  /** What none takes, empty if there is nothing. */
+  words: string;
   /** Pixels that it stands higher, so that it covers no other. */
   lift: number;
 }
 
-function Mark({ chip, tests, missed, lift }: MarkProps) {
+function Mark({ chip, tests, words, lift }: MarkProps) {
   const { t } = useTranslation();
-  const words = missed.map((way) => (way === "reached" ? t("tests.never") : wordsOf(way, t))).join(", ");
   const { x: left, y: top } = cornerOf(chip);
   const style = { left, top, "--lift": `${String(lift)}px` } as CSSProperties;
   return (

@@ -63,7 +63,7 @@ export interface Placed {
 }
 
 const MARK_HIGH = 19;
-const MOST_UP = 4;
+const MOST_UP = 3;
 
 /** How far up each mark moves, in pixels at full size, so that none lies on one before it. */
 export function liftsOf(marks: readonly Placed[]): number[] {
