@@ -35,7 +35,8 @@ test("each step has how many tests came there, and what of it none took", () => 
   ]);
 });
 
-test("marks that would lie on each other stand above each other", () => {
-  const at = (x: number, y: number) => ({ x, y, width: 36 });
-  expect(liftsOf([at(0, 100), at(10, 105), at(20, 95), at(200, 100)])).toEqual([0, 38, 57, 0]);
+test("marks that would lie on each other stand above each other, where they cover least", () => {
+  const at = (x: number, y: number, width = 36) => ({ x, y, width });
+  expect(liftsOf([at(0, 100), at(10, 100), at(20, 100), at(200, 100)])).toEqual([0, 19, 38, 0]);
+  expect(liftsOf([at(0, 100), at(-30, 81), at(0, 62), at(0, 100, 160)])).toEqual([0, 0, 0, 19]);
 });

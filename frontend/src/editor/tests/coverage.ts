@@ -63,19 +63,24 @@ export interface Placed {
 }
 
 const MARK_HIGH = 19;
-const MOST_UP = 3;
+const LIFTS = [0, 1, 2].map((rows) => rows * MARK_HIGH);
 
-/** How far up each mark moves, in pixels at full size, so that none lies on one before it. */
+/** How far up each mark moves, in pixels at full size, so that it covers as little as can be of those before it. */
 export function liftsOf(marks: readonly Placed[]): number[] {
   const done: Placed[] = [];
   return marks.map((mark) => {
-    let lift = 0;
-    const meets = (other: Placed) =>
-      Math.abs(other.y - (mark.y - lift)) < MARK_HIGH &&
-      mark.x < other.x + other.width &&
-      other.x < mark.x + mark.width;
-    while (lift < MOST_UP * MARK_HIGH && done.some(meets)) lift += MARK_HIGH;
+    const costs = LIFTS.map((lift) =>
+      done.reduce((sum, other) => sum + shared({ ...mark, y: mark.y - lift }, other), 0),
+    );
+    const lift = LIFTS[costs.indexOf(Math.min(...costs))] ?? 0;
     done.push({ ...mark, y: mark.y - lift });
     return lift;
   });
+}
+
+/** The area that two marks share, in square pixels. */
+function shared(one: Placed, other: Placed): number {
+  const wide = Math.min(one.x + one.width, other.x + other.width) - Math.max(one.x, other.x);
+  const high = MARK_HIGH - Math.abs(one.y - other.y);
+  return wide > 0 && high > 0 ? wide * high : 0;
 }
