@@ -231,6 +231,13 @@ def call_method(request: HttpRequest, site: str, device_id: str, body: CallMetho
     return call_to_json(called)
 
 
+@router.get("/sites/{slug:site}/calls", response=list[CallShape])
+def list_open_calls(request: HttpRequest, site: str) -> list[dict[str, Any]]:
+    """Return what devices do now because somebody told them to by hand, oldest first."""
+    _require(request, site, "viewer")
+    return [call_to_json(call) for call in services.list_open_calls(site=site)]
+
+
 @router.get("/sites/{slug:site}/calls/{uuid:call}", response=CallShape)
 def get_call(request: HttpRequest, site: str, call: UUID) -> dict[str, Any]:
     """Return a call and what has come of it."""

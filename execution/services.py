@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from execution.commands.claim import OutgoingCommand, claim_commands, mark_sent, release_commands
 from execution.commands.invocations import action_to_json, find_action, invoke_action
-from execution.commands.manual_calls import call_method, cancel_call, expire_calls, get_call
+from execution.commands.manual_calls import call_method, cancel_call, expire_calls, get_call, list_open_calls
 from execution.commands.outbox import record_ack, resend_commands
 from execution.engine.dead_letters import (
     DeadLetterView,
@@ -121,6 +121,7 @@ __all__ = [
     "list_dead_letters",
     "list_events",
     "list_leases",
+    "list_open_calls",
     "list_open_rehearsals",
     "list_questions",
     "list_runs",

@@ -26,6 +26,7 @@ from registry.dashboards.values import list_heard_sites, read_told
 from registry.demo.devices import SITE as DEMO_SITE
 from registry.demo.devices import read_demo_descriptions
 from registry.demo.factory import get_demo_grid
+from registry.demo.workshop import Workshop, find_workshop
 from registry.devices.authentication import (
     Login,
     Principal,
@@ -217,6 +218,7 @@ __all__ = [
     "TokenView",
     "TopicNotAsked",
     "TopicTaken",
+    "Workshop",
     "ZoneChange",
     "ZoneView",
     "account_file",
@@ -262,6 +264,7 @@ __all__ = [
     "find_trouble",
     "find_unchanged",
     "find_wall",
+    "find_workshop",
     "find_zone",
     "flush_alerts",
     "flush_samples",

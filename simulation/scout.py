@@ -1,7 +1,8 @@
-"""A simulated robot that maps a floor which nobody has given it, when it is told to `explore`, and sends the map.
+"""A simulated robot that maps a floor which nobody has given it, when it is told to `explore`, and drives on it then.
 
 It is a device of its own, in a process of its own, and says nothing that a real robot could not: it joins, waits to be
-approved, tells where it believes to be, and sends what it has seen on `up/map` while it drives.
+approved, tells where it believes to be, and sends what it has seen on `up/map` while it explores. Moves are driven by
+where it believes to be: its wheels slip, and its lidar tells it how far they did.
 """
 
 from __future__ import annotations
@@ -14,8 +15,9 @@ from dataclasses import dataclass, replace
 from queue import Empty, SimpleQueue
 
 from registry.floorplan.map_message import write_grid
-from simulation.actors import InitialState
-from simulation.actors.actor import Actor, Emit
+from simulation.actors import InitialState, Motion
+from simulation.actors.actor import Emit
+from simulation.actors.robot import Robot, Surroundings
 from simulation.mapping.survey import TICK_S, Expedition, SurveyPlan
 from simulation.site_facts import DescribedDevice
 from simulation.virtual_device import Appearance, VirtualDevice
@@ -29,7 +31,7 @@ from vipo_device.kit.connection import (
     StopChanged,
     leave,
 )
-from vipo_device.protocol.description import Description, MethodSpec, Pose, Size
+from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, Size
 from vipo_device.protocol.messages import EXPLORE, AckMessage, down_topic
 
 log = logging.getLogger(__name__)
@@ -60,54 +62,96 @@ def describe_scout(plan: ScoutPlan, start: Pose) -> Description:
         device_class="turtlebot",
         pose=start,
         size=Size(2 * robot.radius_m, 2 * robot.radius_m, 0.2),
-        description="Maps a floor with its lidar.",
+        description="Maps a floor with its lidar, and drives on it.",
         site=plan.site,
         simulated=True,
         radius_m=robot.radius_m,
         speed_m_s=robot.speed_m_s,
-        methods=(MethodSpec(EXPLORE, down_topic(plan.device, EXPLORE), "signal", "Explore"),),
+        methods=(
+            MethodSpec(
+                "move", down_topic(plan.device, "move"), "location", "Move", (ParameterSpec("path", "location"),)
+            ),
+            MethodSpec(EXPLORE, down_topic(plan.device, EXPLORE), "signal", "Explore"),
+        ),
     )
 
 
-class ScoutActor(Actor):
-    """What the robot does with commands. Exploring that was cancelled goes on where it was; one that is over is new."""
+class ScoutActor(Robot):
+    """What the robot does with commands: it explores, or drives where it is told to on the map that it has made.
+
+    Exploring that was cancelled goes on where it was; one that is over is new.
+    """
 
     def __init__(self, description: Description, emit: Emit, survey: SurveyPlan) -> None:
-        super().__init__(description, emit, InitialState())
+        grid = survey.grid
+        left, low = grid.origin_x_m, grid.origin_y_m
+        bounds = (left, low, left + grid.width * grid.resolution_m, low + grid.height * grid.resolution_m)
+        super().__init__(description, emit, InitialState(), Surroundings({}, bounds))
         self._plan = replace(survey, start=description.pose)
         self.expedition = Expedition(self._plan)
-        self._command = ""
+        self._exploring = ""
+
+    @property
+    def explores(self) -> bool:
+        """True while the robot drives where it likes."""
+        return bool(self._exploring)
 
     @property
     def busy(self) -> bool:
-        """True while the robot explores."""
-        return bool(self._command)
+        """True while the robot explores, or has been told to drive."""
+        return self.explores or super().busy
 
     def _take_on(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> str:
+        if self.explores:
+            name = self.description.name
+            return f"{name} explores{' already' if method == EXPLORE else '. Wait until it is done, or cancel that'}."
+        if method != EXPLORE:
+            self.stands_at(self._motion())
+            return super()._take_on(t_s, method, arguments, command)
         if self.busy:
-            return f"{self.description.name} explores already."
+            return f"{self.description.name} drives. Wait until it stands, or cancel that."
         if self.expedition.is_over:
-            at = self.expedition.maker.pose
-            self._plan = replace(self._plan, seed=self._plan.seed + 1, start=replace(at, z=0.0))
-            self.expedition = Expedition(self._plan)
-        self._command = command
+            self._begin_anew()
+        self._exploring = command
         self._say(t_s, AckMessage(command, "ACCEPTED"))
         self._say(t_s, AckMessage(command, "RUNNING"))
         return ""
 
+    def _begin_anew(self) -> None:
+        """Make a new map in the old one's coordinates: a heading that is off by a degree would turn all of it."""
+        believed = self.expedition.look_round()
+        self._plan = replace(self._plan, seed=self._plan.seed + 1, start=self.expedition.pose)
+        self.expedition = Expedition(self._plan, believed)
+
     def _cancel(self, t_s: float, command: str) -> None:
-        if self.busy and command in {"", self._command}:
-            ended, self._command = self._command, ""
+        if not self.explores:
+            super()._cancel(t_s, command)
+        elif command in {"", self._exploring}:
+            ended, self._exploring = self._exploring, ""
             self._say(t_s, AckMessage(ended, "CANCELED", "The robot stands where it is, and keeps its map."))
 
     def advance(self, t_s: float) -> None:
         """Let a tick pass at `t_s`."""
-        if not self.busy or self.frozen:
+        if not self.explores:
+            self._be_steered(t_s)
+        elif not self.frozen:
+            self.expedition.tick()
+            if self.expedition.is_over:
+                ended, self._exploring = self._exploring, ""
+                self._say_done(t_s, ended)
+
+    def _be_steered(self, t_s: float) -> None:
+        """Drive along what was released, by where the robot believes to be."""
+        if self.resting:
             return
-        self.expedition.tick()
-        if self.expedition.is_over:
-            ended, self._command = self._command, ""
-            self._say_done(t_s, ended)
+        expedition = self.expedition
+        expedition.drive(*self.control(self._motion(), t_s, TICK_S))
+        self.stands_before = "something stands in its way" if expedition.stands_before else ""
+
+    def _motion(self) -> Motion:
+        """Return where the robot believes to be, and how fast it is."""
+        believed, (speed, turn) = self.expedition.maker.pose, self.expedition.pace
+        return Motion(believed.x, believed.y, believed.theta, speed, turn)
 
 
 class Scout:
@@ -123,6 +167,7 @@ class Scout:
         source = DescribedDevice(description, write_description(description).encode())
         self._device = VirtualDevice(source, plan.site, plan.boot, self._inbox.put)
         self._ticks = self._maps = self._sent_scans = 0
+        self._repeats_map = self._explored = False
         self._due_s, self._sent_s = 0.0, -SEND_EVERY_S
 
     def run(self, stopping: threading.Event) -> None:
@@ -153,7 +198,7 @@ class Scout:
                 self._actor.command(self._time_s, command.method, command.arguments, command.id)
             case IntroductionDue():
                 self._device.introduce()
-                self._sent_scans = 0  # whoever listens now may not know the map
+                self._repeats_map = self._maps > 0  # whoever listens now may not know it
             case StopChanged(active=active):
                 self._actor.held = active
 
@@ -174,7 +219,8 @@ class Scout:
         acks = [event for event in self._events if isinstance(event, Ack)]
         self._events.clear()
         is_over = any(ack.is_final for ack in acks)
-        self._send_map(now_s, at_once=is_over)
+        self._send_map(now_s, at_once=is_over and self._explored)
+        self._explored = self._actor.explores
         pose = self._actor.expedition.maker.pose
         shown = Pose(round(pose.x, 3), round(pose.y, 3), 0.0, round(pose.theta, 3))
         self._device.report(Appearance(not self._actor.busy, shown, {}), now_s, at_once=is_over)
@@ -182,10 +228,13 @@ class Scout:
             self._device.answer(ack)
 
     def _send_map(self, now_s: float, *, at_once: bool) -> None:
+        """Send the map while it grows; one that a restart began anew, and that moves add to, is nobody's business."""
         maker = self._actor.expedition.maker
+        grows = (self._actor.explores or at_once) and maker.matches not in {0, self._sent_scans}
         is_due = at_once or now_s - self._sent_s >= SEND_EVERY_S
-        if not is_due or maker.matches in {0, self._sent_scans} or not self._device.is_introduced:
+        if not is_due or not (grows or self._repeats_map) or not self._device.is_introduced:
             return
         self._maps += 1
+        self._repeats_map = False
         self._sent_s, self._sent_scans = now_s, maker.matches
         self._device.send_map(write_grid(maker.grid(), self._plan.boot, self._maps))

@@ -172,6 +172,12 @@ def get_call(*, site: str, call_id: UUID) -> CallView:
     return view_call(_find(site, call_id))
 
 
+def list_open_calls(*, site: str) -> list[CallView]:
+    """Return the calls of a site that are under way, oldest first."""
+    rows = Command.objects.filter(site__slug=site, run=None, status__in=Command.OPEN)
+    return [view_call(row) for row in rows.exclude(by="").order_by("created_at", "id")]
+
+
 def cancel_call(*, site: str, call_id: UUID) -> CallView:
     """Ask the device to end a call; one that is over stays as it is. Raises NotFound."""
     command = _find(site, call_id)

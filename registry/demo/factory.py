@@ -1,4 +1,4 @@
-"""The painting factory's occupancy grid, made from its floor plan: `python -m registry.demo.factory` writes the map."""
+"""The demo's occupancy grids, made from their floor plans: `python -m registry.demo.factory` writes the maps."""
 
 from __future__ import annotations
 
@@ -16,16 +16,17 @@ FOLDER = Path(__file__).resolve().parent
 RESOLUTION_M = 0.05
 MARGIN_M = 0.5
 MAP_NAME = "painting-factory"
+_PLANS = {MAP_NAME: "factory.json", "workshop": "workshop.json"}
 
 
-def read_plan() -> dict[str, Any]:
-    """Return the floor plan; its y counts downwards."""
-    plan: dict[str, Any] = json.loads((FOLDER / "factory.json").read_text())
+def read_plan(name: str = MAP_NAME) -> dict[str, Any]:
+    """Return the floor plan of a map; its y counts downwards."""
+    plan: dict[str, Any] = json.loads((FOLDER / _PLANS[name]).read_text())
     return plan
 
 
 def make_grid(plan: dict[str, Any]) -> Grid:
-    """Return the grid that a scan of the empty factory would give: machines and robots are not in it."""
+    """Return the grid that a perfect scan of the empty building would give: machines and robots are not in it."""
     xs, ys = zip(*plan["outline"], strict=True)
     left, bottom = -MARGIN_M, -max(ys) - MARGIN_M
     width = round((max(xs) + 2 * MARGIN_M) / RESOLUTION_M)
@@ -64,12 +65,13 @@ def _inside(outline: list[list[float]], x: NDArray[np.float64], y: NDArray[np.fl
     return inside
 
 
-def write_map(folder: Path = FOLDER) -> None:
-    """Write the map's two files."""
-    grid = make_grid(read_plan())
-    (folder / f"{MAP_NAME}.pgm").write_bytes(write_pgm(grid))
-    (folder / f"{MAP_NAME}.yaml").write_bytes(write_yaml(grid, f"{MAP_NAME}.pgm"))
+def write_maps(folder: Path = FOLDER) -> None:
+    """Write each map's two files."""
+    for name in _PLANS:
+        grid = make_grid(read_plan(name))
+        (folder / f"{name}.pgm").write_bytes(write_pgm(grid))
+        (folder / f"{name}.yaml").write_bytes(write_yaml(grid, f"{name}.pgm"))
 
 
 if __name__ == "__main__":
-    write_map()
+    write_maps()

@@ -144,6 +144,10 @@ class MapMaker:
             return 0.0, 0.0
         return self._follow(self._course, ranges, dt_s)
 
+    def is_blocked(self, ranges: Floats) -> bool:
+        """Tell whether the lidar sees something so near ahead that the robot must not go on."""
+        return self._room_m(ranges) <= STOP_M
+
     def _plan(self) -> _Course | None:
         """Return the way to the next frontier, then home; None when all is over."""
         ground = survey_ground(self.occupancy, self.robot.radius_m, self.given_up)

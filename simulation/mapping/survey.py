@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import hypot
 
 import numpy as np
@@ -12,6 +12,7 @@ from registry.floorplan.plan import Grid
 from simulation.actors.follower import wrapped
 from simulation.mapping.floor import Lidar, LidarSpec, TrueFloor
 from simulation.mapping.map_maker import MapMaker, RobotSpec
+from simulation.mapping.occupancy import Floats
 from simulation.mapping.odometry import Odometry, OdometrySpec, moved
 from vipo_device.protocol.description import Pose
 
@@ -65,7 +66,8 @@ def run_survey(plan: SurveyPlan, watch: Callable[[float, MapMaker], None] | None
 class Expedition:
     """A robot on its way over a floor, tick by tick. Raises NoRoom where it does not fit."""
 
-    def __init__(self, plan: SurveyPlan) -> None:
+    def __init__(self, plan: SurveyPlan, believed: Pose | None = None) -> None:
+        """Stand at the plan's start; `believed` is where the robot takes that to be, if it errs."""
         self._plan, self._floor = plan, TrueFloor(plan.grid)
         start = plan.start or self._floor.roomiest()
         if self._floor.clearance_m(start.x, start.y) < plan.robot.radius_m:
@@ -76,9 +78,10 @@ class Expedition:
         self._lidar = Lidar(self._floor, plan.lidar, np.random.default_rng(seeds[0]))
         self._odometry = Odometry(plan.odometry, np.random.default_rng(seeds[1]))
         anchor = (plan.grid.origin_x_m, plan.grid.origin_y_m)
-        self.maker = MapMaker(plan.robot, start, plan.grid.resolution_m, anchor)
+        self.maker = MapMaker(plan.robot, believed or start, plan.grid.resolution_m, anchor)
         self._start = self.pose = start
         self._ticks, self._speed, self._turn = 0, 0.0, 0.0
+        self.stands_before = False
         self._driven_m, self._bumps = 0.0, 0
         self._errors = (0.0, 0.0)
 
@@ -92,25 +95,49 @@ class Expedition:
         """True when the map is made, or the time is over."""
         return self.maker.is_done or self.time_s >= self._plan.longest_s
 
+    @property
+    def pace(self) -> tuple[float, float]:
+        """Return how fast the robot drives (m/s) and turns (rad/s)."""
+        return self._speed, self._turn
+
     def tick(self) -> bool:
-        """Let a tick pass; True when a scan went into the map."""
-        maker, sees = self.maker, False
+        """Let a tick pass in which the robot explores; True when a scan went into the map."""
+        sees = False
         self._move(self._speed, self._turn)
         if self._ticks % SCAN_EVERY == 0:
-            ranges = self._lidar.scan(self.pose)
-            sees = maker.wants_scan()
-            if sees:
-                maker.see(ranges)
-                self._note_error()
-            self._speed, self._turn = maker.drive(ranges, SCAN_EVERY * TICK_S)
+            ranges, sees = self._look()
+            self._speed, self._turn = self.maker.drive(ranges, SCAN_EVERY * TICK_S)
         self._ticks += 1
         return sees
 
+    def drive(self, speed: float, turn: float) -> None:
+        """Let a tick pass in which the robot is steered (m/s, rad/s); it stands before what its lidar sees ahead."""
+        if self._ticks % SCAN_EVERY == 0:
+            ranges, _ = self._look()
+            self.stands_before = speed > 0 and self.maker.is_blocked(ranges)
+        self._speed, self._turn = 0.0 if self.stands_before else speed, turn
+        self._move(self._speed, self._turn)
+        self._ticks += 1
+
+    def _look(self) -> tuple[Floats, bool]:
+        """Scan; what is far enough from the last scan goes into the map, and says where the robot is."""
+        ranges = self._lidar.scan(self.pose)
+        sees = self.maker.wants_scan()
+        if sees:
+            self.maker.see(ranges)
+            self._note_error()
+        return ranges, sees
+
     def survey(self) -> Survey:
         """Look round once more, and return what has come of it."""
+        self.look_round()
+        return self._survey(self.time_s)
+
+    def look_round(self) -> Pose:
+        """Scan where the robot stands, and return where it believes to be then."""
         self.maker.see(self._lidar.scan(self.pose))
         self._note_error()
-        return self._survey(self.time_s)
+        return replace(self.maker.pose, z=0.0)
 
     def _move(self, speed: float, turn: float) -> None:
         """Drive for a tick; a robot that would touch something stands, and its wheels do, too."""

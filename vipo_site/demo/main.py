@@ -15,12 +15,9 @@ import os
 import shutil
 import signal
 import socket
-import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -29,70 +26,18 @@ from daphne.server import Server  # installs Twisted's asyncio reactor, so it co
 from django.core.exceptions import ImproperlyConfigured
 
 from vipo_device.protocol.errors import VipoError
+from vipo_site.demo.children import HOST, Part, say, start_children
 
 log = logging.getLogger(__name__)
-HOST = "127.0.0.1"
 WEB_PORT = 8000
 MQTT_PORT = 1883
 MIB = 1024 * 1024
 STOP_LIMIT_S = 10.0
+EMPTY = "empty"
 
 
 class CannotStart(Exception):
     """The demo cannot start; the message says why and what to do."""
-
-
-@dataclass(slots=True)
-class Part:
-    """A part that is stopped when the demo ends; parts stop in the reverse order of their start."""
-
-    name: str
-    stop: Callable[[], None]
-
-
-@dataclass(slots=True)
-class Child:
-    """A child process that is started again, ever more slowly, when it dies; `find_command` may take its time."""
-
-    name: str
-    find_command: Callable[[], list[str]]
-    process: subprocess.Popen[bytes] | None = None
-    stopping: threading.Event = field(default_factory=threading.Event)
-    thread: threading.Thread | None = None
-
-    def start(self) -> None:
-        """Start the child and the thread that watches it."""
-        self.thread = threading.Thread(target=self._watch, name=f"watch-{self.name}", daemon=True)
-        self.thread.start()
-
-    def _watch(self) -> None:
-        from registry.services import sigint_blocked
-
-        pause_s = 1.0
-        command = self.find_command()
-        while not self.stopping.is_set():
-            started = time.monotonic()
-            # The command is built from this module's own constants and paths.
-            wrapped = [sys.executable, "-m", "vipo_site.demo.child", str(os.getpid()), *command]
-            with sigint_blocked():
-                self.process = subprocess.Popen(wrapped)  # noqa: S603
-            code = self.process.wait()
-            if self.stopping.is_set():
-                return
-            pause_s = 1.0 if time.monotonic() - started > 30 else min(pause_s * 2, 30)
-            log.warning("%s ended with code %s; it starts again in %.0f s", self.name, code, pause_s)
-            self.stopping.wait(pause_s)
-
-    def stop(self) -> None:
-        """Ask the child to end, and make it end after 4 s."""
-        self.stopping.set()
-        if self.process is None or self.process.poll() is not None:
-            return
-        self.process.terminate()
-        try:
-            self.process.wait(4)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
 
 
 def port_is_free(port: int) -> bool:
@@ -116,11 +61,14 @@ def any_free_port() -> int:
 
 
 def read_arguments(arguments: list[str]) -> argparse.Namespace:
-    """Read the command line; the Makefile passes PORT, RESET and SPEED on."""
+    """Read the command line; the Makefile passes PORT, RESET, SPEED and FLOOR on."""
     parser = argparse.ArgumentParser(prog="make demo", description="Run VIPO with the painting factory.")
     parser.add_argument("--port", type=int, default=os.environ.get("PORT") or str(WEB_PORT))
     parser.add_argument("--reset", action="store_true", default=os.environ.get("RESET") == "1")
     parser.add_argument("--speed", type=float, default=os.environ.get("SPEED") or "1")
+    parser.add_argument(
+        "--floor", default=os.environ.get("FLOOR") or "", help="empty: begin with one nobody has mapped"
+    )
     return parser.parse_args(arguments)
 
 
@@ -130,6 +78,8 @@ def check_arguments(options: argparse.Namespace) -> None:
         raise CannotStart(f"PORT={options.port} is not a port; choose a number from 1 to 65535.")
     if not 0.1 <= options.speed <= 50:
         raise CannotStart(f"SPEED={options.speed:g} is outside 0.1 to 50; 1 is real time.")
+    if options.floor not in {"", EMPTY}:
+        raise CannotStart(f"FLOOR={options.floor} is not known; FLOOR={EMPTY} adds a site that nobody has mapped.")
     if not port_is_free(options.port):
         raise CannotStart(
             f"Port {options.port} of this machine is in use. Stop what uses it, or choose another one: "
@@ -158,12 +108,12 @@ def reset_state(folder: Path) -> None:
         shutil.rmtree(folder / name, ignore_errors=True)
 
 
-def prepare_database() -> None:
-    """Bring the database up to date and fill in the painting factory."""
+def prepare_database(floor: str) -> None:
+    """Bring the database up to date, fill in the painting factory, and make the empty site if it is asked for."""
     from django.core.management import call_command
 
     call_command("migrate", verbosity=0, interactive=False)
-    call_command("seed_demo", verbosity=0)
+    call_command("seed_demo", verbosity=0, empty_floor=floor == EMPTY)
     from editor import services as editor
 
     editor.seed_programs(site="painting-factory")
@@ -242,59 +192,24 @@ def start_broker() -> Part:
     return Part("broker", handle.stop)
 
 
-def start_children(state: Path, speed: float) -> list[Part]:
-    """Start the pretend world, and the firmware on MicroPython."""
-    from django.conf import settings
-
-    twin_command = [
-        *(sys.executable, str(settings.BASE_DIR / "manage.py"), "twin", "--site", "painting-factory"),
-        *("--speed", str(speed), "--except", "paintMixer02"),
-    ]
-    children = (Child("twin", lambda: twin_command), Child("firmware", lambda: find_firmware(state, speed)))
-    for child in children:
-        child.start()
-    return [Part(child.name, child.stop) for child in children]
-
-
-def find_firmware(state: Path, speed: float) -> list[str]:
-    """Return the firmware's command; fetches MicroPython the first time, which may take a minute."""
-    from django.conf import settings
-
-    from vipo_site.demo.firmware_process import firmware_command
-
-    credentials = json.loads((state / "secrets" / "devices.json").read_text())
-    command, notice = firmware_command(
-        state,
-        {
-            "host": HOST,
-            "port": settings.VIPO_MQTT["port"],
-            "id": "paintMixer02",
-            "password": credentials["paintMixer02"],
-            "join_key": (state / "secrets" / "join").read_text().strip(),
-            "speed": speed,
-        },
-    )
-    if notice:
-        say(notice)
-    return command
-
-
-def say(text: str) -> None:
-    """Tell the person at the terminal."""
-    sys.stdout.write(text + "\n")
-    sys.stdout.flush()
-
-
 def greet(options: argparse.Namespace, state: Path) -> None:
     """Say where the demo is and who can sign in."""
     from django.conf import settings
 
+    from registry import services as registry
+
     accounts = json.loads((state / "demo-accounts.json").read_text())
     lines = [f"  {a['role']:<7} {a['email']:<22} {a['password']}" for a in accounts]
     pace = "" if options.speed == 1 else f" (simulated devices at {options.speed:g} times real time)"
+    workshop = registry.find_workshop() if options.floor == EMPTY else None
+    empty = (
+        f"A site whose floor nobody has mapped: http://{HOST}:{options.port}/sites/{workshop.site}\n\n"
+        if workshop
+        else ""
+    )
     say(
         f"\nVIPO is ready: http://{HOST}:{options.port}{pace}\n\nSign in as\n" + "\n".join(lines) + "\n\n"
-        f"Devices join at mqtt://{HOST}:{settings.VIPO_MQTT['port']}. Ctrl-C stops everything; "
+        f"{empty}Devices join at mqtt://{HOST}:{settings.VIPO_MQTT['port']}. Ctrl-C stops everything; "
         f"`make demo RESET=1` begins anew.\n"
     )
 
@@ -357,7 +272,7 @@ def run(options: argparse.Namespace) -> None:
     state.mkdir(parents=True, exist_ok=True)
     django.setup()
     say("Preparing the painting factory …")
-    prepare_database()
+    prepare_database(options.floor)
     parts: list[Part] = []
     try:
         parts = start_parts(options, Path(settings.VIPO_STATE_DIR))

@@ -1,7 +1,8 @@
 /** Which address shows which screen. A screen is loaded when it is first needed. */
 import { lazy, Suspense, type ComponentType } from "react";
-import { createBrowserRouter, Navigate, type RouteObject } from "react-router-dom";
+import { createBrowserRouter, Navigate, useParams, type RouteObject } from "react-router-dom";
 import { loadScreenTexts } from "@/i18n";
+import { keepSite } from "@/shell/currentSite";
 import { Waiting } from "@/shell/LoadProblem";
 import { RequireUser } from "./RequireUser";
 import { RouteProblem } from "./RouteProblem";
@@ -68,6 +69,13 @@ function pick(module: Record<string, ComponentType>, name: string): ComponentTyp
   return screen;
 }
 
+/** A site's own address leads home, which is about the site that was looked at last. */
+function SiteHome() {
+  const { slug = "" } = useParams();
+  keepSite(slug);
+  return <Navigate to="/" replace />;
+}
+
 export function makeRouter() {
   return createBrowserRouter([
     {
@@ -84,7 +92,7 @@ export function makeRouter() {
       errorElement: <RouteProblem />,
       children: [
         ...ROUTES.flatMap(([path, file]) => route(path, file)),
-        { path: "/sites/:slug", element: <Navigate to="devices" replace /> },
+        { path: "/sites/:slug", element: <SiteHome /> },
         { path: "*", element: <RouteProblem /> },
       ],
     },

@@ -62,8 +62,25 @@ def test_operators_and_above_may_call_and_every_member_may_follow(factory, role)
     made = Command.objects.first() or Command.objects.get(id=call(time=2).id)
     path = f"/api/sites/{SITE}/calls/{made.id}"
     assert client.get(path).status_code == (200 if role in ROLES else refused)
+    listed = client.get(f"/api/sites/{SITE}/calls")
+    assert listed.status_code == (200 if role in ROLES else refused)
+    assert role not in ROLES or [each["id"] for each in listed.json()] == [str(made.id)]
     assert client.post(f"{path}/cancel").status_code == refused
     assert InboxEvent.objects.filter(key=f"call-cancel:{made.id}").exists() is allowed
+
+
+def test_what_is_under_way_is_listed_oldest_first_and_what_is_over_is_not(factory):
+    first, second = call(time=2), call("paintMachine01", "paint", time=1)
+    client = sign_in_member("viewer", SITE)
+
+    def listed():
+        return [each["id"] for each in client.get(f"/api/sites/{SITE}/calls").json()]
+
+    assert listed() == [str(first.id), str(second.id)]
+    factory.go(lambda: state(second).is_over, dt_s=10.0)
+    assert str(second.id) not in listed()
+    factory.go(lambda: state(first).is_over, dt_s=10.0)
+    assert listed() == []
 
 
 @pytest.mark.parametrize(

@@ -80,7 +80,7 @@ def known(grid: Grid) -> int:
 def test_it_says_what_it_is_maps_when_it_is_told_to_and_sends_the_map_before_it_says_done(ear: Ear) -> None:
     described = read_description(ear.wait(lambda h: h.topic.endswith("/desc")).payload, device_id=SCOUT)
     assert (described.kind, described.simulated) == ("robot", True)
-    assert [method.name for method in described.methods] == ["explore"]
+    assert [method.name for method in described.methods] == ["move", "explore"]
     ear.tell(SCOUT, "explore", "go")
     answered(ear, "go", "RUNNING")
     ear.tell(SCOUT, "explore", "again")
@@ -108,6 +108,18 @@ def test_after_a_cancel_it_goes_on_with_the_same_map(ear: Ear) -> None:
     ear.tell(SCOUT, "explore", "on")
     answered(ear, "on", "DONE")
     assert known(maps(ear)[-1]) > known(before) > 0
+
+
+def test_it_drives_where_it_is_told_to_and_sends_no_map_of_that(ear: Ear) -> None:
+    ear.tell(SCOUT, "explore", "go")
+    answered(ear, "go", "DONE")
+    before = len(maps(ear))
+    ear.tell(SCOUT, "move", "drive", path=[[3.5, 1.0], [3.5, 3.0]])
+    answered(ear, "drive", "DONE")
+    state = parse_state(ear.all(f"{SCOUT}/up/state")[-1].payload)
+    assert state.pose is not None
+    assert (state.pose.x, state.pose.y) == pytest.approx((3.5, 3.0), abs=0.05)
+    assert len(maps(ear)) == before
 
 
 def test_the_sites_stop_holds_it_where_it_is(ear: Ear) -> None:

@@ -3,14 +3,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from registry.demo.devices import DEVICES, describe_devices, write_devices
-from registry.demo.factory import FOLDER, make_grid, read_plan, write_map
+from registry.demo.factory import FOLDER, make_grid, read_plan, write_maps
 from registry.floorplan.plan import FloorPlan, cells_array, stations
 
 
-def test_the_committed_map_is_the_one_that_is_made(tmp_path: Path) -> None:
-    write_map(tmp_path)
-    for name in ("painting-factory.pgm", "painting-factory.yaml"):
-        assert (tmp_path / name).read_bytes() == (FOLDER / name).read_bytes()
+def test_the_committed_maps_are_the_ones_that_are_made(tmp_path: Path) -> None:
+    write_maps(tmp_path)
+    made = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
+    assert sorted(made) == ["painting-factory.pgm", "painting-factory.yaml", "workshop.pgm", "workshop.yaml"]
+    assert made == {name: (FOLDER / name).read_bytes() for name in made}
 
 
 def test_the_committed_descriptions_are_the_ones_that_are_made(tmp_path: Path) -> None:

@@ -18,7 +18,16 @@ function hindrance(
   return device.status === "offline" ? "offline" : null;
 }
 
-export function TryButton({ site, device, method }: { site: Site; device: Device; method: DeviceMethod }) {
+interface TryButtonProps {
+  site: Site;
+  device: Device;
+  method: DeviceMethod;
+  /** What stands on the button where it is more than one of many, and whether it is the main thing to press there. */
+  words?: string;
+  main?: boolean;
+}
+
+export function TryButton({ site, device, method, words, main = false }: TryButtonProps) {
   const { t } = useTranslation();
   const [open, setOpen] = useState(false);
   const why = hindrance(site, device, method);
@@ -26,15 +35,15 @@ export function TryButton({ site, device, method }: { site: Site; device: Device
     <>
       <Tooltip label={why ? t(`device.try.${why}`) : t("device.try.openOf", { method: method.name })}>
         <Button
-          size="compact-sm"
-          variant="default"
-          aria-label={t("device.try.openOf", { method: method.name })}
+          size={words ? "sm" : "compact-sm"}
+          variant={main ? "filled" : "default"}
+          aria-label={words ?? t("device.try.openOf", { method: method.name })}
           aria-disabled={why !== null}
           data-disabled={why !== null || undefined}
           leftSection={<Play size={13} aria-hidden="true" />}
           onClick={() => setOpen(why === null)}
         >
-          {t("device.try.open")}
+          {words ?? t("device.try.open")}
         </Button>
       </Tooltip>
       {open ? <TryMethod site={site} device={device} method={method} onClose={() => setOpen(false)} /> : null}

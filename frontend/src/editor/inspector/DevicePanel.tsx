@@ -10,6 +10,7 @@ import { IconButton } from "@/design/IconButton";
 import { StatusBadge } from "@/design/StatusBadge";
 import { useNow } from "@/design/useNow";
 import { DeviceHistory } from "@/device/history/DeviceHistory";
+import { OpenCall } from "@/device/methods/OpenCall";
 import { TryButton } from "@/device/methods/TryButton";
 import { LiveProperties } from "@/device/readings/LiveProperties";
 import { activityWords } from "@/i18n/activity";
@@ -80,6 +81,7 @@ function Body({ device }: { device: Device }) {
       <Image device={device} />
       <DeviceAlerts slug={site.slug} devices={[device.id]} />
       {device.description ? <p className={classes.now}>{device.description}</p> : null}
+      <OpenCall site={site} device={device} />
       <div className={styles.readings}>
         <LiveProperties site={site} device={device} />
       </div>

@@ -19,6 +19,7 @@ import { DescriptionTable } from "./description/DescriptionTable";
 import { jobOf } from "./filter";
 import { useFocusInList } from "./focus";
 import { AskKeyDecision, KeyMenuItems, KeyTrouble, type KeyDecision } from "./keys/KeyActions";
+import { OpenCall } from "@/device/methods/OpenCall";
 import { LiveProperties } from "@/device/readings/LiveProperties";
 import { Methods } from "./methods/Methods";
 import { RdfSource } from "./description/RdfSource";
@@ -86,6 +87,7 @@ function Overview({ site, device }: { site: Site; device: Device }) {
       <DeviceAlerts slug={site.slug} devices={[device.id]} />
       {device.description ? <p>{device.description}</p> : null}
       <KeyTrouble device={device} />
+      <OpenCall site={site} device={device} />
       <LiveProperties site={site} device={device} />
       {device.kind === "robot" && device.lifecycle === "approved" ? <RobotMapCard site={site} device={device} /> : null}
       <Methods site={site} device={device} />

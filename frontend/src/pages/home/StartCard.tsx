@@ -1,14 +1,17 @@
 /** From an empty site to its first program: what is done, what is next, and where; else something else. */
 import { Button } from "@mantine/core";
 import { ArrowRight } from "lucide-react";
-import type { ReactNode } from "react";
+import { useMemo, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { useDevices, usePrograms, useSiteMap } from "@/api/queries";
-import type { Site, SiteMap } from "@/api/types";
+import { useRobotMap } from "@/api/robotMaps";
+import type { Device, Site, SiteMap } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { StaticMap } from "@/map/StaticMap";
+import { planOf } from "../devices/robotMap/robotPlan";
+import { MappingRobots, useMappingRobots } from "../map/MappingRobots";
 import { useCreateProgram } from "../programs/NewProgram";
 import styles from "./home.module.css";
 import { mayDo, startSteps, whereTo, type StartStep } from "./startSteps";
@@ -44,11 +47,27 @@ export function StartCard({ site, otherwise }: { site: Site; otherwise: ReactNod
         {map ? (
           <StaticMap plan={map} devices={devices} label={t("pages.map.of", { site: site.name })} />
         ) : (
-          <p>{t("mapEdit.start.picture")}</p>
+          <Unmapped slug={site.slug} />
         )}
       </div>
     </Panel>
   );
+}
+
+/** Where there is no map yet: the one that a robot is making, or a word. */
+function Unmapped({ slug }: { slug: string }) {
+  const { t } = useTranslation();
+  const robot = useMappingRobots(slug).find((each) => each.lifecycle === "approved");
+  const none = <p>{t("mapEdit.start.picture")}</p>;
+  return robot ? <GrowingMap slug={slug} robot={robot} otherwise={none} /> : none;
+}
+
+function GrowingMap({ slug, robot, otherwise }: { slug: string; robot: Device; otherwise: ReactNode }) {
+  const { t } = useTranslation();
+  const { data: map } = useRobotMap(slug, robot.id);
+  const plan = useMemo(() => (map ? planOf(map) : null), [map]);
+  if (!plan) return otherwise;
+  return <StaticMap plan={plan} devices={[robot]} label={t("mapEdit.start.growing", { name: robot.name })} />;
 }
 
 function Steps({ site, steps, next }: { site: Site; steps: readonly StartStep[]; next: StartStep }) {
@@ -99,9 +118,16 @@ function Next({ site, step }: { site: Site; step: StartStep }) {
         {words}
       </Button>
     );
-  return (
+  const go = (
     <Button size="md" component={Link} to={whereTo(site.slug, key)} rightSection={icon}>
       {words}
     </Button>
+  );
+  if (key !== "map") return go;
+  return (
+    <div className={styles.choices}>
+      {go}
+      <MappingRobots slug={site.slug} waiting />
+    </div>
   );
 }

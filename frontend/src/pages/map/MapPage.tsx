@@ -174,7 +174,7 @@ export function MapPage() {
                 {t("mapEdit.upload")}
               </Button>
             ) : null}
-            <MappingRobots slug={slug} />
+            <MappingRobots slug={slug} waiting={site.data.role === "admin"} />
           </EmptyState>
         </Panel>
       ) : null}

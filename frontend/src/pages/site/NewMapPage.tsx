@@ -15,6 +15,7 @@ import { Panel } from "@/design/Panel";
 import { rosForm, type CellMap } from "@/map/floor/rosFiles";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
+import { MappingRobots, useMappingRobots } from "../map/MappingRobots";
 import { SaveDialog } from "../mapEdit/SaveDialog";
 import { AlignPanel } from "./align/AlignPanel";
 import { useAlignment } from "./align/useAlignment";
@@ -53,20 +54,40 @@ function FirstMap({ site }: { site: Site }) {
   const problem = bring.isError ? problemText(bring.error, t("shell.problem.screen")) : null;
   return (
     <div className={styles.page}>
-      <Panel className={styles.card}>
-        <form onSubmit={submit} className={styles.form}>
-          <div>
-            <h2>{t("mapEdit.first", { site: site.name })}</h2>
-            <p>{t("pages.newSite.text")}</p>
-          </div>
-          <MapChoiceFields choice={choice} problem={problem} choose={choose} />
-          <Button type="submit" size="md" disabled={!choice.isReady} loading={bring.isPending}>
-            {t("mapEdit.use")}
-          </Button>
-        </form>
-      </Panel>
+      <div className={styles.choices}>
+        <Panel className={styles.card}>
+          <form onSubmit={submit} className={styles.form}>
+            <div>
+              <h2>{t("mapEdit.first", { site: site.name })}</h2>
+              <p>{t("pages.newSite.text")}</p>
+            </div>
+            <MapChoiceFields choice={choice} problem={problem} choose={choose} />
+            <Button type="submit" size="md" disabled={!choice.isReady} loading={bring.isPending}>
+              {t("mapEdit.use")}
+            </Button>
+          </form>
+        </Panel>
+        <ByRobot slug={site.slug} />
+      </div>
       <MapChoicePreview choice={choice} />
     </div>
+  );
+}
+
+/** The other way to a first map, where a robot is at hand that can make one. */
+function ByRobot({ slug }: { slug: string }) {
+  const { t } = useTranslation();
+  if (useMappingRobots(slug).length === 0) return null;
+  return (
+    <Panel className={styles.card}>
+      <div className={styles.form}>
+        <div>
+          <h2>{t("mapEdit.byRobot")}</h2>
+          <p>{t("mapEdit.byRobotText")}</p>
+        </div>
+        <MappingRobots slug={slug} waiting />
+      </div>
+    </Panel>
   );
 }
 

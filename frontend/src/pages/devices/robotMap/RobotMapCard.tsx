@@ -6,12 +6,14 @@ import { useTranslation } from "react-i18next";
 import { robotMapFile, useRobotMap } from "@/api/robotMaps";
 import type { Device, RobotMap, Site } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
+import { TryButton } from "@/device/methods/TryButton";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatAge, formatAgo, formatNumber, withUnit } from "@/i18n/format";
 import { StaticMap } from "@/map/StaticMap";
 import { MapDownloads } from "../../map/MapDownloads";
 import { useNow } from "@/design/useNow";
 import { planOf } from "./robotPlan";
+import { EXPLORE } from "../../map/MappingRobots";
 import { UseRobotMap } from "./UseRobotMap";
 import styles from "./robotmap.module.css";
 
@@ -52,9 +54,8 @@ function Facts({ map }: { map: RobotMap }) {
   );
 }
 
-function Picture({ site, device, map }: { site: Site; device: Device; map: RobotMap }) {
+function Picture({ device, map }: { device: Device; map: RobotMap }) {
   const { t } = useTranslation();
-  const [using, setUsing] = useState(false);
   const plan = useMemo(() => planOf(map), [map]);
   return (
     <>
@@ -62,14 +63,18 @@ function Picture({ site, device, map }: { site: Site; device: Device; map: Robot
         <StaticMap plan={plan} devices={[device]} label={t("robotMap.of", { name: device.name })} />
       </div>
       <Facts map={map} />
-      <div className={styles.actions}>
-        {site.role === "admin" ? (
-          <Button leftSection={<MapPinned size={16} aria-hidden="true" />} onClick={() => setUsing(true)}>
-            {t("robotMap.use")}
-          </Button>
-        ) : null}
-        <MapDownloads fileOf={(form) => robotMapFile(site.slug, device.id, form)} />
-      </div>
+    </>
+  );
+}
+
+function UseMap({ site, device, map }: { site: Site; device: Device; map: RobotMap }) {
+  const { t } = useTranslation();
+  const [using, setUsing] = useState(false);
+  return (
+    <>
+      <Button leftSection={<MapPinned size={16} aria-hidden="true" />} onClick={() => setUsing(true)}>
+        {t("robotMap.use")}
+      </Button>
       {using ? <UseRobotMap site={site} device={device} map={map} onClose={() => setUsing(false)} /> : null}
     </>
   );
@@ -78,6 +83,7 @@ function Picture({ site, device, map }: { site: Site; device: Device; map: Robot
 export function RobotMapCard({ site, device }: { site: Site; device: Device }) {
   const { t } = useTranslation();
   const { data: map, error, refetch, isPending } = useRobotMap(site.slug, device.id);
+  const explore = device.methods.find((each) => each.name === EXPLORE);
   return (
     <section aria-labelledby="robot-map">
       <div className={styles.head}>
@@ -93,8 +99,21 @@ export function RobotMapCard({ site, device }: { site: Site; device: Device }) {
           </button>
         </p>
       ) : null}
-      {map === null ? <p className={styles.none}>{t("robotMap.none")}</p> : null}
-      {map ? <Picture site={site} device={device} map={map} /> : null}
+      {map === null ? <p className={styles.none}>{t(explore ? "robotMap.explorer" : "robotMap.none")}</p> : null}
+      {map ? <Picture device={device} map={map} /> : null}
+      <div className={styles.actions}>
+        {map && site.role === "admin" ? <UseMap site={site} device={device} map={map} /> : null}
+        {explore && map !== undefined ? (
+          <TryButton
+            site={site}
+            device={device}
+            method={explore}
+            words={t(map ? "robotMap.exploreAgain" : "robotMap.explore")}
+            main={map === null}
+          />
+        ) : null}
+        {map ? <MapDownloads fileOf={(form) => robotMapFile(site.slug, device.id, form)} /> : null}
+      </div>
     </section>
   );
 }

@@ -1,0 +1,116 @@
+"""The robot that maps: it drives on its own map by where it believes to be, and maps anew in the same coordinates."""
+
+from __future__ import annotations
+
+import pytest
+
+from registry.floorplan.plan import OCCUPIED, Grid
+from simulation.mapping.floor import TrueFloor
+from simulation.mapping.scores import score
+from simulation.mapping.survey import TICK_S, SurveyPlan
+from simulation.scout import ScoutActor, ScoutPlan, describe_scout
+from simulation.world import Ack, WorldEvent
+from tests.kit.floors.halls import bare_hall
+from vipo_device.protocol.description import Pose
+
+FLOOR, START = bare_hall(6.0, 5.0), Pose(1.0, 1.0)
+LIMIT_S = 600.0
+SHAPE = ("width", "height", "resolution_m", "origin_x_m", "origin_y_m")
+
+
+class Driven:
+    """A scout whose time passes when the test says so."""
+
+    def __init__(self, floor: Grid = FLOOR) -> None:
+        self.events: list[WorldEvent] = []
+        plan = ScoutPlan("hall.scout", "Scout", "hall", SurveyPlan(floor, 1, start=START))
+        self.actor = ScoutActor(describe_scout(plan, START), self.events.append, plan.survey)
+        self.now_s = 0.0
+
+    def tell(self, given: str, method: str, **arguments: object) -> None:
+        """Give a command, by its id."""
+        self.actor.command(self.now_s, method, arguments, given)
+
+    def rest(self) -> None:
+        """Let time pass until there is nothing to do."""
+        end_s = self.now_s + LIMIT_S
+        while self.actor.busy:
+            assert self.now_s < end_s, "the robot does not come to an end"
+            self.now_s += TICK_S
+            self.actor.advance(self.now_s)
+
+    def said(self, command: str) -> list[tuple[str, str]]:
+        """What was answered to a command, with the reasons."""
+        return [(e.status, e.why) for e in self.events if isinstance(e, Ack) and e.command == command]
+
+
+def test_moves_are_driven_one_after_the_other_on_the_map_that_it_made() -> None:
+    scout = Driven()
+    scout.tell("map", "explore")
+    scout.rest()
+    for number, point in enumerate(([4.0, 1.0], [4.0, 3.5], [1.5, 3.5])):
+        scout.tell(f"m{number}", "move", path=[point])
+    scout.rest()
+    assert [scout.said(f"m{n}")[-1][0] for n in range(3)] == ["DONE"] * 3
+    truth = scout.actor.expedition.pose
+    assert (truth.x, truth.y) == pytest.approx((1.5, 3.5), abs=0.06)
+
+
+def test_a_robot_that_was_told_nothing_of_the_floor_drives_too_and_adds_to_its_map() -> None:
+    scout = Driven()
+    scout.tell("m", "move", path=[[3.0, 2.0]])
+    scout.rest()
+    assert scout.said("m")[-1][0] == "DONE"
+    assert scout.actor.expedition.maker.matches > 5
+
+
+def test_it_stands_before_what_was_put_there_since_and_says_so() -> None:
+    cells = bytearray(FLOOR.cells)
+    for row in range(FLOOR.height):
+        x, y = 3.0, FLOOR.origin_y_m + (row + 0.5) * FLOOR.resolution_m
+        cell = FLOOR.cell_of(x, y)
+        if cell is not None:
+            cells[cell[0] * FLOOR.width + cell[1]] = OCCUPIED
+    scout = Driven(Grid(*(getattr(FLOOR, n) for n in SHAPE), bytes(cells)))
+    scout.tell("m", "move", path=[[5.0, 1.0]])
+    scout.tell("behind", "move", path=[[5.0, 2.0]])
+    scout.rest()
+    assert scout.said("m")[-1] == ("FAILED", "Scout cannot go on: something stands in its way.")
+    assert scout.said("behind")[-1] == ("CANCELED", "The way before it failed.")
+    assert scout.actor.expedition.pose.x < 3.0 - 0.12
+
+
+def test_it_does_one_of_both_at_a_time() -> None:
+    scout = Driven()
+    scout.tell("m", "move", path=[[3.0, 2.0]])
+    scout.tell("map", "explore")
+    assert scout.said("map") == [("REJECTED", "Scout drives. Wait until it stands, or cancel that.")]
+    scout.rest()
+    scout.tell("map2", "explore")
+    scout.tell("m2", "move", path=[[1.0, 1.0]])
+    scout.tell("map3", "explore")
+    assert scout.said("m2") == [("REJECTED", "Scout explores. Wait until it is done, or cancel that.")]
+    assert scout.said("map3") == [("REJECTED", "Scout explores already.")]
+    scout.tell("end", "cancel", command="map2")
+    assert scout.said("map2")[-1][0] == "CANCELED"
+    scout.tell("m3", "move", path=[[1.0, 1.0]])
+    scout.rest()
+    assert scout.said("m3")[-1][0] == "DONE"
+
+
+def test_a_path_that_leaves_the_floor_or_begins_elsewhere_is_refused() -> None:
+    scout = Driven()
+    scout.tell("out", "move", path=[[90.0, 1.0]])
+    scout.tell("far", "move", path=[[4.0, 4.0]], **{"from": [5.0, 4.0]})
+    assert scout.said("out") == [("REJECTED", "The path leaves the map.")]
+    assert scout.said("far") == [("REJECTED", "The way begins 5.0 m from where Scout will be.")]
+
+
+def test_maps_made_one_after_the_other_lie_over_each_other() -> None:
+    """A heading that is off by one degree at the start turns a whole map."""
+    scout = Driven()
+    for number in range(4):
+        scout.tell(f"map{number}", "explore")
+        scout.rest()
+        found = score(scout.actor.expedition.maker.grid(), TrueFloor(FLOOR), START)
+        assert (number, found.f1 >= 0.95, found.iou >= 0.97) == (number, True, True), found
