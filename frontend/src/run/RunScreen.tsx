@@ -22,6 +22,7 @@ import { RunAlerts } from "./RunAlerts";
 import { RunActions, RunPill } from "./RunBar";
 import styles from "./RunScreen.module.css";
 import { RunTerms } from "./RunTerms";
+import { RunPlace } from "./scene/RunPlace";
 import { isPlanned } from "./terms";
 import { ScriptLines } from "./ScriptLines";
 import { currentStep, stepLines } from "./stepList";
@@ -171,19 +172,21 @@ function Loaded(props: LoadedProps) {
       <RunTop view={view} onProblem={setProblem} />
       <main className={styles.body}>
         <section className={styles.map} aria-label={t("run.map")}>
-          <ProgramMap
-            site={run.site}
-            plan={view.map}
-            trails
-            controls
-            devices={view.devices}
-            document={run.document}
-            compiled={run.compiled}
-            statuses={run.steps}
-            robots={liveRobots}
-            selected={selected}
-            onSelect={setSelected}
-          />
+          <RunPlace site={view.site} map={view.map} devices={view.devices}>
+            <ProgramMap
+              site={run.site}
+              plan={view.map}
+              trails
+              controls
+              devices={view.devices}
+              document={run.document}
+              compiled={run.compiled}
+              statuses={run.steps}
+              robots={liveRobots}
+              selected={selected}
+              onSelect={setSelected}
+            />
+          </RunPlace>
           <Notes run={run} now={view.now} problem={problem} />
           <RunQuestions run={run} allowed={view.allowed} />
         </section>

@@ -2,7 +2,7 @@
 import { useTranslation } from "react-i18next";
 import type { RehearsalError } from "@/api/types";
 import { clock } from "@/design/clock";
-import { type Incident, isNow } from "./incidents/incidents";
+import { type Incident, isNow } from "@/scene3d/incidents";
 import { logWords } from "./logWords";
 import styles from "./ResultPanel.module.css";
 import type { ResultPanelProps } from "./resultProps";

@@ -5,12 +5,12 @@ import type { Compiled, Device, ProgramDocument, RehearsalResult, SiteMap } from
 import { IconButton } from "@/design/IconButton";
 import { ProgramMap } from "@/program/ProgramMap";
 import type { RobotSource } from "@/map/robots/robots";
-import { latest, poseAt } from "./frames";
+import { latest, poseAt } from "@/scene3d/frames";
 import { IncidentMarks } from "./incidents/IncidentMarks";
-import { type Incident, isNow } from "./incidents/incidents";
+import { type Incident, isNow } from "@/scene3d/incidents";
 import { InSmall } from "./incidents/InSmall";
 import styles from "./SimulationScreen.module.css";
-import type { Moment } from "./scene/types";
+import type { Moment } from "@/scene3d/types";
 import { statusesAt } from "./timeline";
 
 interface MapPaneProps {

@@ -10,7 +10,7 @@ import { useSiteLive } from "@/live/site";
 import { momentIn, useMomentInAddress } from "./address";
 import { Actions } from "./Actions";
 import { Filming } from "./film/Filming";
-import { type Incident, incidentsOf } from "./incidents/incidents";
+import { type Incident, incidentsOf } from "@/scene3d/incidents";
 import { incidentWords } from "./incidents/incidentWords";
 import { MapPane } from "./MapPane";
 import { ResultPanel } from "./ResultPanel";

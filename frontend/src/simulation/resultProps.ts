@@ -1,7 +1,7 @@
 /** What each part of a rehearsal's result is given. */
 import type { ReactNode } from "react";
 import type { Rehearsal, RehearsalResult } from "@/api/types";
-import type { Incident } from "./incidents/incidents";
+import type { Incident } from "@/scene3d/incidents";
 
 export interface ResultPanelProps {
   result: RehearsalResult;

@@ -1,5 +1,5 @@
 import { useCallback, useEffect, useRef, useState } from "react";
-import type { Moment } from "./scene/types";
+import type { Moment } from "@/scene3d/types";
 
 const REACT_UPDATES_PER_S = 10;
 

@@ -3,9 +3,9 @@ import { useStore } from "@xyflow/react";
 import { useEffect, useRef } from "react";
 import type { Device } from "@/api/types";
 import { toPixels } from "@/map/plane/projection";
-import { poseAt, type Frames } from "../frames";
+import { poseAt, type Frames } from "@/scene3d/frames";
 import styles from "./IncidentMarks.module.css";
-import type { Moment } from "../scene/types";
+import type { Moment } from "@/scene3d/types";
 
 /** At this zoom words are as large as they are meant to be; smaller, they are enlarged up to so many times. */
 const AS_MEANT = 0.87;

@@ -1,6 +1,6 @@
 /** What came to pass between robots, where it did, on the map; a press goes to its moment. */
 import { toPixels } from "@/map/plane/projection";
-import { drawnAt, type Incident, isNow } from "./incidents";
+import { drawnAt, type Incident, isNow } from "@/scene3d/incidents";
 import styles from "./IncidentMarks.module.css";
 
 interface IncidentMarksProps {

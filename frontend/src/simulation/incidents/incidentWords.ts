@@ -1,7 +1,7 @@
 /** What came to pass between robots, in words. */
 import i18next from "i18next";
 import { waitWords } from "@/i18n/waits";
-import type { Incident } from "./incidents";
+import type { Incident } from "@/scene3d/incidents";
 
 export function incidentWords({ kind, encounter, wait }: Incident, nameOf: (device: string) => string): string {
   if (wait) return waitWords(wait.why, nameOf) ?? wait.reason;

@@ -1,10 +1,10 @@
 /** What the robot's lidar would see at the moment: drawn each time that the moment is another. */
 import { useEffect, useMemo, useRef } from "react";
 import { useTranslation } from "react-i18next";
-import { type Frames, poseAt } from "../frames";
+import { type Frames, poseAt } from "@/scene3d/frames";
 import { outlinesOf, RANGE_M, RAYS, scan } from "./rays";
 import styles from "./Lidar.module.css";
-import type { Moment, SceneDevice, SceneMap } from "../scene/types";
+import type { Moment, SceneDevice, SceneMap } from "@/scene3d/types";
 
 const SIDE = 168;
 

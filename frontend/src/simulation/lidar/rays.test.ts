@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { outlinesOf, scan } from "./rays";
-import type { SceneDevice, SceneMap } from "../scene/types";
+import type { SceneDevice, SceneMap } from "@/scene3d/types";
 
 /** A room of 10 by 6 m, its walls one cell of 0.5 m thick. */
 const [WIDTH, HEIGHT, SIDE] = [20, 12, 0.5];

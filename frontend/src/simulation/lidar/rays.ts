@@ -1,6 +1,6 @@
 /** What a lidar would see from a robot's place: rays over the map's walls, machines' outlines and other robots. Pure. */
-import type { PoseFrame } from "../frames";
-import type { SceneDevice, SceneMap } from "../scene/types";
+import type { PoseFrame } from "@/scene3d/frames";
+import type { SceneDevice, SceneMap } from "@/scene3d/types";
 
 const OCCUPIED = 100;
 export const RAYS = 240;

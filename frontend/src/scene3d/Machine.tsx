@@ -1,7 +1,7 @@
 import { useFrame } from "@react-three/fiber";
 import { useRef } from "react";
 import type * as THREE from "three";
-import { latest } from "../frames";
+import { latest } from "./frames";
 import { bodyFor } from "./bodies";
 import type { Palette } from "./palette";
 import type { Moment, SceneDevice, SceneRecording } from "./types";

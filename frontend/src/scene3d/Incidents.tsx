@@ -1,6 +1,6 @@
 import { Html } from "@react-three/drei";
 import type { RefObject } from "react";
-import { drawnAt, type Incident, isNow } from "../incidents/incidents";
+import { drawnAt, type Incident, isNow } from "./incidents";
 import type { Palette } from "./palette";
 import styles from "./Scene3D.module.css";
 

@@ -2,7 +2,7 @@ import { Line } from "@react-three/drei";
 import { useFrame } from "@react-three/fiber";
 import { useMemo, useRef, useState } from "react";
 import type * as THREE from "three";
-import { latest, poseAt, trailBefore } from "../frames";
+import { latest, poseAt, trailBefore } from "./frames";
 import type { Palette } from "./palette";
 import type { Moment, SceneDevice, SceneRecording } from "./types";
 

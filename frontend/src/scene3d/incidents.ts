@@ -1,6 +1,6 @@
 /** What came to pass between robots in a rehearsal: who touched, came too near, or waited; numbered in time. Pure. */
 import type { NearMiss, RehearsalResult } from "@/api/types";
-import { poseAt } from "../frames";
+import { poseAt } from "./frames";
 
 export type IncidentKind = "collision" | "near" | "wait";
 type Wait = RehearsalResult["waits"][number];

@@ -1,5 +1,5 @@
 import type { FloorPlan } from "@/map/floor/floor";
-import type { Frames } from "../frames";
+import type { Frames } from "./frames";
 
 export type SceneMap = FloorPlan;
 

@@ -1,0 +1,56 @@
+/** Where a run takes place: its program on the map, or the place in 3D. Which of both stands in the address. */
+import { Box, Map as MapIcon, type LucideIcon } from "lucide-react";
+import { lazy, type ReactNode, Suspense } from "react";
+import { useTranslation } from "react-i18next";
+import { useSearchParams } from "react-router-dom";
+import type { Device, Site, SiteMap } from "@/api/types";
+import styles from "./scene.module.css";
+
+const LiveScene = lazy(() => import("./LiveScene").then((module) => ({ default: module.LiveScene })));
+
+const VIEWS: readonly { view: "map" | "3d"; icon: LucideIcon }[] = [
+  { view: "map", icon: MapIcon },
+  { view: "3d", icon: Box },
+];
+
+interface RunPlaceProps {
+  site: Site | undefined;
+  map: SiteMap | null;
+  devices: readonly Device[];
+  /** The program on the map. */
+  children: ReactNode;
+}
+
+export function RunPlace({ site, map, devices, children }: RunPlaceProps) {
+  const { t } = useTranslation();
+  const [query, setQuery] = useSearchParams();
+  const shown = query.get("view") === "3d" ? "3d" : "map";
+  const show = (view: "map" | "3d") =>
+    setQuery(
+      (before) => {
+        const after = new URLSearchParams(before);
+        if (view === "3d") after.set("view", view);
+        else after.delete("view");
+        return after;
+      },
+      { replace: true },
+    );
+  return (
+    <>
+      {shown === "map" ? (
+        children
+      ) : (
+        <Suspense fallback={null}>
+          <LiveScene site={site} map={map} devices={devices} />
+        </Suspense>
+      )}
+      <div className={styles.switch} role="radiogroup" aria-label={t("run.scene.label")}>
+        {VIEWS.map(({ view, icon: Icon }) => (
+          <button key={view} type="button" role="radio" aria-checked={view === shown} onClick={() => show(view)}>
+            <Icon size={15} aria-hidden /> {t(`run.scene.${view === "3d" ? "spatial" : "map"}`)}
+          </button>
+        ))}
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,65 @@
+import { expect, test } from "vitest";
+import { latest, poseAt } from "@/scene3d/frames";
+import { EVERY_S, LiveRecording, type Seen } from "./liveRecording";
+
+const at = (x: number, carrying = {}, route: [number, number][] = [], busy = false): Seen => ({
+  robots: { r: { pose: [x, 0, 0], carrying, route } },
+  machines: { oven: busy },
+});
+
+test("a pose is shown between the two that were seen around it, a moment late", () => {
+  const live = new LiveRecording();
+  live.see(100, at(0));
+  live.see(100.1, at(1));
+  live.show(100.15);
+  expect(live.moment.t_s).toBeCloseTo(0.05);
+  expect(poseAt(live.recording.frames, "r", live.moment.t_s)?.[0]).toBeCloseTo(0.5);
+});
+
+test("what was not seen for a while stood as it had been", () => {
+  const live = new LiveRecording();
+  live.see(0, at(0));
+  live.see(2, at(4));
+  expect(poseAt(live.recording.frames, "r", 1.5)?.[0]).toBe(0);
+  expect(poseAt(live.recording.frames, "r", 2)?.[0]).toBe(4);
+});
+
+test("loads and machines are noted when they change, and a new path is another recording", () => {
+  const live = new LiveRecording();
+  live.see(0, at(0, {}, [[1, 0]]));
+  const first = live.recording;
+  live.see(1, at(0, {}, [[1, 0]], true));
+  expect(live.recording).toBe(first);
+  expect(live.recording.machine_states.oven).toEqual([
+    [0, false],
+    [1, true],
+  ]);
+  live.see(2, at(0, { box: 1 }, [[2, 0]], true));
+  expect(live.recording).not.toBe(first);
+  expect(live.recording.routes).toEqual([{ t: 2, robot: "r", path: [[2, 0]] }]);
+  expect(latest(live.recording.carrying.r, 5)?.[1]).toEqual({ box: 1 });
+});
+
+test("an hour needs no more room than four minutes, and nothing jumps where old poses are let go", () => {
+  const live = new LiveRecording();
+  let most = 0;
+  for (let step = 0; step <= 36_000; step += 1) {
+    const now_s = step * EVERY_S;
+    live.see(now_s, at(now_s, step < 50 ? {} : { box: 1 }));
+    live.show(now_s);
+    most = Math.max(most, live.recording.frames.robots.r?.length ?? 0);
+    if (step > 1) expect(poseAt(live.recording.frames, "r", live.moment.t_s)?.[0]).toBeCloseTo(now_s - EVERY_S, 3);
+  }
+  expect(most).toBeLessThan(2_500);
+  expect(live.recording.carrying.r).toHaveLength(1);
+  expect(latest(live.recording.carrying.r, live.moment.t_s)?.[1]).toEqual({ box: 1 });
+});
+
+test("after a long sleep of the page it begins anew", () => {
+  const live = new LiveRecording();
+  live.see(0, at(0));
+  live.see(4_000, at(9));
+  live.show(4_000);
+  expect(live.recording.frames.robots.r).toEqual([[9, 0, 0]]);
+  expect(poseAt(live.recording.frames, "r", live.moment.t_s)?.[0]).toBe(9);
+});

@@ -1,0 +1,83 @@
+/** What devices do now, kept as a recording of the last minutes, so that it is drawn as a rehearsal is. */
+import type { PoseFrame } from "@/scene3d/frames";
+import type { Moment, SceneRecording } from "@/scene3d/types";
+
+/** How devices are at a moment, by their ids: metres, radians; of robots what they carry and where they are going. */
+export interface Seen {
+  readonly robots: Readonly<Record<string, SeenRobot>>;
+  /** Whether a machine is at work. */
+  readonly machines: Readonly<Record<string, boolean>>;
+}
+
+export interface SeenRobot {
+  readonly pose: PoseFrame;
+  readonly carrying: Readonly<Record<string, number>>;
+  readonly route: readonly (readonly [number, number])[];
+}
+
+export const EVERY_S = 0.1;
+/** So much is kept at least; what is older is let go in pieces of as much. */
+const KEPT_S = 120;
+
+const same = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
+
+export class LiveRecording {
+  /** Changed in place while devices move; another object when a robot takes another path. */
+  recording: SceneRecording = { frames: { dt_s: EVERY_S, robots: {} }, carrying: {}, machine_states: {}, routes: [] };
+  /** The moment that is shown, in seconds of the recording. */
+  readonly moment: Moment = { t_s: 0 };
+  private begun_s: number | null = null;
+
+  /** Show the moment `now_s`, a little late, so that there are poses on both sides of it. */
+  show(now_s: number): void {
+    if (this.begun_s !== null) this.moment.t_s = Math.max(0, now_s - this.begun_s - EVERY_S);
+  }
+
+  /** Keep how devices are at `now_s`; what was not seen meanwhile stood as it had been. */
+  see(now_s: number, seen: Seen): void {
+    if (this.begun_s === null || now_s - this.begun_s > 3 * KEPT_S) this.beginAnew(now_s);
+    const t_s = now_s - (this.begun_s ?? now_s);
+    const last = Math.floor(t_s / EVERY_S + 1e-6);
+    for (const [id, robot] of Object.entries(seen.robots)) this.seeRobot(id, robot, t_s, last);
+    for (const [id, busy] of Object.entries(seen.machines)) note(this.recording.machine_states, id, t_s, busy);
+    if (t_s > 2 * KEPT_S) this.forget(KEPT_S);
+  }
+
+  private seeRobot(id: string, { pose, carrying, route }: SeenRobot, t_s: number, last: number): void {
+    const poses = (this.recording.frames.robots[id] ??= []);
+    const before = poses.at(-1) ?? pose;
+    while (poses.length < last) poses.push(before);
+    poses[last] = pose;
+    note(this.recording.carrying, id, t_s, carrying);
+    const shown = this.recording.routes.findLast((each) => each.robot === id)?.path ?? [];
+    if (same(shown, route)) return;
+    const others = this.recording.routes.filter((each) => each.robot !== id);
+    const path = route.map(([x, y]): [number, number] => [x, y]);
+    this.recording = { ...this.recording, routes: [...others, { t: t_s, robot: id, path }] };
+  }
+
+  private beginAnew(now_s: number): void {
+    this.begun_s = now_s;
+    this.recording = { frames: { dt_s: EVERY_S, robots: {} }, carrying: {}, machine_states: {}, routes: [] };
+  }
+
+  /** Let the first `seconds` go; what was so before still is. */
+  private forget(seconds: number): void {
+    const { frames, carrying, machine_states, routes } = this.recording;
+    const frames_gone = Math.round(seconds / EVERY_S);
+    for (const poses of Object.values(frames.robots)) poses.splice(0, Math.min(frames_gone, poses.length - 1));
+    for (const notes of [...Object.values(carrying), ...Object.values(machine_states)]) {
+      const current = notes.findLastIndex(([at]) => at <= seconds);
+      notes.splice(0, Math.max(0, current));
+      for (const each of notes) each[0] = Math.max(0, each[0] - seconds);
+    }
+    for (const each of routes) each.t = Math.max(0, each.t - seconds);
+    this.begun_s = (this.begun_s ?? 0) + seconds;
+    this.moment.t_s = Math.max(0, this.moment.t_s - seconds);
+  }
+}
+
+function note<T>(notes: Record<string, [number, T][]>, id: string, t_s: number, value: T): void {
+  const list = (notes[id] ??= []);
+  if (list.length === 0 || !same(list.at(-1)?.[1], value)) list.push([t_s, value]);
+}

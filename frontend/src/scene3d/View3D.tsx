@@ -1,0 +1,185 @@
+/** A place in 3D with the ways to look at it, or a sentence where the browser cannot show one. */
+import { Camera, Map as MapIcon, Orbit, Tag, Target } from "lucide-react";
+import { lazy, type ReactNode, Suspense, useState } from "react";
+import { useTranslation } from "react-i18next";
+import type { Device } from "@/api/types";
+import type { Incident } from "./incidents";
+import type { CameraMode, Moment, SceneDevice, SceneMap, SceneRecording } from "./types";
+import styles from "./View3D.module.css";
+
+const Scene3D = lazy(() => import("./Scene3D").then((module) => ({ default: module.Scene3D })));
+
+const MODES: { mode: CameraMode; icon: typeof Orbit }[] = [
+  { mode: "orbit", icon: Orbit },
+  { mode: "top", icon: MapIcon },
+  { mode: "follow", icon: Target },
+  { mode: "robot", icon: Camera },
+];
+const USUAL_RADIUS_M = 0.18;
+
+interface View3DProps {
+  map: SceneMap | undefined;
+  devices: readonly Device[];
+  recording: SceneRecording | null;
+  moment: Moment;
+  t_s: number;
+  /** While it plays each picture is drawn; else only when something changes. */
+  playing: boolean;
+  /** What is said of a device at the moment, beside its name. */
+  stateOf: (device: string) => string;
+  /** The picture in words, of what is said of the robots. */
+  labelOf: (summary: string) => string;
+  /** What kind of picture this is, always in view. */
+  sign: string;
+  incidents?: readonly Incident[];
+  onJump?: (t_s: number) => void;
+  /** More buttons, whether they need a robot to be chosen, and what they show of it. */
+  tools?: ReactNode;
+  needsRobot?: boolean;
+  beside?: (robot: SceneDevice, devices: SceneDevice[]) => ReactNode;
+}
+
+function hasWebgl(): boolean {
+  const canvas = document.createElement("canvas");
+  return canvas.getContext("webgl2") !== null;
+}
+
+function Legend() {
+  const { t } = useTranslation();
+  return (
+    <ul className={styles.legend}>
+      <li>
+        <i className={styles.lampTop} /> {t("simulation.lampTop")}
+      </li>
+      <li>
+        <i className={styles.lampBottom} /> {t("simulation.lampBottom")}
+      </li>
+      <li className={styles.quiet}>{t("simulation.robotScale")}</li>
+    </ul>
+  );
+}
+
+interface CameraBarProps {
+  mode: CameraMode;
+  onMode: (mode: CameraMode) => void;
+  robots: readonly SceneDevice[];
+  choosesRobot: boolean;
+  follow: string | null;
+  onFollow: (robot: string) => void;
+  names: boolean;
+  onNames: () => void;
+  sign: string;
+  tools: ReactNode;
+}
+
+function CameraBar(props: CameraBarProps) {
+  const { t } = useTranslation();
+  return (
+    <div className={styles.cameraBar}>
+      <div className={styles.modes} role="radiogroup" aria-label={t("simulation.cameraMode")}>
+        {MODES.map(({ mode, icon: Icon }) => (
+          <button
+            key={mode}
+            type="button"
+            role="radio"
+            aria-checked={mode === props.mode}
+            onClick={() => props.onMode(mode)}
+          >
+            <Icon size={15} aria-hidden /> {t(`simulation.${mode}`)}
+          </button>
+        ))}
+      </div>
+      {props.choosesRobot && (
+        <select
+          className={styles.select}
+          aria-label={t("simulation.followRobot")}
+          value={props.follow ?? ""}
+          onChange={(event) => props.onFollow(event.target.value)}
+        >
+          {props.robots.map((robot) => (
+            <option key={robot.id} value={robot.id}>
+              {robot.name}
+            </option>
+          ))}
+        </select>
+      )}
+      <span className={styles.onTheRight}>
+        {props.sign ? <span className={styles.sign}>{props.sign}</span> : null}
+        {props.tools}
+        <Toggle pressed={props.names} icon={Tag} onToggle={props.onNames}>
+          {t("simulation.labels")}
+        </Toggle>
+      </span>
+    </div>
+  );
+}
+
+interface ToggleProps {
+  pressed: boolean;
+  icon: typeof Orbit;
+  onToggle: () => void;
+  children: string;
+}
+
+/** A button of the view that stays pressed. */
+export function Toggle({ pressed, icon: Icon, onToggle, children }: ToggleProps) {
+  return (
+    <button type="button" className={styles.toggle} aria-pressed={pressed} onClick={onToggle}>
+      <Icon size={15} aria-hidden /> {children}
+    </button>
+  );
+}
+
+export function View3D(props: View3DProps) {
+  const { t } = useTranslation();
+  const { map, devices, recording, moment, t_s, stateOf } = props;
+  const [mode, setMode] = useState<CameraMode>("orbit");
+  const [follow, setFollow] = useState<string | null>(null);
+  const [names, setNames] = useState(true);
+  const [webgl] = useState(hasWebgl);
+  const placed = devices
+    .filter((device) => device.lifecycle === "approved")
+    .map((d) => ({ ...d, radius_m: d.radius_m ?? USUAL_RADIUS_M }));
+  const robots = placed.filter((device) => device.kind === "robot");
+  const followed = robots.find(({ id }) => id === follow) ?? robots[0];
+  const summary = robots.map((robot) => `${robot.name} ${stateOf(robot.id)}`.trim()).join(", ");
+  return (
+    <>
+      <CameraBar
+        mode={mode}
+        onMode={setMode}
+        robots={robots}
+        choosesRobot={mode === "follow" || mode === "robot" || props.needsRobot === true}
+        follow={followed?.id ?? null}
+        onFollow={setFollow}
+        names={names}
+        onNames={() => setNames(!names)}
+        sign={props.sign}
+        tools={props.tools}
+      />
+      {webgl && map ? (
+        <Suspense fallback={<p className={styles.sceneNote}>{t("simulation.loading")}</p>}>
+          <Scene3D
+            map={map}
+            devices={placed}
+            recording={recording}
+            moment={moment}
+            camera={mode}
+            follow={followed?.id ?? null}
+            labels={names}
+            playing={props.playing}
+            t_s={t_s}
+            label={props.labelOf(summary)}
+            stateOf={stateOf}
+            incidents={props.incidents}
+            onJump={props.onJump}
+          />
+        </Suspense>
+      ) : (
+        <p className={styles.sceneNote}>{t(webgl ? "simulation.loading" : "simulation.noWebgl")}</p>
+      )}
+      {followed ? props.beside?.(followed, placed) : null}
+      <Legend />
+    </>
+  );
+}
