@@ -37,8 +37,8 @@ from editor.shapes import (
     ProgramShape,
 )
 from editor.versions.routes import router as versions_router
+from registry.requests import Asked, Line, PartAsked, Repaired, refuses, signed_in, tell_rest
 from registry.services import require
-from registry.shapes import Asked, Line, PartAsked, Repaired, refuses, signed_in, tell_rest
 from vipo_device.protocol.messages import BadMessage, parse_plain_json
 from vipo_device.protocol.texts import cleaned, cleaned_json
 

@@ -10,7 +10,7 @@ from ninja import Field, Schema
 from typing_extensions import TypeAliasType
 
 from editor.language.constructs.table import CONSTRUCTS
-from registry.shapes import Asked, Flag, Line, Repaired, Unchecked
+from registry.requests import Asked, Flag, Line, Repaired, Unchecked
 
 Position = tuple[float, float]
 if TYPE_CHECKING:

@@ -46,8 +46,9 @@ from execution.views import (
     run_to_json,
     whole_run_to_json,
 )
+from registry.requests import LOCATION, link_to_next, signed_in
 from registry.services import NotAMember, require
-from registry.shapes import LOCATION, Stop, link_to_next, signed_in
+from registry.shapes import Stop
 from vipo_device.descriptions.thing_description import DEVICE_URN
 
 router = Router(tags=["execution"])

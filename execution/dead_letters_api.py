@@ -9,8 +9,8 @@ from ninja import Query, Router, Schema
 
 from execution import services
 from execution.errors import NotFound
+from registry.requests import Asked, Unchecked
 from registry.services import NotAMember, require
-from registry.shapes import Asked, Unchecked
 
 router = Router(tags=["execution"])
 LetterState = Literal["open", "retried", "dropped"]

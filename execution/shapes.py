@@ -9,7 +9,7 @@ from ninja import Field, Schema
 from pydantic import AwareDatetime, ConfigDict, Strict
 
 from editor.shapes import Compiled, DevicePlace, Document, NamedPlace, PointPlace, Position
-from registry.shapes import Asked, Flag, Line, Unchecked
+from registry.requests import Asked, Flag, Line, Unchecked
 
 RunStatus = Literal["pending", "running", "paused", "finished", "failed", "cancelled"]
 StepStatus = Literal["waiting", "running", "done", "failed", "skipped"]

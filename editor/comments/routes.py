@@ -15,8 +15,8 @@ from editor.comments.threads import ThreadView
 from editor.programs.access import program_for
 from editor.shapes import Author
 from registry import services as registry
+from registry.requests import refuses, signed_in
 from registry.services import PersonView
-from registry.shapes import refuses, signed_in
 
 router = Router(tags=["editor"])
 _BOUNDED, _MAY_BE_ANOTHERS = refuses(409, 429), refuses(409)

@@ -11,7 +11,7 @@ from ninja import Field, Schema
 from editor.comments.anchors import Anchor, Kind, Root
 from editor.comments.threads import MOST_MENTIONS, Words
 from editor.shapes import Author
-from registry.shapes import Asked, Flag, Line, Number
+from registry.requests import Asked, Flag, Line, Number
 
 MOST_TEXT = 2000
 Id = Annotated[Line, Field(min_length=1, max_length=120)]

@@ -27,8 +27,8 @@ from editor.library.shapes import (
     version_to_json,
 )
 from editor.programs.access import require_here
+from registry.requests import refuses, signed_in, tell_rest
 from registry.services import Listed, require
-from registry.shapes import refuses, signed_in, tell_rest
 
 router = Router(tags=["editor"])
 

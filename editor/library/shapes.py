@@ -12,7 +12,7 @@ from editor.language.signatures.compatibility import Code, Reason
 from editor.library.queries import LibraryView, VersionLine, VersionsCompared
 from editor.library.uses import FunctionUses
 from editor.shapes import Author, Definition, Parameters
-from registry.shapes import Asked, Line, PartAsked
+from registry.requests import Asked, Line, PartAsked
 
 Visibility = Literal["me", "site", "everyone"]
 MOST_VERSION = 1_000_000_000

@@ -14,8 +14,8 @@ from editor.programs.views import ProgramView
 from editor.promotions import promotion
 from editor.promotions.shapes import MaybeOriginShape, ProgramToPromote, PromotionLookShape, SiteAsked
 from editor.shapes import ProgramShape
+from registry.requests import refuses, signed_in
 from registry.services import list_sites, require
-from registry.shapes import refuses, signed_in
 
 router = Router(tags=["editor"])
 

@@ -8,7 +8,7 @@ from uuid import UUID
 from ninja import Field, Schema
 
 from editor.library.shapes import NeedShape
-from registry.shapes import Asked, Line
+from registry.requests import Asked, Line
 
 MOST_CHOSEN = 2_000
 

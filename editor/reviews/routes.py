@@ -20,8 +20,8 @@ from editor.reviews.shapes import (
     VersionAsked,
     review_to_shape,
 )
+from registry.requests import refuses, signed_in
 from registry.services import require
-from registry.shapes import refuses, signed_in
 
 router = Router(tags=["editor"])
 _MAY_REFUSE = refuses(409)

@@ -12,7 +12,7 @@ from pydantic import Strict
 from editor.reviews.reviews import MOST_NOTE, Review
 from editor.reviews.rules import MOST_APPROVALS
 from editor.reviews.standing import Word
-from registry.shapes import Asked
+from registry.requests import Asked
 
 LeastRole = Literal["operator", "author", "admin"]
 Number = Annotated[int, Strict(), Field(ge=1, lt=2**31)]

@@ -32,7 +32,7 @@ from editor.versions.shapes import (
     read_sent,
 )
 from editor.versions.sides import compare_sides
-from registry.shapes import PartAsked, refuses, sends, signed_in, tell_rest
+from registry.requests import PartAsked, refuses, sends, signed_in, tell_rest
 
 router = Router(tags=["editor"])
 _SENDS_A_FILE = {

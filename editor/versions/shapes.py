@@ -13,7 +13,7 @@ from editor.language.comparison.difference import ConstructChange, Difference
 from editor.shapes import Author, Compiled, Document
 from editor.versions.restoring import Changed
 from editor.versions.sides import Comparison, Side
-from registry.shapes import Asked, Flag, Line, Repaired, Unchecked
+from registry.requests import Asked, Flag, Line, Repaired, Unchecked
 
 MOST_CONSTRUCTS = 6_000
 Root = Literal["steps", "functions", "roles", "parameters", "zones", "program"]

@@ -15,8 +15,8 @@ from execution.errors import ExecutionError
 from execution.floor.map_change import change_map
 from execution.shapes import BroughtMapDifference, ChangedMap, RestoreMap, UseRobotMap
 from registry import services as registry
+from registry.requests import refuses, signed_in
 from registry.services import require
-from registry.shapes import refuses, signed_in
 
 router = Router(tags=["execution"])
 _TAGS: dict[str, Any] = {

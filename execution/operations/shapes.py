@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from ninja import Schema
 
-from registry.shapes import Unchecked
+from registry.requests import Unchecked
 
 
 class FindingShape(Schema):

@@ -28,8 +28,8 @@ from execution.program_tests.shapes import (
     VersionTestsShape,
 )
 from execution.program_tests.test_runs import Asker, Extent, start_tests
+from registry.requests import refuses, sends, signed_in
 from registry.services import NotAMember, require
-from registry.shapes import refuses, sends, signed_in
 
 router = Router(tags=["execution"])
 IF_MATCH: Any = Header(alias="If-Match", description="The ETag of the test that was read, as it is.")

@@ -11,7 +11,7 @@ from ninja import Field, Schema
 from execution.program_tests.stored_tests import MOST_TESTS, MOST_TEXT
 from execution.program_tests.test_runs import MOST_SEEDS
 from execution.shapes import Cause, OfVersion
-from registry.shapes import Asked
+from registry.requests import Asked
 
 MOST_FILE = 1_000_000
 Status = Literal["queued", "running", "done", "failed", "cancelled"]

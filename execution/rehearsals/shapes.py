@@ -9,7 +9,7 @@ from pydantic import Strict
 
 from editor.shapes import Compiled, Document, Position
 from execution.shapes import Cause, OfVersion, Scalar, StepStatus, WaitReason
-from registry.shapes import Asked, Unchecked
+from registry.requests import Asked, Unchecked
 
 Driver = Literal["physics", "kinematic"]
 Seed = Annotated[int, Strict(), Field(ge=0, lt=2**31)]

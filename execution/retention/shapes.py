@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from ninja import Field, Schema
 from pydantic import Strict
 
-from registry.shapes import Asked
+from registry.requests import Asked
 
 Days = Annotated[int, Strict(), Field(ge=0, le=36_500)]
 Kind = Literal["runs", "rehearsals", "calls"]

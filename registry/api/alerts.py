@@ -13,7 +13,7 @@ from registry.alerts.causes import AlertCode, Severity
 from registry.alerts.inbox import NoSuchAlert
 from registry.alerts.views import AlertState
 from registry.people.access import find_access, require
-from registry.shapes import Line, PartAsked, Unchecked, signed_in, tell_rest
+from registry.requests import Line, PartAsked, Unchecked, signed_in, tell_rest
 
 router = Router(tags=["registry"])
 

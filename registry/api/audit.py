@@ -14,7 +14,7 @@ from registry.audit import reading
 from registry.audit.codes import Kind
 from registry.people.access import require
 from registry.people.open_sessions import name_browser
-from registry.shapes import Asked, PartAsked, sends, signed_in, tell_rest
+from registry.requests import Asked, PartAsked, sends, signed_in, tell_rest
 
 router = Router(tags=["registry"])
 

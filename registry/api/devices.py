@@ -15,6 +15,7 @@ from registry import services
 from registry.devices.property_history import MOST_POINTS
 from registry.devices.views import device_to_json
 from registry.people.access import require
+from registry.requests import sends, signed_in
 from registry.shapes import (
     ApprovedDevice,
     DeviceEdit,
@@ -24,8 +25,6 @@ from registry.shapes import (
     NewCredential,
     Reading,
     Topic,
-    sends,
-    signed_in,
 )
 from vipo_device.descriptions.forms import CONTENT_TYPES, DescriptionForm
 from vipo_device.descriptions.reader import write_description

@@ -13,7 +13,7 @@ from registry.devices.things import EVENTS, EventName, device_id_of
 from registry.devices.views import DeviceView
 from registry.errors import RegistryError
 from registry.people.access import find_access, list_visible
-from registry.shapes import signed_in
+from registry.requests import signed_in
 from registry.thing_directory.answers import (
     MERGE_PATCH,
     answer_thing,

@@ -19,7 +19,8 @@ from registry.api.people import begin_session
 from registry.audit.acting import client_address
 from registry.models import User
 from registry.people.access import require
-from registry.shapes import Asked, AsTyped, Line, Role, refuses, signed_in
+from registry.requests import Asked, AsTyped, Line, refuses, signed_in
+from registry.shapes import Role
 from registry.sites import invitations
 from registry.sites.invitations import MOST_DAYS, MOST_USES, InvitationView, Wanted
 from registry.sites.mail import can_mail, mail_invitation

@@ -14,7 +14,8 @@ from registry.api.authentication import session_only
 from registry.models import User
 from registry.people.access import require
 from registry.people.rights import DEEDS
-from registry.shapes import Asked, Role, signed_in
+from registry.requests import Asked, signed_in
+from registry.shapes import Role
 from registry.sites import members
 
 router = Router(tags=["registry"])

@@ -16,7 +16,7 @@ from registry.mtconnect.documents import Agent, ErrorCode, write_error
 from registry.mtconnect.streams import Listener
 from registry.people.access import require
 from registry.people.sessions import session_of
-from registry.shapes import signed_in
+from registry.requests import signed_in
 
 router = Router(tags=["mtconnect"])
 XML, STREAM = "application/xml", "multipart/x-mixed-replace"

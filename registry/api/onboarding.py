@@ -13,7 +13,7 @@ from pydantic import Field
 
 from registry import services
 from registry.people.access import require
-from registry.shapes import Asked, Line, ReadLater, Unchecked, signed_in
+from registry.requests import Asked, Line, ReadLater, Unchecked, signed_in
 from vipo_device.descriptions.forms import BadDescription, DescriptionForm
 from vipo_device.descriptions.reader import read, write_description
 from vipo_device.protocol.description import description_to_json

@@ -32,7 +32,8 @@ from registry.people.sign_in import change_password, check_own_password, check_s
 from registry.people.sign_in import sign_out_everywhere as end_all_sessions
 from registry.people.sign_on.provider_client import sign_out_address
 from registry.people.sign_on.providers import list_providers
-from registry.shapes import Me, NewPassword, PartAsked, SignIn, signed_in, tell_rest
+from registry.requests import PartAsked, signed_in, tell_rest
+from registry.shapes import Me, NewPassword, SignIn
 from registry.sites.quota import may_create_sites
 
 router = Router(tags=["registry"])

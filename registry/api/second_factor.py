@@ -20,7 +20,7 @@ from registry.people import second_factor
 from registry.people.access import require
 from registry.people.open_sessions import follow_session
 from registry.people.sign_in import checking_own_password
-from registry.shapes import Asked, AsTyped, Line, refuses, signed_in
+from registry.requests import Asked, AsTyped, Line, refuses, signed_in
 from registry.sites import factor_rule
 
 router = Router(tags=["registry"])

@@ -26,7 +26,8 @@ from registry.people.sign_on import bindings
 from registry.people.sign_on.attempts import LASTS, Begun, Purpose
 from registry.people.sign_on.provider_sessions import bind_session, end_provider_sessions
 from registry.people.sign_on.providers import Provider, find_provider, list_providers
-from registry.shapes import Asked, AsTyped, Line, Me, refuses, signed_in
+from registry.requests import Asked, AsTyped, Line, refuses, signed_in
+from registry.shapes import Me
 from registry.sites.sign_on import Answer, Arrival, begin_sign_on, finish_sign_on
 
 router = Router(tags=["registry"])

@@ -11,10 +11,8 @@ from ninja.files import UploadedFile
 from registry import services
 from registry.api.authentication import session_only
 from registry.people.access import require, require_factor
-from registry.shapes import (
-    SiteShape,
-    signed_in,
-)
+from registry.requests import signed_in
+from registry.shapes import SiteShape
 from registry.sites.views import site_to_json
 
 router = Router(tags=["registry"])

@@ -10,7 +10,7 @@ from ninja import Router
 
 from registry import services
 from registry.people.access import require
-from registry.shapes import sends, signed_in
+from registry.requests import sends, signed_in
 from registry.sparql.queries import MOST_QUERY_CHARACTERS, BadQuery
 
 router = Router(tags=["registry"])

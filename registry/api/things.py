@@ -10,7 +10,7 @@ from registry.devices.rows import NoSuchDevice
 from registry.devices.thing_forms import things_address
 from registry.devices.things import EVENTS, EventName, device_id_of
 from registry.people.access import require
-from registry.shapes import refuses, sends, signed_in
+from registry.requests import refuses, sends, signed_in
 from registry.thing_directory.answers import (
     answer_thing,
     answer_value,

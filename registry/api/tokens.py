@@ -16,7 +16,7 @@ from registry.models import User
 from registry.people import tokens
 from registry.people.access import require
 from registry.people.tokens import MOST_DAYS, MOST_NAME, TokenView
-from registry.shapes import Asked, Line, signed_in
+from registry.requests import Asked, Line, signed_in
 
 router = Router(tags=["registry"])
 Scope = Literal["read", "operate", "run", "admin", "broker"]

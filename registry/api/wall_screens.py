@@ -19,7 +19,7 @@ from registry.audit.acting import client_address
 from registry.people import wall_screens
 from registry.people.access import require
 from registry.people.wall_screens import COOKIE, MOST_DAYS, MOST_NAME, WallScreenView
-from registry.shapes import Asked, Line, refuses, signed_in
+from registry.requests import Asked, Line, refuses, signed_in
 
 router = Router(tags=["registry"])
 PAGE = "/wall#"

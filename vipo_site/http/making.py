@@ -15,7 +15,7 @@ from django.http.response import HttpResponseBase
 from django.urls import reverse
 from ninja.responses import Status
 
-from registry.shapes import LOCATION
+from registry.requests import LOCATION
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,8 +17,8 @@ from execution.floor.exports.road_map import RoadMap, make_road_map
 from execution.floor.layouts import get_layout
 from execution.traffic.layout import Layout
 from registry import services as registry
+from registry.requests import sends, signed_in
 from registry.services import require
-from registry.shapes import sends, signed_in
 
 router = Router(tags=["execution"])
 LIF, BUILDING = "application/json", "application/yaml"

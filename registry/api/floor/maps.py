@@ -18,7 +18,8 @@ from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.floorplan.plan import Grid
 from registry.floorplan.zone_masks import write_nav2_archive
 from registry.people.access import require
-from registry.shapes import MapShape, Origin, sends, signed_in
+from registry.requests import sends, signed_in
+from registry.shapes import MapShape, Origin
 
 router = Router(tags=["registry"])
 CELLS, PGM, ZIP = "application/octet-stream", "image/x-portable-graymap", "application/zip"

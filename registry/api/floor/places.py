@@ -11,7 +11,8 @@ from pydantic import Field
 
 from registry import services
 from registry.people.access import require
-from registry.shapes import Asked, Line, Number, PlaceShape, signed_in
+from registry.requests import Asked, Line, Number, signed_in
+from registry.shapes import PlaceShape
 
 router = Router(tags=["registry"])
 Kind = Literal["dock", "room", "point"]

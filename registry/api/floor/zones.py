@@ -11,7 +11,8 @@ from pydantic import Field
 
 from registry import services
 from registry.people.access import require
-from registry.shapes import Asked, Line, Number, SiteZoneShape, ZoneRule, signed_in
+from registry.requests import Asked, Line, Number, signed_in
+from registry.shapes import SiteZoneShape, ZoneRule
 
 router = Router(tags=["registry"])
 Coordinate = Annotated[Number, Field(ge=-1e6, le=1e6)]
