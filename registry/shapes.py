@@ -107,13 +107,17 @@ ZoneRule = Literal["keep_out", "slow", "one_at_a_time"]
 
 
 class SiteZoneShape(Schema):
-    """A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow."""
+    """A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow.
+
+    `robots` is how many may be in it at once where the rule is `one_at_a_time`.
+    """
 
     id: str
     name: str
     rule: ZoneRule
     points: list[tuple[float, float]]
     speed_m_s: float | None
+    robots: int | None
 
 
 class MapShape(Schema):

@@ -123,13 +123,18 @@ def _wait_for_door(turn: Turn, robot: Robot, door: Door) -> None:
     turn.wait(task, code, text, robot=robot.id, device=door.id)
 
 
-def _wait_for_zone(turn: Turn, robot: Robot, zone: FloorZone, holder: Robot) -> None:
-    """Say what the robot waits for; who stands in the zone without getting on leaves it, who is at a machine too."""
+def _wait_for_zone(turn: Turn, robot: Robot, zone: FloorZone, holders: list[Robot]) -> None:
+    """Say what the robot waits for; who stands in the zone without getting on leaves it, who is at a machine too.
+
+    Where several are in it, one that has nothing to do is asked first.
+    """
     task = turn.task_of(robot)
     if task:
         text = f"{turn.name(robot.id)} waits until {zone.name} is free."
-        turn.wait(task, "zone_taken", text, robot=robot.id, zone=zone.name, others=holder.id)
-    _move_blocker(turn, robot, holder)
+        turn.wait(
+            task, "zone_taken", text, robot=robot.id, zone=zone.name, others=",".join(each.id for each in holders)
+        )
+    _move_blocker(turn, robot, min(holders, key=lambda each: (not turn.is_idle(each), each.id)))
     robot = turn.robots[robot.id]
     if not robot.evading and turn.node(robot) in turn.layout.stations:
         _evade(turn, robot, robot)
@@ -187,7 +192,7 @@ def _evade(turn: Turn, robot: Robot, other: Robot) -> bool:
     spots = {cell for spot in (*layout.stations.values(), *layout.places.values()) for cell in spot.body}
     own_path = set() if robot.id == other.id else set(_ahead(turn, other))
     taken_zone = in_the_way(turn, other, min(other.released + 1, len(other.path) - 1))
-    if taken_zone is not None and taken_zone[1].id == robot.id:
+    if taken_zone is not None and robot.id in {holder.id for holder in taken_zone[1]}:
         own_path |= cells_of(layout, taken_zone[0])
     taken |= kept_out(turn, robot) - {layout.cell(turn.node(robot))}
     others_paths = {c for r in turn.robots.values() if r.id not in {robot.id, other.id} for c in _ahead(turn, r)}

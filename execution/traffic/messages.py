@@ -35,6 +35,8 @@ class FloorZone:
     speed_m_s: float | None = None
     door: str = ""
     """The device that is opened for who drives through, where the rule is `door`."""
+    robots: int = 1
+    """How many may be in it at once, where the rule is `one_at_a_time`."""
 
 
 def zone_from_json(data: Mapping[str, Any]) -> FloorZone:
@@ -49,12 +51,13 @@ def floor_zones(program: str, zones: Iterable[Zone]) -> tuple[FloorZone, ...]:
 
 def site_zones(zones: Iterable[ZoneFacts]) -> tuple[FloorZone, ...]:
     """Return the zones of a site's floor as the floor knows them; no program has their keys."""
-    return tuple(FloorZone(f"site/{z.id}", z.name, z.rule, z.points, z.speed_m_s) for z in zones)
+    return tuple(FloorZone(f"site/{z.id}", z.name, z.rule, z.points, z.speed_m_s, robots=z.robots) for z in zones)
 
 
 def zone_to_json(zone: FloorZone) -> dict[str, Any]:
-    """Return a zone as plain JSON; a door only where there is one, so that the version before reads all others."""
-    return {name: value for name, value in asdict(zone).items() if value or name != "door"}
+    """Return a zone as plain JSON; what the version before did not know only where it says something."""
+    usual = {"door": "", "robots": 1}
+    return {name: value for name, value in asdict(zone).items() if name not in usual or value != usual[name]}
 
 
 @dataclass(frozen=True, slots=True)

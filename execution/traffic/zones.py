@@ -1,4 +1,4 @@
-"""What zones mean for robots: where they may not drive, drive slowly, or only one at a time.
+"""What zones mean for robots: where they may not drive, drive slowly, or only so many at once.
 
 Those of the site's floor hold for every robot at any time, those of a program for the robots of its runs. A zone's
 cells are those from which a way to a neighbour, as far as its middle, lies in the zone or nearer to it than a robot's
@@ -155,7 +155,7 @@ def speed_limit(turn: Turn, robot: Robot, nodes: tuple[Node, ...]) -> float | No
 
 
 def _wanted(turn: Turn, robot: Robot, index: int) -> list[FloorZone]:
-    """Return the zones for one robot at a time that the path leads through from there on without a break between them.
+    """Return the zones for so many robots at once that the path leads through from there on without a break.
 
     They are taken all at once: two robots in neighbouring zones would else wait for each other for ever.
     """
@@ -169,33 +169,54 @@ def _wanted(turn: Turn, robot: Robot, index: int) -> list[FloorZone]:
     return list(wanted.values())
 
 
-def in_the_way(turn: Turn, robot: Robot, index: int) -> tuple[FloorZone, Robot] | None:
-    """Return the first zone that a robot may not enter at a node of its path, and who is in it."""
+def _seats(zone: FloorZone) -> list[str]:
+    """Return the keys under which robots hold a zone, one for each that may be in it at once."""
+    return [zone.key, *(f"{zone.key}#{number}" for number in range(2, zone.robots + 1))]
+
+
+def _holds(turn: Turn, robot: Robot, zone: FloorZone) -> bool:
+    return any(turn.locks.get(seat) == robot.id for seat in _seats(zone))
+
+
+def _take(turn: Turn, robot: Robot, zone: FloorZone) -> None:
+    """Give a robot a free seat of a zone, unless it has one or there is none."""
+    if _holds(turn, robot, zone):
+        return
+    free = next((seat for seat in _seats(zone) if seat not in turn.locks), None)
+    if free is not None:
+        turn.locks[free] = robot.id
+
+
+def in_the_way(turn: Turn, robot: Robot, index: int) -> tuple[FloorZone, list[Robot]] | None:
+    """Return the first zone that a robot may not enter at a node of its path, and who has its seats."""
     for zone in _wanted(turn, robot, index):
-        holder = turn.robots.get(turn.locks.get(zone.key, robot.id))
-        if holder is not None and holder.id != robot.id:
-            return zone, holder
+        if _holds(turn, robot, zone):
+            continue
+        seats = _seats(zone)
+        holders = [turn.robots[holder] for seat in seats if (holder := turn.locks.get(seat)) in turn.robots]
+        if len(holders) == len(seats):
+            return zone, holders
     return None
 
 
 def take_zones(turn: Turn, robot: Robot, index: int) -> None:
-    """A robot goes to a node of its path: the zones there are its own."""
+    """A robot goes to a node of its path: it has a seat in the zones there."""
     for zone in _wanted(turn, robot, index):
-        turn.locks[zone.key] = robot.id
+        _take(turn, robot, zone)
 
 
 def keep_zones(turn: Turn) -> None:
-    """Give back what a robot has left, and let who stands in a free zone have it."""
+    """Give back what a robot has left, and let who stands in a zone with room have a seat in it."""
     all_zones = chain(turn.layout.zones, *turn.zones.values())
-    known = {zone.key: zone for zone in all_zones if zone.rule == "one_at_a_time"}
-    for key, holder in list(turn.locks.items()):
+    known = {seat: zone for zone in all_zones if zone.rule == "one_at_a_time" for seat in _seats(zone)}
+    for seat, holder in list(turn.locks.items()):
         robot = turn.robots.get(holder)
-        if key not in known or robot is None or not _stays_in(turn, robot, known[key]):
-            del turn.locks[key]
+        if seat not in known or robot is None or not _stays_in(turn, robot, known[seat]):
+            del turn.locks[seat]
     for robot in turn.robots.values():
         for zone in _zones(turn, robot, "one_at_a_time"):
             if robot.path and is_in(turn.layout, turn.node(robot), zone):
-                turn.locks.setdefault(zone.key, robot.id)
+                _take(turn, robot, zone)
 
 
 def _stays_in(turn: Turn, robot: Robot, zone: FloorZone) -> bool:

@@ -26,6 +26,7 @@ MOST_ZONES = 100
 FEWEST_CORNERS, MOST_CORNERS = 3, 100
 SMALLEST_M2 = 0.01
 SLOWEST_M_S, FASTEST_M_S = 0.05, 5.0
+MOST_ROBOTS = 20
 
 
 class BadZone(RegistryError):
@@ -51,12 +52,16 @@ class ZoneTaken(RegistryError):
 
 @dataclass(frozen=True, slots=True)
 class ZoneChange:
-    """What is to be another about a zone; None leaves it. Metres in the map frame, metres a second."""
+    """What is to be another about a zone; None leaves it. Metres in the map frame, metres a second.
+
+    `robots` is how many may be in a zone at once whose rule is that.
+    """
 
     name: str | None = None
     rule: str | None = None
     points: Sequence[tuple[float, float]] | None = None
     speed_m_s: float | None = None
+    robots: int | None = None
 
 
 def add_zone(*, site: str, zone: ZoneChange, zone_id: str = "") -> ZoneView:
@@ -135,6 +140,10 @@ def _change(row: SiteZone, zone: ZoneChange, grid: Grid) -> None:
         row.points = [list(point) for point in _checked_points(zone.points or (), grid)]
     if zone.speed_m_s is not None:
         row.speed_m_s = _checked_speed(zone.speed_m_s)
+    if zone.robots is not None:
+        row.robots = _checked_robots(zone.robots)
+    if row.rule != SiteZone.Rule.ONE_AT_A_TIME:
+        row.robots = None
     if row.rule != SiteZone.Rule.SLOW:
         row.speed_m_s = None
     elif row.speed_m_s is None:
@@ -177,3 +186,10 @@ def _checked_speed(speed_m_s: float) -> float:
         text = f"Robots drive {SLOWEST_M_S:g} to {FASTEST_M_S:g} m/s in a slow zone. Enter such a speed."
         raise BadZone(text, {"why": "speed", "least": SLOWEST_M_S, "most": FASTEST_M_S})
     return round(speed_m_s, 3)
+
+
+def _checked_robots(robots: int) -> int:
+    if not 1 <= robots <= MOST_ROBOTS:
+        text = f"1 to {MOST_ROBOTS} robots may be in a zone at once. Enter such a number."
+        raise BadZone(text, {"why": "robots", "most": MOST_ROBOTS})
+    return robots

@@ -83,6 +83,7 @@ class SiteZone(models.Model):
     rule = models.CharField(max_length=20, choices=Rule.choices)
     points = models.JSONField()
     speed_m_s = models.FloatField(null=True)
+    robots = models.PositiveSmallIntegerField(null=True)
 
     class Meta:
         """A zone's key is its id at the site."""

@@ -152,7 +152,15 @@ def list_zones(*, site: str) -> tuple[ZoneView, ...]:
     """Return the site's zones, by id; none where there is no such site."""
     rows = SiteZone.objects.filter(site__slug=site).order_by("key")
     return tuple(
-        ZoneView(z.key, z.name, z.rule, tuple((float(x), float(y)) for x, y in z.points), z.speed_m_s) for z in rows
+        ZoneView(
+            z.key,
+            z.name,
+            z.rule,
+            tuple((float(x), float(y)) for x, y in z.points),
+            z.speed_m_s,
+            (z.robots or 1) if z.rule == SiteZone.Rule.ONE_AT_A_TIME else None,
+        )
+        for z in rows
     )
 
 

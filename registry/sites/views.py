@@ -24,7 +24,7 @@ class PlaceView:
 class ZoneView:
     """A zone of a site: a polygon in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow.
 
-    `rule` is `keep_out`, `slow` or `one_at_a_time`.
+    `rule` is `keep_out`, `slow` or `one_at_a_time`, where `robots` says how many may be in it at once.
     """
 
     id: str
@@ -32,6 +32,7 @@ class ZoneView:
     rule: str
     points: tuple[tuple[float, float], ...]
     speed_m_s: float | None = None
+    robots: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -116,14 +116,17 @@ def _place_from_json(body: Mapping[str, Any]) -> PlaceFacts:
 
 
 def zone_to_json(zone: ZoneFacts) -> dict[str, Any]:
-    """Return a zone of a site's floor as plain JSON; `speed_m_s` only where it has one."""
-    body = {"id": zone.id, "name": zone.name, "rule": zone.rule, "points": [list(point) for point in zone.points]}
-    return body if zone.speed_m_s is None else {**body, "speed_m_s": zone.speed_m_s}
+    """Return a zone of a site's floor as plain JSON; `speed_m_s` only where it has one, `robots` only above one."""
+    body: dict[str, Any] = {"id": zone.id, "name": zone.name, "rule": zone.rule}
+    body["points"] = [list(point) for point in zone.points]
+    if zone.speed_m_s is not None:
+        body["speed_m_s"] = zone.speed_m_s
+    return body if zone.robots == 1 else {**body, "robots": zone.robots}
 
 
 def zone_from_json(body: Mapping[str, Any]) -> ZoneFacts:
     """Read a zone of a site's floor. Raises UnreadableSite."""
-    name, points, speed = body.get("id"), body.get("points"), body.get("speed_m_s")
+    name, points, speed, robots = body.get("id"), body.get("points"), body.get("speed_m_s"), body.get("robots", 1)
     corners = [_corner(point) for point in points] if isinstance(points, list) else []
     good = isinstance(name, str) and name and len(corners) >= FEWEST_CORNERS and None not in corners
     slow = body.get("rule") != "slow" or _is_finite(speed)
@@ -132,9 +135,11 @@ def zone_from_json(body: Mapping[str, Any]) -> ZoneFacts:
             f"Zone {name} needs an id, a rule: {', '.join(ZONE_RULES)}, points: at least {FEWEST_CORNERS} [x, y] in"
             " metres, and for slow a speed_m_s."
         )
+    if not isinstance(robots, int) or isinstance(robots, bool) or robots < 1:
+        raise UnreadableSite(f"Zone {name} must say with a whole number from 1 on how many robots may be in it.")
     outline = tuple(corner for corner in corners if corner is not None)
     speed_m_s = float(speed) if body["rule"] == "slow" and isinstance(speed, int | float) else None
-    return ZoneFacts(str(name), str(body.get("name", name)), body["rule"], outline, speed_m_s)
+    return ZoneFacts(str(name), str(body.get("name", name)), body["rule"], outline, speed_m_s, robots)
 
 
 def _corner(point: object) -> tuple[float, float] | None:

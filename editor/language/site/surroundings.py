@@ -39,13 +39,17 @@ class PlaceFacts:
 
 @dataclass(frozen=True, slots=True)
 class ZoneFacts:
-    """A zone of the site's floor: a polygon in metres that all robots keep out of, share, or go slowly in."""
+    """A zone of the site's floor: a polygon in metres that all robots keep out of, share, or go slowly in.
+
+    Where they share it, `robots` of them may be in it at once.
+    """
 
     id: str
     name: str
     rule: ZoneRule
     points: tuple[tuple[float, float], ...]
     speed_m_s: float | None = None
+    robots: int = 1
 
 
 class FloorFacts(Protocol):

@@ -148,5 +148,5 @@ def _id(node: Node) -> str:
 
 def _road(a: Node, b: Node, zones: frozenset[FloorZone]) -> Road:
     speeds = [zone.speed_m_s for zone in zones if zone.rule == "slow" and zone.speed_m_s]
-    alone = sorted(zone.key for zone in zones if zone.rule == "one_at_a_time")
+    alone = sorted(zone.key for zone in zones if zone.rule == "one_at_a_time" and zone.robots == 1)
     return Road(_id(a), _id(b), min(speeds, default=None), tuple(alone))

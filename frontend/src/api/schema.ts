@@ -4883,7 +4883,10 @@ export interface components {
             days: number;
             name: string;
         };
-        /** @description A zone that is to be: corners in metres in the map frame; `speed_m_s` for `slow` alone; `id` made of its name. */
+        /**
+         * @description A zone that is to be: corners in metres in the map frame; `speed_m_s` for `slow` alone, `robots` for
+         *     `one_at_a_time` (1 unless it says so); `id` made of its name.
+         */
         NewZone: {
             /** @default  */
             id: string;
@@ -4892,6 +4895,7 @@ export interface components {
                 number,
                 number
             ][];
+            robots?: number | null;
             /** @enum {string} */
             rule: "keep_out" | "slow" | "one_at_a_time";
             speed_m_s?: number | null;
@@ -5824,7 +5828,11 @@ export interface components {
             slug: string;
             stop: components["schemas"]["Stop"];
         };
-        /** @description A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow. */
+        /**
+         * @description A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow.
+         *
+         *     `robots` is how many may be in it at once where the rule is `one_at_a_time`.
+         */
         SiteZoneShape: {
             id: string;
             name: string;
@@ -5832,6 +5840,7 @@ export interface components {
                 number,
                 number
             ][];
+            robots: number | null;
             /** @enum {string} */
             rule: "keep_out" | "slow" | "one_at_a_time";
             speed_m_s: number | null;
@@ -6223,6 +6232,7 @@ export interface components {
                 number,
                 number
             ][] | null;
+            robots?: number | null;
             rule?: ("keep_out" | "slow" | "one_at_a_time") | null;
             speed_m_s?: number | null;
         };

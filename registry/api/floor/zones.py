@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from django.http import HttpRequest
 from ninja import Router
-from pydantic import Field
+from pydantic import Field, Strict
 
 from registry import services
 from registry.people.access import require
@@ -18,15 +18,19 @@ router = Router(tags=["registry"])
 Coordinate = Annotated[Number, Field(ge=-1e6, le=1e6)]
 Corners = Annotated[list[tuple[Coordinate, Coordinate]], Field(max_length=1000)]
 Speed = Annotated[Number, Field(gt=0, le=1000)]
+Robots = Annotated[int, Strict(), Field(ge=1, le=1000)]
 
 
 class NewZone(Asked):
-    """A zone that is to be: corners in metres in the map frame; `speed_m_s` for `slow` alone; `id` made of its name."""
+    """A zone that is to be: corners in metres in the map frame; `speed_m_s` for `slow` alone, `robots` for
+    `one_at_a_time` (1 unless it says so); `id` made of its name.
+    """
 
     name: Line = Field(max_length=200)
     rule: ZoneRule
     points: Corners
     speed_m_s: Speed | None = None
+    robots: Robots | None = None
     id: Line = Field("", max_length=60)
 
 
@@ -37,6 +41,7 @@ class ZoneEdit(Asked):
     rule: ZoneRule | None = None
     points: Corners | None = None
     speed_m_s: Speed | None = None
+    robots: Robots | None = None
 
 
 @router.post("/sites/{slug}/zones", response={201: SiteZoneShape})

@@ -41,12 +41,14 @@ def test_a_zone_is_drawn_changed_and_removed(
     with django_capture_on_commit_callbacks(execute=True):
         made = post_json(admin, ZONES, AISLE)
         assert (made.status_code, made["Location"]) == (201, f"{ZONES}/service_aisle")
-        assert made.json() == {**AISLE, "id": "service_aisle", "speed_m_s": None}
+        assert made.json() == {**AISLE, "id": "service_aisle", "speed_m_s": None, "robots": None}
         slow = patch_json(admin, made["Location"], {"rule": "slow", "speed_m_s": 0.25, "name": "Aisle"})
-        assert slow.json() == {**AISLE, "id": "service_aisle", "name": "Aisle", "rule": "slow", "speed_m_s": 0.25}
+        changed = {"name": "Aisle", "rule": "slow", "speed_m_s": 0.25}
+        assert slow.json() == {**made.json(), **changed}
         assert told(admin) == [("service_aisle", "Aisle", "slow", 0.25)]
         shut = patch_json(admin, made["Location"], {"rule": "one_at_a_time"})
-        assert shut.json()["speed_m_s"] is None
+        assert (shut.json()["speed_m_s"], shut.json()["robots"]) == (None, 1)
+        assert patch_json(admin, made["Location"], {"robots": 3}).json()["robots"] == 3
         assert admin.delete(made["Location"]).status_code == 204
     assert told(admin) == []
     done = [(line["code"], line["facts"]) for line in admin.get("/api/sites/hall/audit?kind=map").json()]
@@ -54,10 +56,11 @@ def test_a_zone_is_drawn_changed_and_removed(
         ("zone_removed", "Aisle"),
         ("zone_changed", "Aisle"),
         ("zone_changed", "Aisle"),
+        ("zone_changed", "Aisle"),
         ("zone_added", "Service aisle"),
     )
-    assert done[:4] == [(code, {"zone": name}) for code, name in names]
-    assert heard == [("hall", {"type": "map", "version": 1})] * 4
+    assert done[:5] == [(code, {"zone": name}) for code, name in names]
+    assert heard == [("hall", {"type": "map", "version": 1})] * 5
     gone = made["Location"]
     for answer in (admin.get(gone), admin.delete(gone), patch_json(admin, gone, {})):
         assert refused(answer) == (404, "no_such_zone")
@@ -69,6 +72,7 @@ def test_a_zone_is_drawn_changed_and_removed(
         ({"name": " "}, (422, "name")),
         ({"name": "x" * 61}, (422, "name")),
         ({"points": [[0, 0], [1, 1]]}, (422, "corners")),
+        ({"rule": "one_at_a_time", "robots": 21}, (422, "robots")),
         ({"points": [[x / 100, (x % 2) / 100] for x in range(101)]}, (422, "corners")),
         ({"points": [[0, 0], [4.01, 0], [1, 1]]}, (422, "off")),
         ({"points": [[0, 0], [1, 1], [1, 0], [0, 1]]}, (422, "crossing")),
@@ -100,7 +104,7 @@ def test_a_refused_change_leaves_a_zone_as_it_is(admin: Client) -> None:
         422,
         "crossing",
     )
-    assert admin.get(at).json() == {**AISLE, "id": "service_aisle", "speed_m_s": None}
+    assert admin.get(at).json() == {**AISLE, "id": "service_aisle", "speed_m_s": None, "robots": None}
 
 
 def test_two_admins_who_change_different_things_of_a_zone_both_have_their_way(admin: Client) -> None:
@@ -114,6 +118,7 @@ def test_two_admins_who_change_different_things_of_a_zone_both_have_their_way(ad
         "rule": "keep_out",
         "points": moved,
         "speed_m_s": None,
+        "robots": None,
     }
 
 

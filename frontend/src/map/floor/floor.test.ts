@@ -57,6 +57,7 @@ const zone: MapZone = {
     [1, 1],
   ],
   speed_m_s: null,
+  robots: null,
 };
 
 test("routes are planned anew on another map and round other zones to keep out of, for nothing else", () => {

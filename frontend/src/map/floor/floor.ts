@@ -19,6 +19,8 @@ export interface MapZone {
   readonly rule: "keep_out" | "slow" | "one_at_a_time";
   readonly points: readonly Point[];
   readonly speed_m_s: number | null;
+  /** How many may be in it at once, where its rule is that. */
+  readonly robots: number | null;
 }
 
 /** One version of a site's map; `cells` row by row from the bottom row: 0 free, 100 wall, 255 unknown. */

@@ -3,9 +3,9 @@ import type { TFunction } from "i18next";
 import { formatNumber, withUnit } from "@/i18n/format";
 import type { MapZone } from "./floor";
 
-/** Its rule: "Keep out", "At most 0.3 m/s". */
-export function ruleWords({ rule, speed_m_s }: Pick<MapZone, "rule" | "speed_m_s">, t: TFunction): string {
-  return t(`zone.short.${rule}`, { speed: speedWords(speed_m_s ?? 0) });
+/** Its rule: "Keep out", "At most 0.3 m/s", "2 robots". */
+export function ruleWords({ rule, speed_m_s, robots }: Omit<MapZone, "id" | "name" | "points">, t: TFunction): string {
+  return t(`zone.short.${rule}`, { speed: speedWords(speed_m_s ?? 0), count: robots ?? 1 });
 }
 
 /** Its rule and its name: "Keep out, service aisle". */

@@ -1,6 +1,7 @@
 """Zones on the floor: kept out of, one robot at a time, slow."""
 
 import random
+from dataclasses import replace
 from math import hypot
 
 import pytest
@@ -124,6 +125,52 @@ def test_only_one_robot_at_a_time_is_in_the_zone_and_all_arrive():
     assert meet((zone("one_at_a_time"),), poses, {"robot01": (18.0, -8.0), "robot02": (3.0, -7.6)}) == 1
 
 
+@pytest.mark.parametrize("robots", [1, 2, 3])
+def test_at_most_so_many_robots_are_in_the_zone_at_once_and_all_arrive(robots):
+    """Three cross it from both sides; where there is room for two, two are in it, and never the third."""
+    poses = {"robot01": (3.0, -8.0), "robot02": (3.0, -7.6), "robot03": (18.0, -7.6)}
+    goals = {"robot01": (18.0, -8.0), "robot02": (17.0, -8.2), "robot03": (3.0, -7.6)}
+    assert 1 <= meet((zone("one_at_a_time", robots=robots),), poses, goals) <= robots
+
+
+def test_two_that_follow_each_other_are_in_a_zone_for_two_together():
+    poses = {"robot01": (4.5, -8.0), "robot02": (3.0, -8.0)}
+    goals = {"robot01": (18.0, -8.0), "robot02": (17.0, -8.2)}
+    assert meet((zone("one_at_a_time", robots=2),), poses, goals) == 2
+
+
+def test_whoever_idles_in_a_zone_for_two_makes_room_for_a_third():
+    poses = {"robot01": (7.0, -7.5), "robot02": (9.0, -8.5), "robot03": (18.0, -7.5)}
+    floor = PretendFloor(demo_floor.layout(), poses)
+    zones = (zone("one_at_a_time", robots=2),)
+    for run, robot, point in (("a", "robot01", (7.4, -7.5)), ("b", "robot02", (8.6, -8.5))):
+        go(floor, run, point, zones, wants=robot)
+        drive(floor, lambda run=run: (run, 1) in floor.over, lambda: None)
+    assert floor.state.locks == {"p/z": "robot01", "p/z#2": "robot02"}
+    go(floor, "c", (3.0, -7.5), zones, wants="robot03")
+    drive(floor, lambda: ("c", 1) in floor.over, lambda: None)
+    assert floor.over["c", 1] == ("", "")
+
+
+def test_a_zone_for_fewer_than_before_lets_who_is_too_many_out():
+    poses = {"robot01": (7.0, -7.5), "robot02": (9.0, -8.5)}
+    floor = PretendFloor(replace(demo_floor.layout(), zones=(zone("one_at_a_time", robots=2),)), poses)
+    for _ in range(20):
+        floor.pass_time()
+    floor.layout = replace(floor.layout, zones=(zone("one_at_a_time"),))
+    go(floor, "a", (18.0, -8.0), (), wants="robot01")
+    go(floor, "b", (3.0, -7.6), (), wants="robot02")
+    drive(floor, lambda: len(floor.over) == 2, lambda: None)
+    assert set(floor.over.values()) == {("", "")}
+
+
+def test_a_zone_for_one_is_written_as_the_version_before_reads_it():
+    assert "robots" not in m.zone_to_json(zone("one_at_a_time"))
+    for robots in (1, 4):
+        known = zone("one_at_a_time", robots=robots)
+        assert m.zone_from_json(m.zone_to_json(known)) == known
+
+
 def test_neighbouring_zones_do_not_make_robots_wait_for_each_other_for_ever():
     left = ((5.0, -9.0), (8.0, -9.0), (8.0, -5.0), (5.0, -5.0))
     right = ((8.0, -9.0), (11.0, -9.0), (11.0, -5.0), (8.0, -5.0))
@@ -145,8 +192,8 @@ def test_a_robot_that_stands_idle_in_the_zone_leaves_it_for_another():
     assert hypot(floor.at["robot02"][0] - 3.0, floor.at["robot02"][1] + 7.5) < 0.1
 
 
-@pytest.mark.parametrize("seed", [3, 17, 52])
-def test_robots_with_many_tasks_through_random_zones_all_arrive(seed):
+@pytest.mark.parametrize(("seed", "most"), [(3, 1), (17, 1), (52, 1), (5, 2), (24, 3)])
+def test_robots_with_many_tasks_through_random_zones_all_arrive(seed, most):
     """With 17 and 52 one waits in a zone for a machine, which another has that waits for the zone."""
     rng = random.Random(seed)
     layout = demo_floor.layout()
@@ -155,7 +202,7 @@ def test_robots_with_many_tasks_through_random_zones_all_arrive(seed):
     for number in range(rng.randint(1, 3)):
         x, y, wide, deep = rng.uniform(1, 18), rng.uniform(-12, -3), rng.uniform(1, 5), rng.uniform(1, 5)
         outline = ((x, y), (x + wide, y), (x + wide, y + deep), (x, y + deep))
-        zones.append(zone("one_at_a_time", outline, f"p/z{number}"))
+        zones.append(zone("one_at_a_time", outline, f"p/z{number}", robots=1 + number % most))
     floor = PretendFloor(layout)
     runs = {f"run{number}": robot for number, robot in enumerate(sorted(floor.state.robots))}
     done = dict.fromkeys(runs, 0)
@@ -165,7 +212,7 @@ def test_robots_with_many_tasks_through_random_zones_all_arrive(seed):
             if done[run] < 4 and (not done[run] or (run, done[run]) in floor.over):
                 done[run] += 1
                 go(floor, run, rng.choice(targets), tuple(zones), done[run], wants=robot)
-        assert all(sum(lies_in(at, each.points) for at in floor.at.values()) <= 1 for each in zones)
+        assert all(sum(lies_in(at, each.points) for at in floor.at.values()) <= each.robots for each in zones)
 
     drive(floor, lambda: all((run, 4) in floor.over for run in runs), ask)
     assert set(floor.over.values()) == {("", "")}

@@ -1,23 +1,33 @@
-/** What a zone asks of robots, with a sentence about it; where they drive slowly, how fast they may be. */
+/** What a zone asks of robots, with a sentence about it: how fast they may be there, or how many at once. */
 import { NumberInput, Radio } from "@mantine/core";
 import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
+import type { MapZone } from "@/api/types";
 import { ZONE_RULES, type ZoneRule } from "@/api/zones";
 import styles from "../places/places.module.css";
 
 export const USUAL_SPEED_M_S = 0.3;
 const SLOWEST_M_S = 0.05;
 const FASTEST_M_S = 5;
+const MOST_ROBOTS = 20;
+
+/** A rule with its number: the speed where robots drive slowly, their count where only so many may be in it. */
+export type RuleOfZone = Pick<MapZone, "rule" | "speed_m_s" | "robots">;
 
 interface RuleFieldProps {
-  rule: ZoneRule;
-  speed: number | null;
-  change: (rule: ZoneRule, speed: number | null) => void;
+  value: RuleOfZone;
+  change: (rule: RuleOfZone) => void;
 }
 
-export function RuleField({ rule, speed, change }: RuleFieldProps) {
+export function RuleField({ value, change }: RuleFieldProps) {
   const { t } = useTranslation();
-  const choose = (next: ZoneRule) => change(next, next === "slow" ? (speed ?? USUAL_SPEED_M_S) : null);
+  const { rule, speed_m_s, robots } = value;
+  const choose = (next: ZoneRule) =>
+    change({
+      rule: next,
+      speed_m_s: next === "slow" ? (speed_m_s ?? USUAL_SPEED_M_S) : null,
+      robots: next === "one_at_a_time" ? (robots ?? 1) : null,
+    });
   return (
     <>
       <Radio.Group label={t("zone.rule")} value={rule} onChange={(next) => choose(next)}>
@@ -27,15 +37,46 @@ export function RuleField({ rule, speed, change }: RuleFieldProps) {
           ))}
         </div>
       </Radio.Group>
-      {rule === "slow" ? <SpeedField speed={speed} keep={(next) => change("slow", next)} /> : null}
+      {rule === "slow" ? (
+        <SettledNumber
+          label={t("zone.speed")}
+          suffix=" m/s"
+          step={0.1}
+          min={SLOWEST_M_S}
+          max={FASTEST_M_S}
+          decimalScale={2}
+          known={speed_m_s ?? USUAL_SPEED_M_S}
+          keep={(next) => change({ rule, speed_m_s: next, robots: null })}
+        />
+      ) : null}
+      {rule === "one_at_a_time" ? (
+        <SettledNumber
+          label={t("zone.robots")}
+          step={1}
+          min={1}
+          max={MOST_ROBOTS}
+          decimalScale={0}
+          known={robots ?? 1}
+          keep={(next) => change({ rule, speed_m_s: null, robots: next })}
+        />
+      ) : null}
     </>
   );
 }
 
-/** Kept when the field is left or Enter is pressed. */
-function SpeedField({ speed, keep }: { speed: number | null; keep: (speed: number) => void }) {
-  const { t } = useTranslation();
-  const known = speed ?? USUAL_SPEED_M_S;
+interface SettledNumberProps {
+  label: string;
+  suffix?: string;
+  step: number;
+  min: number;
+  max: number;
+  decimalScale: number;
+  known: number;
+  keep: (value: number) => void;
+}
+
+/** A number that is kept when its field is left or Enter is pressed. */
+function SettledNumber({ known, keep, ...field }: SettledNumberProps) {
   const [value, setValue] = useState<number | string>(known);
   useEffect(() => setValue(known), [known]);
   const settle = () => {
@@ -44,12 +85,7 @@ function SpeedField({ speed, keep }: { speed: number | null; keep: (speed: numbe
   };
   return (
     <NumberInput
-      label={t("zone.speed")}
-      suffix=" m/s"
-      step={0.1}
-      min={SLOWEST_M_S}
-      max={FASTEST_M_S}
-      decimalScale={2}
+      {...field}
       value={value}
       onChange={setValue}
       onBlur={settle}

@@ -4,14 +4,19 @@ import { Trash2 } from "lucide-react";
 import { useEffect, useRef, useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import type { MapZone, SiteMap } from "@/api/types";
-import { useChangeZone, type ZoneFields, type ZoneRule } from "@/api/zones";
+import { useChangeZone, type ZoneFields } from "@/api/zones";
 import { formatNumber, withUnit } from "@/i18n/format";
 import styles from "../places/places.module.css";
 import { tellRefusal } from "../places/refusal";
 import { areaOf } from "./outline";
-import { RuleField } from "./RuleField";
+import { RuleField, type RuleOfZone } from "./RuleField";
 import { ZoneUses } from "./RemoveZone";
 import type { ZoneEditing } from "./useZones";
+
+/** A rule as it is sent: with the number that belongs to it, and without the other. */
+function said({ rule, speed_m_s, robots }: RuleOfZone): ZoneFields {
+  return { rule, ...(speed_m_s === null ? {} : { speed_m_s }), ...(robots === null ? {} : { robots }) };
+}
 
 interface ZoneFormProps {
   slug: string;
@@ -28,11 +33,7 @@ export function ZoneForm({ slug, map, zone, remove }: ZoneFormProps) {
   return (
     <div className={styles.form} role="group" aria-label={t("zone.about", { name: zone.name })}>
       <NameField name={zone.name} keep={(name, refused) => edit({ name }, refused)} />
-      <RuleField
-        rule={zone.rule}
-        speed={zone.speed_m_s}
-        change={(rule, speed_m_s) => edit(speed_m_s === null ? { rule } : { rule, speed_m_s })}
-      />
+      <RuleField value={zone} change={(rule) => edit(said(rule))} />
       <p className={styles.quiet}>{t("zone.area", { area: withUnit(formatNumber(areaOf(zone.points), 1), "m²") })}</p>
       <ZoneUses slug={slug} map={map} zone={zone} />
       <Button variant="default" color="red" leftSection={<Trash2 size={15} aria-hidden="true" />} onClick={remove}>
@@ -70,13 +71,12 @@ function NameField({ name, keep }: { name: string; keep: (name: string, refused:
 export function NewZoneForm({ editing }: { editing: ZoneEditing }) {
   const { t } = useTranslation();
   const [name, setName] = useState("");
-  const [rule, setRule] = useState<ZoneRule>("keep_out");
-  const [speed, setSpeed] = useState<number | null>(null);
+  const [rule, setRule] = useState<RuleOfZone>({ rule: "keep_out", speed_m_s: null, robots: null });
   const field = useRef<HTMLInputElement>(null);
   useEffect(() => field.current?.focus(), []);
   const submit = (event: FormEvent) => {
     event.preventDefault();
-    if (name.trim()) editing.add({ name: name.trim(), rule, ...(speed === null ? {} : { speed_m_s: speed }) });
+    if (name.trim()) editing.add({ name: name.trim(), ...said(rule) });
   };
   return (
     <form onSubmit={submit} className={styles.form} aria-label={t("zone.new")}>
@@ -91,7 +91,7 @@ export function NewZoneForm({ editing }: { editing: ZoneEditing }) {
           if (event.key === "Escape") editing.stop();
         }}
       />
-      <RuleField rule={rule} speed={speed} change={(next, pace) => (setRule(next), setSpeed(pace))} />
+      <RuleField value={rule} change={setRule} />
       <p className={styles.quiet}>
         {t("zone.area", { area: withUnit(formatNumber(areaOf(editing.drawn?.corners ?? []), 1), "m²") })}
       </p>
