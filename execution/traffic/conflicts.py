@@ -34,6 +34,8 @@ def resolve(turn: Turn) -> None:
         if not stands or robot.released + 1 >= len(robot.path) or robot.blocked_since is None or turn.stopped:
             continue
         door = shut_door(turn, robot, robot.released + 1)
+        if robot.evading and _is_let_out(turn, robot):
+            continue
         if robot.evading:
             limit_s = GIVE_UP_EVADING_S if door is None or why_not_waited_for(turn, door) else BLOCKED_LIMIT_S
             if turn.now - robot.blocked_since > limit_s:
@@ -42,6 +44,19 @@ def resolve(turn: Turn) -> None:
             _wait_for_door(turn, robot, door)
         elif not robot.yields_to and robot.run not in turn.paused:
             _unblock(turn, robot)
+
+
+def _is_let_out(turn: Turn, robot: Robot) -> bool:
+    """Let whom a robot makes room for leave the zone that it would have to come through; tell if it does.
+
+    Two would else wait for ever: one at the dock that the other is sent to, and that one in the zone before the dock.
+    """
+    taken = in_the_way(turn, robot, robot.released + 1)
+    other = turn.robots.get(robot.yields_to)
+    if taken is None or other is None or other.id not in {holder.id for holder in taken[1]}:
+        return False
+    is_busy = turn.is_driving(other) or turn.is_acting(other) or not other.online
+    return not is_busy and _evade(turn, other, robot)
 
 
 def _rank(turn: Turn, robot: Robot) -> int:
