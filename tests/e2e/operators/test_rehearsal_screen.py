@@ -89,10 +89,10 @@ def rehearse_order(page: Page) -> tuple[str, str]:
 
 
 def test_waits_are_marked_a_link_names_the_moment_and_files_are_handed_out(sign_in: SignIn, tmp_path: Path) -> None:
-    page = sign_in("author", SITE.replace("/api", ""))
+    page = sign_in("author")
     path, rehearsal = rehearse_order(page)
     wait = ask(page, f"/api/rehearsals/{rehearsal}")["result"]["waits"][0]
-    origin = page.url.split("/sites/")[0]
+    origin = page.url.rstrip("/")
     page.goto(f"{origin}{path}?t={wait['t'] + 0.2:.1f}")
     mark = page.get_by_role("region", name="Map", exact=True).get_by_role("button", name=re.compile("^1: "))
     row = page.get_by_role("region", name="Result").get_by_role("button", name=re.compile("^1 "))
