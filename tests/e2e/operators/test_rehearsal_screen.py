@@ -11,7 +11,7 @@ from mcap.reader import make_reader
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import SITE, ask, program_named, saved, tell, until, violations, write_program
+from tests.e2e.screens import ask, program_named, saved, tell, until, violations, write_program
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
