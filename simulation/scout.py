@@ -103,8 +103,8 @@ class ScoutActor(Robot):
 
     def _take_on(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> str:
         if self.explores:
-            name = self.description.name
-            return f"{name} explores{' already' if method == EXPLORE else '. Wait until it is done, or cancel that'}."
+            already = " already" if method == EXPLORE else ""
+            return f"{self.description.name} explores{already}. Wait until it is done, or cancel that."
         if method != EXPLORE:
             self.stands_at(self._motion())
             return super()._take_on(t_s, method, arguments, command)
@@ -149,9 +149,9 @@ class ScoutActor(Robot):
         self.stands_before = "something stands in its way" if expedition.stands_before else ""
 
     def _motion(self) -> Motion:
-        """Return where the robot believes to be, and how fast it is."""
-        believed, (speed, turn) = self.expedition.maker.pose, self.expedition.pace
-        return Motion(believed.x, believed.y, believed.theta, speed, turn)
+        """Return where the robot believes to be."""
+        believed = self.expedition.maker.pose
+        return Motion(believed.x, believed.y, believed.theta)
 
 
 class Scout:

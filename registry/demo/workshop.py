@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from registry.demo.factory import FOLDER, read_plan
+from registry.errors import RegistryError
 from registry.models import Site
 from registry.sites.members import set_member
 from registry.sites.sites import create_site
@@ -13,6 +14,13 @@ from vipo_device.protocol.description import Pose
 
 SLUG = "workshop"
 NAME = "Workshop"
+
+
+class WorkshopTaken(RegistryError):
+    """The workshop's short name is another site's."""
+
+    code = "workshop_taken"
+    status = 409
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,17 +38,25 @@ class Workshop:
 
 
 def seed_workshop(*, people: dict[str, str]) -> None:
-    """Make the site once, without a map, a place or a device; `people` are roles by e-mail address."""
+    """Make the site once, without a map, a place or a device; `people` are roles by e-mail address.
+
+    Raises WorkshopTaken: somebody has made a site of that name.
+    """
     if find_workshop() is not None:
         return
+    if Site.objects.filter(slug=SLUG).exists():
+        raise WorkshopTaken(
+            f"Somebody has made a site whose short name is {SLUG}, so the demo's cannot be made beside it."
+            " RESET=1 begins anew without it; VIPO_STATE_DIR=FOLDER keeps it and begins in another folder."
+        )
     create_site(name=NAME, slug=SLUG)
     for email, role in people.items():
         set_member(site=SLUG, email=email, role=role)
 
 
 def find_workshop() -> Workshop | None:
-    """Return the site if it was made, and not taken away since."""
-    if not Site.objects.filter(slug=SLUG).exists():
+    """Return the site if the demo has made it, and nobody has taken it away since."""
+    if not Site.objects.filter(slug=SLUG, made_by=None).exists():
         return None
     x, y = read_plan(SLUG)["start"]
     return Workshop(SLUG, f"{SLUG}.robot01", "TurtleBot 1", Pose(x, -y), FOLDER / f"{SLUG}.yaml")

@@ -95,11 +95,6 @@ class Expedition:
         """True when the map is made, or the time is over."""
         return self.maker.is_done or self.time_s >= self._plan.longest_s
 
-    @property
-    def pace(self) -> tuple[float, float]:
-        """Return how fast the robot drives (m/s) and turns (rad/s)."""
-        return self._speed, self._turn
-
     def tick(self) -> bool:
         """Let a tick pass in which the robot explores; True when a scan went into the map."""
         sees = False

@@ -13,6 +13,7 @@ from vipo_device.protocol.description import description_from_json, description_
 LIFECYCLES = ("pending", "approved", "retired")
 PLACE_KINDS = ("dock", "room", "point")
 ZONE_RULES = ("keep_out", "one_at_a_time", "slow")
+MOST_ROBOTS = 20
 """What zones of a site's floor ask; passages of doors belong to programs."""
 FEWEST_CORNERS = 3
 _STATE = frozenset({"lifecycle", "online", "readings", "standing_at"})
@@ -135,8 +136,10 @@ def zone_from_json(body: Mapping[str, Any]) -> ZoneFacts:
             f"Zone {name} needs an id, a rule: {', '.join(ZONE_RULES)}, points: at least {FEWEST_CORNERS} [x, y] in"
             " metres, and for slow a speed_m_s."
         )
-    if not isinstance(robots, int) or isinstance(robots, bool) or robots < 1:
-        raise UnreadableSite(f"Zone {name} must say with a whole number from 1 on how many robots may be in it.")
+    if not isinstance(robots, int) or isinstance(robots, bool) or not 1 <= robots <= MOST_ROBOTS:
+        raise UnreadableSite(
+            f"Zone {name} must say with a whole number from 1 to {MOST_ROBOTS} how many robots may be in it at once."
+        )
     outline = tuple(corner for corner in corners if corner is not None)
     speed_m_s = float(speed) if body["rule"] == "slow" and isinstance(speed, int | float) else None
     return ZoneFacts(str(name), str(body.get("name", name)), body["rule"], outline, speed_m_s, robots)

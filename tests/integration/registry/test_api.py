@@ -3,6 +3,7 @@ from __future__ import annotations
 import gzip
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from django.test import Client
 from registry import services
 from registry.models import DeviceEvent, Membership, Site, User
 from tests.kit.sign_in import PASSWORD, ROLES, below_role, signed_in
-from tests.kit.sites import MIXER, NOW, come, describe, say
+from tests.kit.sites import MIXER, NOW, ROBOT, approve, come, describe, say
 from vipo_device.descriptions.forms import CONTENT_TYPES, FORMS
 from vipo_device.descriptions.reader import read_description
 
@@ -181,6 +182,22 @@ def test_a_member_sees_their_sites_with_counts(hall: str) -> None:
     now = signed_in("author").get("/api/sites/hall").json()
     assert (now["machines"], now["online"], now["pending"], now["simulated"]) == (1, 1, 0, True)
     assert now["stop"] == {"active": True, "by": "Ada", "at": "2026-11-21T12:00:00+00:00"}
+
+
+def test_a_site_is_simulated_only_where_no_approved_device_is_real(hall: str) -> None:
+    """Whoever starts a run is told that nothing real moves."""
+
+    def is_simulated() -> bool:
+        return bool(signed_in("viewer").get("/api/sites/hall").json()["simulated"])
+
+    assert not is_simulated()
+    approve(replace(MIXER, simulated=True))
+    describe(replace(ROBOT, simulated=False))
+    assert is_simulated()
+    services.approve_device(site="hall", device_id=ROBOT.id, by=None, at=NOW)
+    assert not is_simulated()
+    services.retire_device(site="hall", device_id=ROBOT.id, by=None, at=NOW)
+    assert is_simulated()
 
 
 def test_the_map_comes_as_facts_cells_and_ros_files(hall: str) -> None:

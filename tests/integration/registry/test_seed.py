@@ -10,6 +10,7 @@ import pytest
 from registry import services
 from registry.demo.devices import DEVICES
 from registry.demo.seed import seed_demo
+from registry.demo.workshop import WorkshopTaken, find_workshop, seed_workshop
 from registry.models import Device, Membership, SiteMap, User
 from tests.kit.sites import NOW
 
@@ -28,6 +29,29 @@ def test_the_demo_is_seeded_once_and_again_without_change(tmp_path: Path) -> Non
     ]
     assert (SiteMap.objects.count(), Membership.objects.count(), Device.objects.count()) == (1, 2, 11)
     assert [p.id for p in services.list_places(site=SITE) if p.kind == "dock"] == ["dock1", "dock2", "dock3"]
+
+
+def test_the_empty_site_is_made_once_and_stays_as_people_left_it() -> None:
+    people = {"admin@vipo.example": "admin"}
+    User.objects.create_user(email="admin@vipo.example", password="not used here", display_name="Ada")
+    assert find_workshop() is None
+    seed_workshop(people=people)
+    workshop = find_workshop()
+    assert workshop is not None
+    site = services.get_site(site=workshop.site)
+    assert (site.has_map, site.machines, site.robots, site.pending) == (False, 0, 0, 0)
+    Membership.objects.filter(site__slug=workshop.site).update(role="viewer")
+    seed_workshop(people=people)
+    assert list(Membership.objects.values_list("role", flat=True)) == ["viewer"]
+
+
+def test_a_site_of_that_name_which_somebody_made_is_left_alone() -> None:
+    ada = User.objects.create_user(email="ada@x.example", password="not used here", display_name="Ada")
+    assert services.create_site(name="Workshop", admin=ada).slug == "workshop"
+    assert find_workshop() is None
+    with pytest.raises(WorkshopTaken, match="RESET=1 begins anew"):
+        seed_workshop(people={"ada@x.example": "admin"})
+    assert find_workshop() is None
 
 
 def test_its_secrets_can_be_read_by_their_owner_only_and_hold(tmp_path: Path) -> None:

@@ -73,6 +73,7 @@ def test_a_zone_is_drawn_changed_and_removed(
         ({"name": "x" * 61}, (422, "name")),
         ({"points": [[0, 0], [1, 1]]}, (422, "corners")),
         ({"rule": "one_at_a_time", "robots": 21}, (422, "robots")),
+        *(({"rule": "one_at_a_time", "robots": none}, (422, "bad_request")) for none in (0, -1, 1.5, "2", True, 1e9)),
         ({"points": [[x / 100, (x % 2) / 100] for x in range(101)]}, (422, "corners")),
         ({"points": [[0, 0], [4.01, 0], [1, 1]]}, (422, "off")),
         ({"points": [[0, 0], [1, 1], [1, 0], [0, 1]]}, (422, "crossing")),

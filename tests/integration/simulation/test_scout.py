@@ -84,7 +84,10 @@ def test_it_says_what_it_is_maps_when_it_is_told_to_and_sends_the_map_before_it_
     ear.tell(SCOUT, "explore", "go")
     answered(ear, "go", "RUNNING")
     ear.tell(SCOUT, "explore", "again")
-    assert answered(ear, "again", "REJECTED").json["why"] == "Scout explores already."
+    assert (
+        answered(ear, "again", "REJECTED").json["why"]
+        == "Scout explores already. Wait until it is done, or cancel that."
+    )
     answered(ear, "go", "DONE")
     sent = [heard.topic.rsplit("/", 1)[1] for heard in ear.heard]
     assert "map" in sent[: len(sent) - 1 - sent[::-1].index("ack")]

@@ -90,7 +90,7 @@ def test_it_does_one_of_both_at_a_time() -> None:
     scout.tell("m2", "move", path=[[1.0, 1.0]])
     scout.tell("map3", "explore")
     assert scout.said("m2") == [("REJECTED", "Scout explores. Wait until it is done, or cancel that.")]
-    assert scout.said("map3") == [("REJECTED", "Scout explores already.")]
+    assert scout.said("map3") == [("REJECTED", "Scout explores already. Wait until it is done, or cancel that.")]
     scout.tell("end", "cancel", command="map2")
     assert scout.said("map2")[-1][0] == "CANCELED"
     scout.tell("m3", "move", path=[[1.0, 1.0]])

@@ -25,8 +25,8 @@ CORRIDOR = ((6.0, -9.0), (10.0, -9.0), (10.0, -7.0), (6.0, -7.0))
 WALL_TO_WALL = ((12.0, -13.0), (12.6, -13.0), (12.6, 0.0), (12.0, 0.0))
 
 
-def zone(rule, points=CORRIDOR, key="site/z", speed=None):
-    return FloorZone(key, "The crossing", rule, points, speed)
+def zone(rule, points=CORRIDOR, key="site/z", speed=None, **more):
+    return FloorZone(key, "The crossing", rule, points, speed, **more)
 
 
 def layout_with(*zones):
@@ -161,6 +161,13 @@ def test_rmf_lanes_say_limits_and_who_shares_a_zone_for_one_robot():
     groups = {lane["mutex"][1] for lane in lanes}
     assert groups == {"", "site/east", "site/away"}  # west and east share lanes, and so a group
     assert {lane["speed_limit"][1] for lane in lanes} == {0.0, 0.3}
+
+
+def test_rmf_lanes_of_a_zone_for_two_robots_are_locked_by_nobody():
+    lanes = [
+        parameters for *_, parameters in rmf_of(layout_with(zone("one_at_a_time", robots=2)))["levels"]["L1"]["lanes"]
+    ]
+    assert {lane["mutex"][1] for lane in lanes} == {""}
 
 
 def test_rmf_tells_waypoints_of_one_name_apart():

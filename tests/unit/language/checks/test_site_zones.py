@@ -71,8 +71,10 @@ def test_a_goal_in_a_zone_of_another_rule_is_no_problem(rule: Any) -> None:
 
 
 def test_a_site_keeps_its_zones_as_json() -> None:
-    site = replace(factory(), zones=(AISLE, ZoneFacts("b", "Hall", "slow", ROUND_DOCK_1, 0.25)))
+    shared = (ZoneFacts(f"s{robots}", "Door", "one_at_a_time", ROUND_DOCK_1, robots=robots) for robots in (1, 3))
+    site = replace(factory(), zones=(AISLE, ZoneFacts("b", "Hall", "slow", ROUND_DOCK_1, 0.25), *shared))
     body = surroundings_to_json(site)
+    assert [zone.get("robots") for zone in body["zones"]] == [None, None, None, 3]
     assert surroundings_from_json(body) == site
     assert "zones" not in surroundings_to_json(factory())
 
@@ -91,6 +93,12 @@ def test_a_zone_without_a_name_is_called_by_its_id() -> None:
 def test_a_zone_of_a_site_that_cannot_be_read_is_told(change: dict[str, Any]) -> None:
     with pytest.raises(UnreadableSite, match=r"needs an id, a rule: keep_out, one_at_a_time, slow, points"):
         surroundings_from_json({"zones": [{**HALL, **change}]})
+
+
+@pytest.mark.parametrize("robots", [0, -1, 1.5, "2", True, None, 21, 10**9])
+def test_a_number_of_robots_that_is_none_is_told(robots: object) -> None:
+    with pytest.raises(UnreadableSite, match="a whole number from 1 to 20"):
+        surroundings_from_json({"zones": [{**HALL, "rule": "one_at_a_time", "robots": robots}]})
 
 
 def test_programs_are_checked_anew_after_a_change_of_zones_and_only_then() -> None:
