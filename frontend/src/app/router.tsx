@@ -1,8 +1,7 @@
 /** Which address shows which screen. A screen is loaded when it is first needed. */
 import { lazy, Suspense, type ComponentType } from "react";
-import { createBrowserRouter, Navigate, useParams, type RouteObject } from "react-router-dom";
+import { createBrowserRouter, type RouteObject } from "react-router-dom";
 import { loadScreenTexts } from "@/i18n";
-import { keepSite } from "@/shell/currentSite";
 import { Waiting } from "@/shell/LoadProblem";
 import { RequireUser } from "./RequireUser";
 import { RouteProblem } from "./RouteProblem";
@@ -23,6 +22,7 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/", "pages/home/HomePage"],
   ["/account", "pages/account/AccountPage"],
   ["/sites/new", "pages/site/NewSitePage"],
+  ["/sites/:slug", "pages/home/SiteHomePage"],
   ["/sites/:slug/devices/:id?", "pages/devices/DevicesPage"],
   ["/sites/:slug/programs", "pages/programs/ProgramsPage"],
   ["/sites/:slug/library/:id?", "pages/library/LibraryPage"],
@@ -69,13 +69,6 @@ function pick(module: Record<string, ComponentType>, name: string): ComponentTyp
   return screen;
 }
 
-/** A site's own address leads home, which is about the site that was looked at last. */
-function SiteHome() {
-  const { slug = "" } = useParams();
-  keepSite(slug);
-  return <Navigate to="/" replace />;
-}
-
 export function makeRouter() {
   return createBrowserRouter([
     {
@@ -90,11 +83,7 @@ export function makeRouter() {
     {
       element: <RequireUser />,
       errorElement: <RouteProblem />,
-      children: [
-        ...ROUTES.flatMap(([path, file]) => route(path, file)),
-        { path: "/sites/:slug", element: <SiteHome /> },
-        { path: "*", element: <RouteProblem /> },
-      ],
+      children: [...ROUTES.flatMap(([path, file]) => route(path, file)), { path: "*", element: <RouteProblem /> }],
     },
   ]);
 }

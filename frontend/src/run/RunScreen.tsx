@@ -172,7 +172,7 @@ function Loaded(props: LoadedProps) {
       <RunTop view={view} onProblem={setProblem} />
       <main className={styles.body}>
         <section className={styles.map} aria-label={t("run.map")}>
-          <RunPlace site={view.site} map={view.map} devices={view.devices}>
+          <RunPlace map={view.map} devices={view.devices}>
             <ProgramMap
               site={run.site}
               plan={view.map}

@@ -9,6 +9,7 @@ import type { Moment, SceneDevice, SceneRecording } from "./types";
 /** Robots are drawn larger than they are, so that they are seen in a hall; the page says so. */
 export const ROBOT_SCALE = 2;
 const TRAIL_S = 30;
+const NOWHERE: readonly (readonly [number, number])[] = [];
 
 interface RobotProps {
   device: SceneDevice;
@@ -90,16 +91,9 @@ function Trail({ device, recording, moment, palette }: RobotProps) {
 
 /** The path that the robot is on at the moment. */
 function PlannedPath({ device, recording, moment, palette }: RobotProps) {
-  const routes = useMemo(
-    () =>
-      recording.routes
-        .filter((route) => route.robot === device.id)
-        .map((route) => [route.t, route.path] as [number, [number, number][]]),
-    [recording, device.id],
-  );
-  const [path, setPath] = useState<[number, number][]>([]);
+  const [path, setPath] = useState(NOWHERE);
   useFrame(() => {
-    const now = latest(routes, moment.t_s)?.[1] ?? [];
+    const now = latest(recording.routes[device.id], moment.t_s)?.[1] ?? NOWHERE;
     if (now !== path) setPath(now);
   });
   const line = path.map(([x, y]) => [x, 0.03, -y] as [number, number, number]);

@@ -3,6 +3,7 @@ import { Camera, Map as MapIcon, Orbit, Tag, Target } from "lucide-react";
 import { lazy, type ReactNode, Suspense, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device } from "@/api/types";
+import { Segments } from "@/design/Segments";
 import type { Incident } from "./incidents";
 import type { CameraMode, Moment, SceneDevice, SceneMap, SceneRecording } from "./types";
 import styles from "./View3D.module.css";
@@ -76,19 +77,12 @@ function CameraBar(props: CameraBarProps) {
   const { t } = useTranslation();
   return (
     <div className={styles.cameraBar}>
-      <div className={styles.modes} role="radiogroup" aria-label={t("simulation.cameraMode")}>
-        {MODES.map(({ mode, icon: Icon }) => (
-          <button
-            key={mode}
-            type="button"
-            role="radio"
-            aria-checked={mode === props.mode}
-            onClick={() => props.onMode(mode)}
-          >
-            <Icon size={15} aria-hidden /> {t(`simulation.${mode}`)}
-          </button>
-        ))}
-      </div>
+      <Segments
+        label={t("simulation.cameraMode")}
+        segments={MODES.map(({ mode, icon }) => ({ value: mode, words: t(`simulation.${mode}`), icon }))}
+        value={props.mode}
+        choose={props.onMode}
+      />
       {props.choosesRobot && (
         <select
           className={styles.select}

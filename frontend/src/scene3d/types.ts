@@ -18,7 +18,8 @@ export interface SceneRecording {
   frames: Frames;
   carrying: Record<string, [number, Record<string, number>][]>;
   machine_states: Record<string, [number, boolean][]>;
-  routes: { t: number; robot: string; path: [number, number][] }[];
+  /** By robot, the paths that it was given and when. */
+  routes: Record<string, [number, readonly (readonly [number, number])[]][]>;
 }
 
 /** The moment that is shown, changed many times a second without drawing React anew. */

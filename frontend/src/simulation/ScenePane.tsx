@@ -1,11 +1,11 @@
 import { Radar } from "lucide-react";
-import { useState } from "react";
+import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, RehearsalResult, SiteMap } from "@/api/types";
 import { clock } from "@/design/clock";
 import { latest } from "@/scene3d/frames";
 import { type Incident, isNow } from "@/scene3d/incidents";
-import type { Moment } from "@/scene3d/types";
+import type { Moment, SceneRecording } from "@/scene3d/types";
 import { Toggle, View3D } from "@/scene3d/View3D";
 import { Lidar } from "./lidar/Lidar";
 import styles from "./SimulationScreen.module.css";
@@ -37,17 +37,25 @@ function useStateOf({ result, t_s, incidents }: ScenePaneProps) {
   };
 }
 
+/** A rehearsal's result as the scene reads it. */
+function recordingOf(result: RehearsalResult): SceneRecording {
+  const routes: SceneRecording["routes"] = {};
+  for (const { t, robot, path } of result.routes) (routes[robot] ??= []).push([t, path]);
+  return { ...result, routes };
+}
+
 /** A rehearsal in 3D, with what a robot's lidar sees. */
 export function ScenePane(props: ScenePaneProps) {
   const { t } = useTranslation();
   const { map, devices, result, moment, t_s } = props;
   const [lidar, setLidar] = useState(false);
+  const recording = useMemo(() => result && recordingOf(result), [result]);
   return (
     <section className={`${styles.pane} ${styles.scene}`} aria-label={t("simulation.view3d")} data-scene>
       <View3D
         map={map}
         devices={devices}
-        recording={result}
+        recording={recording}
         moment={moment}
         t_s={t_s}
         playing={props.playing}

@@ -107,7 +107,7 @@ def test_waits_are_marked_a_link_names_the_moment_and_files_are_handed_out(sign_
     assert float(page.url.split("?t=")[1]) == pytest.approx(wait["t"], abs=0.051)  # the address has tenths of a second
     page.get_by_role("radio", name="0.25 times as fast").click()
     page.get_by_role("button", name="Lidar").click()
-    page.get_by_role("radio", name="From the robot").click()
+    page.get_by_role("radio", name="From the robot").press("Space")
     expect(page.get_by_role("img", name=re.compile("lidar would see"))).to_be_visible()
     assert violations(page) == []
     page.get_by_role("button", name="Share").click()

@@ -25,7 +25,7 @@ MAPPING_LIMIT_MS = 180_000
 
 @pytest.fixture(scope="module")
 def empty_demo(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Demo]:
-    with running_demo(tmp_path_factory.mktemp("empty") / "state", empty_floor=True) as running:
+    with running_demo(tmp_path_factory.mktemp("empty") / "state", speed=5, empty_floor=True) as running:
         yield running
 
 
@@ -50,7 +50,8 @@ def test_an_empty_floor_is_mapped_by_a_robot_furnished_with_places_and_driven_on
     page = open_at(chromium, empty_demo, "admin", f"/sites/{SITE}", faults)
     watcher = open_at(chromium, empty_demo, "author", f"/sites/{SITE}", faults)
     let_in(page)
-    map_the_floor(page)
+    map_the_floor(page, watcher)
+    home(watcher)
     expect(watcher.get_by_label("The map that TurtleBot 1 is making")).to_be_visible()
     take_the_map(page)
     check_the_map(page)
@@ -65,6 +66,14 @@ def test_an_empty_floor_is_mapped_by_a_robot_furnished_with_places_and_driven_on
         each.context.close()
 
 
+def test_the_address_of_a_site_that_nobody_has_is_told(empty_demo: Demo, chromium: Browser, faults: list[str]) -> None:
+    page = open_at(chromium, empty_demo, "author", "/sites/no-such-hall", faults)
+    expect(page.get_by_role("main").get_by_role("alert")).to_be_visible()
+    expect(page.get_by_role("region", name="Set up Workshop")).to_have_count(0)
+    faults.clear()  # of the refusal, the browser's console says 404
+    page.context.close()
+
+
 def let_in(page: Page) -> None:
     """The card of an empty site leads to the robot that waits, and back to what it can do."""
     expect(page.get_by_role("region", name="Set up Workshop")).to_be_visible()
@@ -77,13 +86,17 @@ def let_in(page: Page) -> None:
     page.get_by_role("link", name="Map the floor with TurtleBot 1").click()
 
 
-def map_the_floor(page: Page) -> None:
-    """By keyboard: begin, leave the form, end it from the robot's page, and let it go on until it is done."""
+def map_the_floor(page: Page, other: Page) -> None:
+    """By keyboard: begin and leave the form; another person ends it; then let it go on until it is done."""
     at_work = begin_to_map(page, "Start mapping")
     expect(page.get_by_role("button", name="Map it again")).to_be_visible()
+    other.goto(page.url)
+    seen = other.get_by_role("region", name="What it does now")
+    expect(seen.get_by_text("Ada Meyer told it to explore")).to_be_visible()
+    seen.get_by_role("button", name="Cancel it").press("Enter")
+    for each in (at_work, seen):
+        expect(each).to_have_count(0)
     assert violations(page) == []
-    at_work.get_by_role("button", name="Cancel it").press("Enter")
-    expect(at_work).to_have_count(0)
     expect(begin_to_map(page, "Map it again")).to_have_count(0, timeout=MAPPING_LIMIT_MS)
 
 

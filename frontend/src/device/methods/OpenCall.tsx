@@ -12,16 +12,21 @@ import { CallProgress } from "./CallProgress";
 
 const LOOK_MS = 2000;
 
-/** The call by hand that a device carries out; it is looked for while the device says that it does something. */
+/**
+ * The call by hand that a device carries out. It stands before the device says that it does something, so it is asked
+ * for then, and again only while there is one: a device in a run costs one question.
+ */
 function useOpenCall(site: Site, device: Device): MethodCall | undefined {
+  const mine = (calls: MethodCall[] | undefined) => calls?.find((each) => each.device === device.id);
+  const isBusy = device.lifecycle === "approved" && device.status === "busy";
   const calls = useQuery({
     queryKey: ["open-calls", site.slug],
     queryFn: () => api.get<MethodCall[]>(`/sites/${site.slug}/calls`),
-    enabled: device.lifecycle === "approved" && device.status === "busy",
-    refetchInterval: LOOK_MS,
+    enabled: isBusy,
+    refetchInterval: (query) => (mine(query.state.data) ? LOOK_MS : false),
     staleTime: 0,
   });
-  return device.status === "busy" ? calls.data?.find((each) => each.device === device.id) : undefined;
+  return isBusy ? mine(calls.data) : undefined;
 }
 
 export function OpenCall({ site, device }: { site: Site; device: Device }) {

@@ -37,7 +37,7 @@ export function TryButton({ site, device, method, words, main = false }: TryButt
         <Button
           size={words ? "sm" : "compact-sm"}
           variant={main ? "filled" : "default"}
-          aria-label={words ?? t("device.try.openOf", { method: method.name })}
+          aria-label={words ? undefined : t("device.try.openOf", { method: method.name })}
           aria-disabled={why !== null}
           data-disabled={why !== null || undefined}
           leftSection={<Play size={13} aria-hidden="true" />}

@@ -1,7 +1,7 @@
 /** The place in 3D as it is now: robots and machines move as they do on the floor. */
-import { useEffect, useState } from "react";
+import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
-import type { Device, Site, SiteMap } from "@/api/types";
+import type { Device, SiteMap } from "@/api/types";
 import { useNow } from "@/design/useNow";
 import { activityWords } from "@/i18n/activity";
 import { formatTime } from "@/i18n/format";
@@ -12,7 +12,6 @@ import { EVERY_S, LiveRecording, type Seen } from "./liveRecording";
 import styles from "./scene.module.css";
 
 interface LiveSceneProps {
-  site: Site | undefined;
   map: SiteMap | null;
   devices: readonly Device[];
 }
@@ -33,21 +32,22 @@ function look(devices: readonly Device[], now_ms: number): Seen {
   return { robots, machines };
 }
 
-function useLiveRecording(devices: readonly Device[]) {
+/** Grows as long as the scene is shown; nothing is drawn anew by React for it. */
+function useLiveRecording(devices: readonly Device[]): LiveRecording {
+  const known = useRef(devices);
+  useEffect(() => {
+    known.current = devices;
+  }, [devices]);
   const [live] = useState(() => {
     const made = new LiveRecording();
     made.see(performance.now() / 1000, look(devices, performance.now()));
     return made;
   });
-  const [recording, setRecording] = useState(live.recording);
   useEffect(() => {
-    const see = () => {
+    const timer = setInterval(() => {
       const now_ms = performance.now();
-      live.see(now_ms / 1000, look(devices, now_ms));
-      setRecording(live.recording);
-    };
-    see();
-    const timer = setInterval(see, EVERY_S * 1000);
+      live.see(now_ms / 1000, look(known.current, now_ms));
+    }, EVERY_S * 1000);
     let frame = requestAnimationFrame(function show(now_ms) {
       live.show(now_ms / 1000);
       frame = requestAnimationFrame(show);
@@ -56,18 +56,27 @@ function useLiveRecording(devices: readonly Device[]) {
       clearInterval(timer);
       cancelAnimationFrame(frame);
     };
-  }, [live, devices]);
-  return { recording, moment: live.moment };
+  }, [live]);
+  return live;
 }
 
-export function LiveScene({ site, map, devices }: LiveSceneProps) {
+/** Whether nothing, all or some of what is seen is simulated. */
+function kindOf(devices: readonly Device[]): "live" | "simulated" | "mixed" {
+  const approved = devices.filter((device) => device.lifecycle === "approved");
+  if (!approved.some((device) => device.simulated)) return "live";
+  return approved.every((device) => device.simulated) ? "simulated" : "mixed";
+}
+
+export function LiveScene({ map, devices }: LiveSceneProps) {
   const { t } = useTranslation();
   const { recording, moment } = useLiveRecording(devices);
+  const kind = kindOf(devices);
   const now = useNow(1000);
   const stateOf = (id: string) => {
     const device = devices.find((each) => each.id === id);
     if (!device) return "";
-    return device.status === "offline" ? t("shell.status.offline") : activityWords(device);
+    const doing = device.status === "offline" ? t("shell.status.offline") : activityWords(device);
+    return kind === "mixed" && device.simulated ? t("run.scene.ofSimulated", { doing }) : doing;
   };
   return (
     <div className={styles.scene}>
@@ -80,7 +89,7 @@ export function LiveScene({ site, map, devices }: LiveSceneProps) {
         playing
         stateOf={stateOf}
         labelOf={(summary) => t("simulation.sceneLabel", { time: formatTime(new Date(now).toISOString()), summary })}
-        sign={site?.simulated ? t("run.simulated") : t("run.scene.live")}
+        sign={t(`run.scene.${kind}`)}
       />
     </div>
   );

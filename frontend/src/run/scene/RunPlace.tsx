@@ -3,7 +3,8 @@ import { Box, Map as MapIcon, type LucideIcon } from "lucide-react";
 import { lazy, type ReactNode, Suspense } from "react";
 import { useTranslation } from "react-i18next";
 import { useSearchParams } from "react-router-dom";
-import type { Device, Site, SiteMap } from "@/api/types";
+import type { Device, SiteMap } from "@/api/types";
+import { Segments } from "@/design/Segments";
 import styles from "./scene.module.css";
 
 const LiveScene = lazy(() => import("./LiveScene").then((module) => ({ default: module.LiveScene })));
@@ -14,14 +15,13 @@ const VIEWS: readonly { view: "map" | "3d"; icon: LucideIcon }[] = [
 ];
 
 interface RunPlaceProps {
-  site: Site | undefined;
   map: SiteMap | null;
   devices: readonly Device[];
   /** The program on the map. */
   children: ReactNode;
 }
 
-export function RunPlace({ site, map, devices, children }: RunPlaceProps) {
+export function RunPlace({ map, devices, children }: RunPlaceProps) {
   const { t } = useTranslation();
   const [query, setQuery] = useSearchParams();
   const shown = query.get("view") === "3d" ? "3d" : "map";
@@ -41,15 +41,20 @@ export function RunPlace({ site, map, devices, children }: RunPlaceProps) {
         children
       ) : (
         <Suspense fallback={null}>
-          <LiveScene site={site} map={map} devices={devices} />
+          <LiveScene map={map} devices={devices} />
         </Suspense>
       )}
-      <div className={styles.switch} role="radiogroup" aria-label={t("run.scene.label")}>
-        {VIEWS.map(({ view, icon: Icon }) => (
-          <button key={view} type="button" role="radio" aria-checked={view === shown} onClick={() => show(view)}>
-            <Icon size={15} aria-hidden /> {t(`run.scene.${view === "3d" ? "spatial" : "map"}`)}
-          </button>
-        ))}
+      <div className={styles.switch}>
+        <Segments
+          label={t("run.scene.label")}
+          segments={VIEWS.map(({ view, icon }) => ({
+            value: view,
+            words: t(`run.scene.${view === "3d" ? "spatial" : "map"}`),
+            icon,
+          }))}
+          value={shown}
+          choose={show}
+        />
       </div>
     </>
   );

@@ -24,7 +24,7 @@ test("what was not seen for a while stood as it had been", () => {
   expect(poseAt(live.recording.frames, "r", 2)?.[0]).toBe(4);
 });
 
-test("loads and machines are noted when they change, and a new path is another recording", () => {
+test("loads, machines and paths are noted when they change, in the recording that is drawn", () => {
   const live = new LiveRecording();
   live.see(0, at(0, {}, [[1, 0]]));
   const first = live.recording;
@@ -35,8 +35,11 @@ test("loads and machines are noted when they change, and a new path is another r
     [1, true],
   ]);
   live.see(2, at(0, { box: 1 }, [[2, 0]], true));
-  expect(live.recording).not.toBe(first);
-  expect(live.recording.routes).toEqual([{ t: 2, robot: "r", path: [[2, 0]] }]);
+  expect(live.recording).toBe(first);
+  expect(live.recording.routes.r).toEqual([
+    [0, [[1, 0]]],
+    [2, [[2, 0]]],
+  ]);
   expect(latest(live.recording.carrying.r, 5)?.[1]).toEqual({ box: 1 });
 });
 
@@ -53,6 +56,24 @@ test("an hour needs no more room than four minutes, and nothing jumps where old 
   expect(most).toBeLessThan(2_500);
   expect(live.recording.carrying.r).toHaveLength(1);
   expect(latest(live.recording.carrying.r, live.moment.t_s)?.[1]).toEqual({ box: 1 });
+});
+
+test("two hundred robots that follow long paths cost nothing but their poses", () => {
+  const live = new LiveRecording();
+  const route = Array.from({ length: 200 }, (_, index): [number, number] => [index, 0]);
+  const robots = Object.fromEntries(
+    Array.from({ length: 200 }, (_, index) => [`r${index}`, { pose: [index, 0, 0] as const, carrying: {}, route }]),
+  );
+  let written = 0;
+  const plain = JSON.stringify;
+  JSON.stringify = ((...given: Parameters<typeof plain>) => ((written += 1), plain(...given))) as typeof plain;
+  try {
+    for (let step = 0; step < 50; step += 1) live.see(step * EVERY_S, { robots, machines: {} });
+  } finally {
+    JSON.stringify = plain;
+  }
+  expect(written).toBe(0);
+  expect(live.recording.routes.r7).toHaveLength(1);
 });
 
 test("after a long sleep of the page it begins anew", () => {

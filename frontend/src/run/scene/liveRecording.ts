@@ -19,11 +19,19 @@ export const EVERY_S = 0.1;
 /** So much is kept at least; what is older is let go in pieces of as much. */
 const KEPT_S = 120;
 
-const same = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
+/** By reference first: what has not changed is mostly the same object. */
+const same = (a: unknown, b: unknown) => a === b || JSON.stringify(a) === JSON.stringify(b);
+
+const empty = (): SceneRecording => ({
+  frames: { dt_s: EVERY_S, robots: {} },
+  carrying: {},
+  machine_states: {},
+  routes: {},
+});
 
 export class LiveRecording {
-  /** Changed in place while devices move; another object when a robot takes another path. */
-  recording: SceneRecording = { frames: { dt_s: EVERY_S, robots: {} }, carrying: {}, machine_states: {}, routes: [] };
+  /** Changed in place; whoever draws it looks at it anew in each frame. */
+  readonly recording: SceneRecording = empty();
   /** The moment that is shown, in seconds of the recording. */
   readonly moment: Moment = { t_s: 0 };
   private begun_s: number | null = null;
@@ -49,29 +57,25 @@ export class LiveRecording {
     while (poses.length < last) poses.push(before);
     poses[last] = pose;
     note(this.recording.carrying, id, t_s, carrying);
-    const shown = this.recording.routes.findLast((each) => each.robot === id)?.path ?? [];
-    if (same(shown, route)) return;
-    const others = this.recording.routes.filter((each) => each.robot !== id);
-    const path = route.map(([x, y]): [number, number] => [x, y]);
-    this.recording = { ...this.recording, routes: [...others, { t: t_s, robot: id, path }] };
+    note(this.recording.routes, id, t_s, route);
   }
 
   private beginAnew(now_s: number): void {
     this.begun_s = now_s;
-    this.recording = { frames: { dt_s: EVERY_S, robots: {} }, carrying: {}, machine_states: {}, routes: [] };
+    Object.assign(this.recording, empty());
   }
 
   /** Let the first `seconds` go; what was so before still is. */
   private forget(seconds: number): void {
     const { frames, carrying, machine_states, routes } = this.recording;
+    const noted: Record<string, [number, unknown][]>[] = [carrying, machine_states, routes];
     const frames_gone = Math.round(seconds / EVERY_S);
     for (const poses of Object.values(frames.robots)) poses.splice(0, Math.min(frames_gone, poses.length - 1));
-    for (const notes of [...Object.values(carrying), ...Object.values(machine_states)]) {
+    for (const notes of noted.flatMap((each) => Object.values(each))) {
       const current = notes.findLastIndex(([at]) => at <= seconds);
       notes.splice(0, Math.max(0, current));
       for (const each of notes) each[0] = Math.max(0, each[0] - seconds);
     }
-    for (const each of routes) each.t = Math.max(0, each.t - seconds);
     this.begun_s = (this.begun_s ?? 0) + seconds;
     this.moment.t_s = Math.max(0, this.moment.t_s - seconds);
   }
