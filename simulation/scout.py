@@ -10,16 +10,18 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from queue import Empty, SimpleQueue
 
 from registry.floorplan.map_message import write_grid
 from simulation.actors import InitialState, Motion
 from simulation.actors.actor import Emit
 from simulation.actors.robot import Robot, Surroundings
-from simulation.mapping.survey import TICK_S, Expedition, SurveyPlan
+from simulation.mapping.survey import TICK_S, Expedition, NoRoom, SurveyPlan
 from simulation.site_facts import DescribedDevice
+from simulation.twin_memory import TwinMemory, read_memory, write_memory
 from simulation.virtual_device import Appearance, VirtualDevice
 from simulation.world import Ack, WorldEvent
 from vipo_device.descriptions.reader import write_description
@@ -38,6 +40,7 @@ log = logging.getLogger(__name__)
 LOOP_S = 0.05
 SLICE_S = 1.0
 SEND_EVERY_S = 10.0
+SAVE_EVERY_S = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +53,8 @@ class ScoutPlan:
     survey: SurveyPlan
     speed: float = 1.0
     boot: int = 1
+    memory_path: Path | None = None
+    """Where it is kept over a restart where the robot stands and what it has answered; None keeps nothing."""
 
 
 def describe_scout(plan: ScoutPlan, start: Pose) -> Description:
@@ -82,12 +87,15 @@ class ScoutActor(Robot):
     Exploring that was cancelled goes on where it was; one that is over is new.
     """
 
-    def __init__(self, description: Description, emit: Emit, survey: SurveyPlan) -> None:
+    def __init__(
+        self, description: Description, emit: Emit, survey: SurveyPlan, remembered: Sequence[Ack] = ()
+    ) -> None:
+        answers = tuple(AckMessage(ack.command, ack.status, ack.why, ack.result) for ack in remembered)
         grid = survey.grid
         left, low = grid.origin_x_m, grid.origin_y_m
         bounds = (left, low, left + grid.width * grid.resolution_m, low + grid.height * grid.resolution_m)
-        super().__init__(description, emit, InitialState(), Surroundings({}, bounds))
-        self._plan = replace(survey, start=description.pose)
+        super().__init__(description, emit, InitialState(remembered=answers), Surroundings({}, bounds))
+        self._plan = replace(survey, start=survey.start or description.pose)
         self.expedition = Expedition(self._plan)
         self._exploring = ""
 
@@ -162,13 +170,25 @@ class Scout:
         start = plan.survey.start or Expedition(plan.survey).pose
         description = describe_scout(plan, start)
         self._events: list[WorldEvent] = []
-        self._actor = ScoutActor(description, self._events.append, plan.survey)
+        self._memory = TwinMemory() if plan.memory_path is None else read_memory(plan.memory_path)
+        self._actor = self._make_actor(description, start)
         self._inbox: SimpleQueue[ConnectionEvent] = SimpleQueue()
         source = DescribedDevice(description, write_description(description).encode())
         self._device = VirtualDevice(source, plan.site, plan.boot, self._inbox.put)
         self._ticks = self._maps = self._sent_scans = 0
         self._repeats_map = self._explored = False
-        self._due_s, self._sent_s = 0.0, -SEND_EVERY_S
+        self._due_s, self._sent_s, self._saved_s = 0.0, -SEND_EVERY_S, 0.0
+
+    def _make_actor(self, description: Description, start: Pose) -> ScoutActor:
+        """Let the robot stand where it stood, or at its start where the floor has become another one."""
+        name, survey = self._plan.device, self._plan.survey
+        stood, answered = self._memory.poses.get(name), self._memory.remembered.get(name, ())
+        if stood is not None:
+            try:
+                return ScoutActor(description, self._events.append, replace(survey, start=stood), answered)
+            except NoRoom as error:
+                log.warning("%s It begins at its start.", error)
+        return ScoutActor(description, self._events.append, replace(survey, start=start), answered)
 
     def run(self, stopping: threading.Event) -> None:
         """Live until `stopping` is set; then say that it goes offline."""
@@ -181,6 +201,7 @@ class Scout:
                 self._pass_time(now - last)
                 self._speak(now)
         finally:
+            self._save()
             leave([self._device.connection])
 
     def _take_in(self) -> None:
@@ -219,6 +240,9 @@ class Scout:
         acks = [event for event in self._events if isinstance(event, Ack)]
         self._events.clear()
         is_over = any(ack.is_final for ack in acks)
+        if is_over or now_s - self._saved_s >= SAVE_EVERY_S:
+            self._saved_s = now_s
+            self._save()  # before anybody hears of it: what was answered is not done again after a crash
         self._send_map(now_s, at_once=is_over and self._explored)
         self._explored = self._actor.explores
         pose = self._actor.expedition.maker.pose
@@ -226,6 +250,15 @@ class Scout:
         self._device.report(Appearance(not self._actor.busy, shown, {}), now_s, at_once=is_over)
         for ack in acks:
             self._device.answer(ack)
+
+    def _save(self) -> None:
+        """Keep where the robot really stands, and its answers, if they are others than before."""
+        name, actor = self._plan.device, self._actor
+        answers = [Ack(0.0, name, a.command, a.status, a.why, a.result) for a in actor.ledger.over()]
+        memory = TwinMemory(poses={name: actor.expedition.pose}, remembered={name: answers})
+        if self._plan.memory_path is not None and memory != self._memory:
+            self._memory = memory
+            write_memory(self._plan.memory_path, memory)
 
     def _send_map(self, now_s: float, *, at_once: bool) -> None:
         """Send the map while it grows; one that a restart began anew, and that moves add to, is nobody's business."""

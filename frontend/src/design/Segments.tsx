@@ -20,7 +20,7 @@ export function Segments<Value extends string>({ label, segments, value, choose 
   return (
     <SegmentedControl
       aria-label={label}
-      classNames={{ root: styles.root ?? "", label: styles.label ?? "" }}
+      classNames={{ root: styles.root ?? "", indicator: styles.indicator ?? "", label: styles.label ?? "" }}
       value={value}
       onChange={choose}
       data={segments.map(({ value: each, words, icon: Icon }) => ({

@@ -76,10 +76,12 @@ def make_scout(options: dict[str, Any]) -> Scout:
         start=None if at is None else Pose(at[0], at[1], 0.0, at[2]),
     )
     device = options["id"] or f"{site}.scout"
-    plan = ScoutPlan(device, options["name"], site, survey, options["speed"], boot=int(time.time()))
+    folder = Path(settings.VIPO_STATE_DIR)
+    memory_path = folder / "twin" / f"{device}.json"
+    plan = ScoutPlan(device, options["name"], site, survey, options["speed"], int(time.time()), memory_path)
     key = registry.show_enrolment_key(site=site)
     log.info("%s comes to %s: let it in on the page of the devices, then let it explore.", device, site)
-    return Scout(plan, connections(site, key, Path(settings.VIPO_STATE_DIR) / "secrets"))
+    return Scout(plan, connections(site, key, folder / "secrets"))
 
 
 def read_floor(path: Path) -> Grid:

@@ -77,7 +77,7 @@ def test_the_address_of_a_site_that_nobody_has_is_told(empty_demo: Demo, chromiu
 def let_in(page: Page) -> None:
     """The card of an empty site leads to the robot that waits, and back to what it can do."""
     expect(page.get_by_role("region", name="Set up Workshop")).to_be_visible()
-    page.get_by_role("link", name="Let TurtleBot 1 in, which can map the floor").click()
+    page.get_by_role("link", name="Let TurtleBot 1 in to map the floor").click()
     page.get_by_role("button", name="Approve").click()
     page.get_by_role("button", name="I have it").click()
     home(page)

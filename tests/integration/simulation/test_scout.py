@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -18,9 +19,11 @@ from simulation.mapping.floor import TrueFloor
 from simulation.mapping.scores import score
 from simulation.mapping.survey import NoRoom, SurveyPlan
 from simulation.scout import Scout, ScoutPlan
+from simulation.twin_memory import TwinMemory, read_memory, write_memory
 from tests.kit.floors.halls import bare_hall
 from tests.kit.mqtt import Ear, Heard
 from tests.kit.servers import Mosquitto, run_mosquitto
+from tests.kit.waiting import wait_for
 from vipo_device.descriptions.reader import read_description
 from vipo_device.protocol.description import Pose
 from vipo_device.protocol.messages import parse_state
@@ -34,18 +37,24 @@ FLOOR, START = bare_hall(5.0, 4.0), Pose(1.0, 1.0)
 @pytest.fixture
 def ear(tmp_path: Path) -> Iterator[Ear]:
     """Hears a scout that is running."""
-    with run_mosquitto(tmp_path, ACCOUNTS) as bus, Ear(bus.port, "secret") as ear:
-        stopping = threading.Event()
-        plan = ScoutPlan(SCOUT, "Scout", SITE, SurveyPlan(FLOOR, 1, start=START), speed=20, boot=7)
-        thread = threading.Thread(target=Scout(plan, connecting(bus)).run, args=(stopping,))
-        thread.start()
-        try:
-            ear.wait(lambda h: h.topic.endswith("/state"))
-            yield ear
-        finally:
-            stopping.set()
-            thread.join(10)
-            assert not thread.is_alive()
+    with run_mosquitto(tmp_path, ACCOUNTS) as bus, Ear(bus.port, "secret") as ear, running(bus, ear):
+        yield ear
+
+
+@contextmanager
+def running(bus: Mosquitto, ear: Ear, memory: Path | None = None, *, boot: int = 7, speed: float = 20) -> Iterator[None]:
+    """Run a scout until it is stopped."""
+    stopping = threading.Event()
+    plan = ScoutPlan(SCOUT, "Scout", SITE, SurveyPlan(FLOOR, 1, start=START), speed, boot, memory)
+    thread = threading.Thread(target=Scout(plan, connecting(bus)).run, args=(stopping,))
+    thread.start()
+    try:
+        ear.wait(lambda h: h.topic.endswith("/state") and h.json["boot"] == boot)
+        yield
+    finally:
+        stopping.set()
+        thread.join(10)
+        assert not thread.is_alive()
 
 
 def connecting(bus: Mosquitto):  # type: ignore[no-untyped-def]
@@ -133,6 +142,45 @@ def test_the_sites_stop_holds_it_where_it_is(ear: Ear) -> None:
     ear.say(f"vipo/v1/site/{SITE}/stop", {"active": False, "at": "2026-01-01T12:00:01+00:00"}, retain=True)
     answered(ear, "go", "DONE")
     assert maps(ear)
+
+
+def test_killed_under_way_it_stands_where_it_stood_and_does_nothing_twice(tmp_path: Path) -> None:
+    """What it kept at one moment is all that a killed process leaves behind."""
+    kept, left = tmp_path / "twin" / "scout.json", tmp_path / "left.json"
+    with run_mosquitto(tmp_path, ACCOUNTS) as bus, Ear(bus.port, "secret") as ear:
+        with running(bus, ear, kept, speed=3):
+            ear.tell(SCOUT, "move", "first", path=[[2.0, 1.0]])
+            answered(ear, "first", "DONE")
+            ear.tell(SCOUT, "move", "second", path=[[3.5, 1.0], [3.5, 3.0]])
+            wait_for("it has set out", lambda: pose_in(kept).x > 2.5)
+            left.write_bytes(kept.read_bytes())
+        stood = pose_in(left)
+        with running(bus, ear, left, boot=8):
+            states = [parse_state(heard.payload) for heard in ear.all(f"{SCOUT}/up/state")]
+            first = next(state.pose for state in states if state.boot == 8)
+            assert first is not None
+            assert (first.x, first.y) == pytest.approx((stood.x, stood.y), abs=0.05)
+            for command, path in (("first", [[2.0, 1.0]]), ("second", [[3.5, 1.0], [3.5, 3.0]])):
+                ear.tell(SCOUT, "move", command, path=path)
+            answered(ear, "second", "DONE")
+            said = [(h.json["id"], h.json["st"]) for h in ear.all(f"{SCOUT}/up/ack")]
+            assert [said.count(("first", status)) for status in ("RUNNING", "DONE")] == [1, 2]
+            assert [said.count(("second", status)) for status in ("RUNNING", "DONE")] == [2, 1]
+        assert (pose_in(left).x, pose_in(left).y) == pytest.approx((3.5, 3.0), abs=0.06)
+
+
+def test_where_the_floor_has_become_another_one_it_begins_at_its_start(tmp_path: Path) -> None:
+    write_memory(tmp_path / "scout.json", TwinMemory(poses={SCOUT: Pose(90.0, 90.0)}))
+    with run_mosquitto(tmp_path, ACCOUNTS) as bus, Ear(bus.port, "secret") as ear:
+        with running(bus, ear, tmp_path / "scout.json"):
+            pass
+        pose = parse_state(ear.all(f"{SCOUT}/up/state")[-1].payload).pose
+    assert pose is not None
+    assert (pose.x, pose.y) == (START.x, START.y)
+
+
+def pose_in(memory: Path) -> Pose:
+    return read_memory(memory).poses.get(SCOUT, START)
 
 
 def test_a_scout_that_does_not_fit_is_refused_before_it_connects() -> None:
