@@ -42,7 +42,9 @@ def ear(tmp_path: Path) -> Iterator[Ear]:
 
 
 @contextmanager
-def running(bus: Mosquitto, ear: Ear, memory: Path | None = None, *, boot: int = 7, speed: float = 20) -> Iterator[None]:
+def running(
+    bus: Mosquitto, ear: Ear, memory: Path | None = None, *, boot: int = 7, speed: float = 20
+) -> Iterator[None]:
     """Run a scout until it is stopped."""
     stopping = threading.Event()
     plan = ScoutPlan(SCOUT, "Scout", SITE, SurveyPlan(FLOOR, 1, start=START), speed, boot, memory)
