@@ -13,6 +13,9 @@ from execution import services
 from execution.errors import NotFound, NoWay
 from execution.floor.exports.routes import router as exports_router
 from execution.floor.map_routes import router as map_router
+from execution.mirror.measurements import list_of_run
+from execution.mirror.routes import router as mirror_router
+from execution.mirror.shapes import StepMeasuredShape
 from execution.operations.routes import router as operations_router
 from execution.program_tests.routes import router as program_tests_router
 from execution.rehearsals.shapes import RehearsalShape, RehearsalSummaryShape, StartRehearsal
@@ -54,6 +57,7 @@ from vipo_device.descriptions.thing_description import DEVICE_URN
 router = Router(tags=["execution"])
 router.add_router("", map_router)
 router.add_router("", exports_router)
+router.add_router("", mirror_router)
 router.add_router("", operations_router)
 router.add_router("", program_tests_router)
 router.add_router("", retention_router)
@@ -199,6 +203,13 @@ def list_events(request: HttpRequest, run: UUID, after: int = 0) -> list[dict[st
     """Return the run's journal after a line's number."""
     _require_here(request, services.site_of_run(run_id=run), "viewer", "run")
     return [event_to_json(event) for event in services.list_events(run_id=run, after=after)]
+
+
+@router.get("/runs/{uuid:run}/measurements", response=list[StepMeasuredShape])
+def list_measurements(request: HttpRequest, run: UUID) -> list[dict[str, Any]]:
+    """Return what the steps of a run took, beside what the copies of the devices took; empty without a mirror."""
+    _require_here(request, services.site_of_run(run_id=run), "viewer", "run")
+    return list_of_run(run=run)
 
 
 @router.post("/runs/{uuid:run}/pause", response=RunSummaryShape)

@@ -80,6 +80,7 @@ def _initial_state(scene: Scene, description: Description, holds: Mapping[str, M
         holds=holds.get(device),
         faults=tuple(f for f in scene.faults if f.device == device),
         remembered=tuple(AckMessage(a.command, a.status, a.why, a.result) for a in scene.remembered.get(device, ())),
+        paces=scene.paces.get(device, {}),
         behaviour=behaviour_of(description, default_kinds() if scene.kinds is None else scene.kinds),
         chance=_chance(scene.seed, device),
         fault_chance=_chance(scene.seed, f"{device}:faults"),

@@ -9,7 +9,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from queue import Empty, SimpleQueue
 
@@ -45,6 +45,7 @@ DELIVERY_S = 60.0
 class TwinPlan:
     """Which site, which of its devices speak, which of them are pending yet, how fast, and where memory is kept.
 
+    `paces` say by device and method how many times as long as it should something takes (a fault on purpose),
     `refresh` reads the site anew, `beat` is called each time that the twin's loop comes round.
     """
 
@@ -54,6 +55,7 @@ class TwinPlan:
     pending: frozenset[str] = frozenset()
     speed: float = 1.0
     driver: DriverName = "physics"
+    paces: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     refresh: Callable[[], SiteFacts] | None = None
     beat: Callable[[], None] = lambda: None
 
@@ -94,9 +96,11 @@ class Twin:
         now = saved = refreshed = time.monotonic()
         while not stopping.is_set():
             self._plan.beat()
-            self._take_in()
+            messages = self._take_in()
             last, now = now, time.monotonic()
-            self._pass_time(now - last, now)
+            self._pass_time(now - last, now)  # before what has come is begun: it takes its whole time from here on
+            for message in messages:
+                self._hear(message)
             if now - saved >= SAVE_EVERY_S or self._world.under_way() != self._saved_under_way:
                 saved = now
                 self._save()
@@ -105,15 +109,16 @@ class Twin:
                 refreshed = now
                 self._refresh()
 
-    def _take_in(self) -> None:
-        """Wait for a message for a moment, and carry out all that have come."""
+    def _take_in(self) -> list[ConnectionEvent]:
+        """Wait for a message for a moment, and return all that have come."""
         resting = not any(self._world.busy().values())
+        messages: list[ConnectionEvent] = []
         try:
-            self._hear(self._inbox.get(timeout=RESTING_S if resting else TICK_S))
+            messages.append(self._inbox.get(timeout=RESTING_S if resting else TICK_S))
             while True:
-                self._hear(self._inbox.get_nowait())
+                messages.append(self._inbox.get_nowait())
         except Empty:
-            return
+            return messages
 
     def _hear(self, message: ConnectionEvent) -> None:
         match message:
@@ -226,7 +231,7 @@ def make_scene(plan: TwinPlan, facts: SiteFacts) -> Scene:
     """Return the scene of a twin: its own devices, and the bodies of machines that others speak for."""
     devices = [d.description for d in facts.devices]
     here = [d for d in devices if d.kind == "machine" or d.id in plan.speaking]
-    return Scene(facts.grid, here, delivery_s=DELIVERY_S, bodiless=plan.pending)
+    return Scene(facts.grid, here, delivery_s=DELIVERY_S, bodiless=plan.pending, paces=plan.paces)
 
 
 def _rounded(pose: Pose) -> Pose:

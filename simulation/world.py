@@ -70,7 +70,8 @@ class Scene:
     filled, a full sink is emptied and a robot whose battery is empty gets a full one, as people would do. `bodiless`
     machines are not in anybody's way. `remembered` are the final answers that devices would give again, oldest first.
     `kinds` say how devices behave (none: those that VIPO comes with); the seed 0 leaves nothing to chance, each
-    other one is a course of its own.
+    other one is a course of its own. `paces` say, by device and method, how many times as long as that something takes:
+    what was measured at the real ones.
     """
 
     grid: Grid
@@ -85,6 +86,7 @@ class Scene:
     bodiless: frozenset[str] = frozenset()
     remembered: Mapping[str, Sequence[Ack]] = field(default_factory=dict)
     kinds: Sequence[Kind] | None = None
+    paces: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

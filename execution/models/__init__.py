@@ -1,7 +1,8 @@
-"""What execution keeps: runs, commands, sites, rehearsals, tests of programs, archives."""
+"""What execution keeps: runs, commands, sites, rehearsals, tests of programs, archives, what the mirror measured."""
 
 from execution.models.archives import Archivable, Archive, Keeping
 from execution.models.commands import Command
+from execution.models.mirror import Calibration, Measurement
 from execution.models.program_tests import ProgramTest, TrialResult, TrialRun
 from execution.models.rehearsals import Rehearsal
 from execution.models.runs import ArmedProgram, Question, Run, RunEvent, RunInput, Timer
@@ -11,12 +12,14 @@ __all__ = [
     "Archivable",
     "Archive",
     "ArmedProgram",
+    "Calibration",
     "Command",
     "DeadLetter",
     "FloorState",
     "InboxEvent",
     "Keeping",
     "Lease",
+    "Measurement",
     "ProgramTest",
     "Question",
     "Rehearsal",

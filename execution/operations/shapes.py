@@ -55,7 +55,7 @@ class ProcessShape(Schema):
     """A process of VIPO as its last heartbeat told, `age_s` seconds ago; `clock_apart_s` is its clock's distance."""
 
     id: str
-    kind: Literal["web", "gateway", "worker", "ticker", "twin"]
+    kind: Literal["web", "gateway", "worker", "ticker", "mirror", "twin"]
     name: str
     machine: str
     process: int

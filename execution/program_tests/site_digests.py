@@ -9,6 +9,7 @@ from hashlib import sha256
 from typing import Any
 
 from editor import services as editor
+from execution.mirror.calibrations import find_paces
 from registry import services as registry
 from vipo_device.protocol.description import description_to_json
 
@@ -21,18 +22,19 @@ def digests_of(site: str) -> dict[str, Any]:
 
     They are of what a test is carried out on: what devices show and where they stand at the moment is not in them.
     """
-    devices = registry.list_devices(site=site, lifecycle="approved")
+    devices, paces = registry.list_devices(site=site, lifecycle="approved"), find_paces(site=site)
     return {
         "map": registry.get_map(site=site).version,
         "places": _digest([asdict(place) for place in registry.list_places(site=site)]),
         "zones": _digest([asdict(zone) for zone in editor.find_zones(site=site)]),
-        "devices": {device.id: _digest(_works(device)) for device in devices},
+        "devices": {device.id: _digest(_works(device, paces.get(device.id))) for device in devices},
     }
 
 
-def _works(device: registry.DeviceView) -> dict[str, Any]:
-    """Return a device as a rehearsal meets it: what it is called makes no difference there."""
-    return {name: value for name, value in description_to_json(device.canonical).items() if name != "name"}
+def _works(device: registry.DeviceView, paces: Mapping[str, float] | None) -> dict[str, Any]:
+    """Return a device as a rehearsal meets it: what it is called makes no difference there, its measured paces do."""
+    told = {name: value for name, value in description_to_json(device.canonical).items() if name != "name"}
+    return told | {"paces": paces} if paces else told
 
 
 def what_changed(then: Digests, now: Digests) -> dict[str, Any] | None:

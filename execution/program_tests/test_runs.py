@@ -15,6 +15,7 @@ from django.db import transaction
 from editor import services as editor
 from execution.errors import NotFound, NotReady, TooManyRehearsals
 from execution.floor.layouts import place_facts
+from execution.mirror.calibrations import find_paces
 from execution.models import ProgramTest, Rehearsal, TrialRun
 from execution.program_tests.site_digests import digests_of
 from execution.program_tests.stored_tests import say_changed
@@ -103,7 +104,8 @@ def _scene(site: str) -> dict[str, Any]:
     """Return the site as it is described, not as it stands at this moment: a test comes out the same tomorrow."""
     devices = registry.list_devices(site=site, lifecycle="approved")
     places = [place_facts(place) for place in registry.list_places(site=site)]
-    scene = Scene(grid=registry.get_map(site=site).grid, devices=[device.canonical for device in devices])
+    grid, paces = registry.get_map(site=site).grid, find_paces(site=site)
+    scene = Scene(grid=grid, devices=[device.canonical for device in devices], paces=paces)
     return scene_to_json(scene, places, editor.find_zones(site=site))
 
 

@@ -21,6 +21,7 @@ from execution import mailbox
 from execution.archive.rows import read_rehearsal
 from execution.errors import NotFound, NotPossibleNow, TooManyRehearsals
 from execution.floor.layouts import place_facts
+from execution.mirror.calibrations import find_paces
 from execution.models import Lease, Rehearsal
 from execution.rehearsals.child_process import scene_to_json
 from execution.rehearsals.queue_order import Entry, order_fairly
@@ -57,7 +58,10 @@ def start_rehearsal(
     row = put_into_queue(
         site=prepared.site, person=person, program=prepared.program, program_name=prepared.name,
         job={"plan": prepared.plan, "scene": scene, **given},
-        asked={"version": prepared.version, "seed": seed, **given, "faults": scene["faults"]["faults"]},
+        asked={
+            "version": prepared.version, "seed": seed, **given, "faults": scene["faults"]["faults"],
+            "paces": scene["paces"],
+        },
         document=prepared.document, compiled=prepared.compiled, started_by=by,
     )  # fmt: skip
     return view_rehearsal(row, order_of_queue())
@@ -126,6 +130,7 @@ def _scene(prepared: Prepared, seed: int, faults: Mapping[str, Any] | None) -> d
         poses={name: robot.pose for name, robot in robots.items()},
         carrying={name: robot.carrying for name, robot in robots.items()},
         readings={d.id: {"battery": d.readings["battery"]} for d in robots.values() if "battery" in d.readings},
+        paces=find_paces(site=site),
     )
     check_faults(scene.faults, scene.devices, _steps(prepared.plan))
     return scene_to_json(scene, places, editor.find_zones(site=site))

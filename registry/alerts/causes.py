@@ -28,6 +28,7 @@ AlertCode = Literal[
     "command_rejected",
     "command_failed",
     "command_timed_out",
+    "pace_changed",
 ]
 SOON = timedelta(minutes=10)
 LOW_BATTERY_PERCENT = 15.0
@@ -66,6 +67,7 @@ CAUSES: Mapping[AlertCode, Cause] = {
     "command_timed_out": Cause(
         "error", "It did not answer {method} in time", quiet=timedelta(days=1), anew=timedelta(minutes=1)
     ),
+    "pace_changed": Cause("warning", "It takes another time for {method} than it used to", quiet=timedelta(days=7)),
 }
 
 

@@ -9,7 +9,7 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from vipo_device.protocol.topics import READER, is_reader, stop_topic, things_prefix
+from vipo_device.protocol.topics import MIRROR, MIRROR_FILTERS, READER, is_reader, stop_topic, things_prefix
 
 Acl = dict[str, object]
 Role = dict[str, Any]
@@ -36,6 +36,12 @@ def reader_role(name: str, site: str) -> Role:
     """Return what a member's program may do by a token: hear how its site's Things are, and its stop; say nothing."""
     acls = _hears((f"{things_prefix(site)}#", stop_topic(site)))
     return {"rolename": f"reader {name.removeprefix(READER)}", "acls": acls}
+
+
+def mirror_role() -> Role:
+    """Return what VIPO's mirror may do: hear what devices are told and say, but no new key; say nothing."""
+    no_key = _deny("publishClientReceive", "vipo/v1/dev/+/down/credential")
+    return {"rolename": "mirror", "acls": [*_hears(MIRROR_FILTERS), no_key]}
 
 
 def _hears(topics: Sequence[str]) -> list[Acl]:
@@ -73,6 +79,11 @@ def _allow(act: str, topic: str) -> Acl:
     return {"acltype": act, "topic": topic, "priority": 0, "allow": True}
 
 
+def _deny(act: str, topic: str) -> Acl:
+    """Refuse what another rule allows."""
+    return {"acltype": act, "topic": topic, "priority": 1, "allow": False}
+
+
 def account_file(
     hashes: Mapping[str, str],
     sites: Mapping[str, str],
@@ -94,7 +105,9 @@ def account_file(
 
 
 def role_of(name: str, site: str = "", topics: Sequence[str] = ()) -> Role:
-    """Return the role of a device's account, a token's, or a site's for enrolment, by its name."""
+    """Return the role of a device's account, a token's, the mirror's, or a site's for enrolment, by its name."""
+    if name == MIRROR:
+        return mirror_role()
     if is_reader(name):
         return reader_role(name, site)
     return enrolment_role(name) if name.startswith(ENROLMENT) else device_role(name, site, topics)

@@ -28,9 +28,10 @@ from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
 from registry.models import Device, User
 from registry.sites.sites import find_site, get_enrolment_key, has_enrolment_key, replace_enrolment_key
-from vipo_device.protocol.credentials import broker_hash, make_credential, secret_hash
+from vipo_device.protocol.credentials import broker_hash, make_credential, mirror_key, secret_hash
 from vipo_device.protocol.messages import BadMessage, down_topic, parse_ack, up_topic
 from vipo_device.protocol.mqtt_client import MqttClient, MqttError
+from vipo_device.protocol.topics import MIRROR
 
 log = logging.getLogger(__name__)
 CONNECT_LIMIT_S = 10.0
@@ -156,7 +157,10 @@ def reconcile_accounts() -> tuple[frozenset[str], frozenset[str]]:
     if there is None:
         return frozenset(), frozenset()
     _allow_anew(accounts().find_outdated())
-    removed = {name for name in there - {str(settings.VIPO_MQTT["username"])} if _remove_unknown(name)}
+    if MIRROR not in there:  # the broker's file is older than the mirror
+        accounts().put(Account(MIRROR, mirror_key(str(settings.VIPO_MQTT["password"]))))
+    own = {str(settings.VIPO_MQTT["username"]), MIRROR}
+    removed = {name for name in there - own if _remove_unknown(name)}
     return frozenset(removed), frozenset(list_broker_hashes()) - there
 
 

@@ -60,8 +60,9 @@ DEEDS = (
         """list_asked_reviews show_review show_review_rule show_function
         list_function_versions compare_function list_function_uses show_program_origin show_function_version
         show_program show_compiled show_document show_script show_version list_versions export_version
-        compare_versions wait_until_stored get_rehearsal export_rehearsal list_rehearsals get_run list_events
-        list_armed get_call list_open_calls list_questions plan_route plan_routes list_runs show_site list_alerts
+        compare_versions wait_until_stored get_rehearsal export_rehearsal list_rehearsals list_paces list_measurements
+        get_run list_events list_armed get_call list_open_calls list_questions plan_route plan_routes list_runs
+        show_site list_alerts
         look_at_description list_devices export_devices show_device list_device_events show_property_history
         show_robot_map download_robot_pgm download_robot_yaml show_robot_cells show_difference show_rdf show_map
         download_pgm download_yaml download_nav2_masks download_lif download_building show_cells list_map_versions
@@ -90,7 +91,7 @@ DEEDS = (
         "operator",
         "run",
         """start_rehearsal cancel_rehearsal start_run pause_run resume_run cancel_run answer_question arm_program
-        run_tests""",
+        run_tests take_pace drop_pace""",
     ),
     _deed("ask_review", "operator", "run", "ask_for_review"),
     _deed("review", "operator", "session", "give_verdict"),

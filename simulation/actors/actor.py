@@ -34,7 +34,7 @@ class InitialState:
     """How a device is when the world begins; `holds` is a machine's stock or a robot's load, None as usual.
 
     Without `chance` all takes its middle time, and what happens by odds happens evenly; faults have their own, so that
-    a fault more changes nothing else.
+    a fault more changes nothing else. `paces` say of a method how many times as long as its model it takes.
     """
 
     readings: Mapping[str, Scalar] = field(default_factory=dict)
@@ -42,6 +42,7 @@ class InitialState:
     faults: tuple[Fault, ...] = ()
     remembered: tuple[AckMessage, ...] = ()
     behaviour: Behaviour = field(default_factory=Behaviour)
+    paces: Mapping[str, float] = field(default_factory=dict)
     chance: Chance | None = None
     fault_chance: Chance | None = None
 
@@ -54,6 +55,7 @@ class Actor(ABC):
         known = initial.readings
         self.readings = {p.name: known.get(p.name, starting_value(p)) for p in description.properties}
         self.behaviour = initial.behaviour
+        self.paces = initial.paces
         self._chance = initial.chance
         self.ledger = AnswerLedger(initial.remembered)
         self.held = False
@@ -158,12 +160,13 @@ class Actor(ABC):
         else:
             self._emit(PropertyChanged(t_s, self.description.id, name, value))
 
-    def _lasts_s(self, method: MethodSpec | None, arguments: Mapping[str, object]) -> float:
-        """Return how long a job takes: what its arguments say to the second, all else with the spread of its kind."""
+    def _lasts_s(self, name: str, method: MethodSpec | None, arguments: Mapping[str, object]) -> float:
+        """Return how long a job takes: what its arguments say, all else with the spread of its kind; times its pace."""
+        pace = self.paces.get(name, 1.0)
         said_s = None if method is None else duration_s(method, arguments)
         if said_s is not None:
-            return said_s
-        usual_s, spread = self.behaviour.job_s, self.behaviour.spread
+            return pace * said_s
+        usual_s, spread = pace * self.behaviour.job_s, self.behaviour.spread
         return usual_s if self._chance is None else usual_s * (1 + spread * (2 * self._chance() - 1))
 
     def _refusal(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> str:

@@ -122,7 +122,8 @@ class Machine(Actor):
             return why
         self._say(t_s, AckMessage(command, "ACCEPTED"))
         self._say(t_s, AckMessage(command, "RUNNING"))
-        self._job = Job(command, method, self._lasts_s(self.description.method(method), arguments), dict(arguments))
+        lasts_s = self._lasts_s(method, self.description.method(method), arguments)
+        self._job = Job(command, method, lasts_s, dict(arguments))
         self._read_door(t_s, method, is_done=False)
         self._read_all(t_s, self._readings.progress(0))
         self._read_switched(t_s)

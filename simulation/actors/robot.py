@@ -57,7 +57,8 @@ class Robot(Actor):
         self.battery = float(known) if isinstance(known, int | float) else 100.0
         self._machines, self._bounds = surroundings.machines, surroundings.bounds
         self._tasks: deque[Task] = deque()
-        self._follower = Follower(description.speed_m_s or self.behaviour.speed_m_s)
+        speed_m_s = description.speed_m_s or self.behaviour.speed_m_s
+        self._follower = Follower(speed_m_s / self.paces.get("move", 1.0))
         self._at = Motion(description.pose.x, description.pose.y, description.pose.theta)
         self._start_readings()
 
@@ -271,9 +272,9 @@ class Robot(Actor):
             return (
                 goods
                 if isinstance(goods, str)
-                else Task(command, method, dict(arguments), left_s=self._lasts_s(None, arguments))
+                else Task(command, method, dict(arguments), left_s=self._lasts_s(method, None, arguments))
             )
-        lasts_s = self._lasts_s(self.description.method(method), arguments)
+        lasts_s = self._lasts_s(method, self.description.method(method), arguments)
         return Task(command, method, dict(arguments), left_s=lasts_s)
 
     def _move(self, arguments: Mapping[str, object], command: str) -> Task | str:

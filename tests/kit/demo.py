@@ -81,7 +81,7 @@ def stop_process_group(process: subprocess.Popen[bytes]) -> int:
 
 @contextmanager
 def running_demo(
-    state: Path, speed: float = 10, *, from_nothing: bool = False, empty_floor: bool = False
+    state: Path, speed: float = 10, *, from_nothing: bool = False, empty_floor: bool = False, pace: str = ""
 ) -> Iterator[Demo]:
     """Start the demo, wait until it answers, stop it with Ctrl-C; it finds its tables unless it shall make them."""
     port = free_port()
@@ -90,6 +90,7 @@ def running_demo(
         "PORT": str(port),
         "SPEED": str(speed),
         "FLOOR": "empty" if empty_floor else "",
+        "PACE": pace,
         "VIPO_STATE_DIR": str(state),
         "VIPO_MQTT_PORT": str(free_port()),
     }

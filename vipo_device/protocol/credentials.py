@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import hmac
 import secrets
 
 KEY_BYTES = 24
@@ -34,6 +35,11 @@ def broker_hash(secret: str, salt: bytes | None = None) -> str:
     salt = salt or secrets.token_bytes(SALT_BYTES)
     digest = hashlib.pbkdf2_hmac("sha512", secret.encode(), salt, ROUNDS)
     return f"$7${ROUNDS}${base64.b64encode(salt).decode()}${base64.b64encode(digest).decode()}"
+
+
+def mirror_key(server_password: str) -> str:
+    """Return the key of VIPO's mirror at the broker: it follows from the server's, which does not follow from it."""
+    return hmac.new(server_password.encode(), b"vipo mirror", hashlib.sha256).hexdigest()
 
 
 def is_strong(secret: str) -> bool:

@@ -37,6 +37,12 @@ def is_reader(username: str) -> bool:
     return username.startswith(READER)
 
 
+MIRROR = "mirror:"
+"""The user name of VIPO's own mirror, which hears what devices are told and say, and may say nothing (no device's id
+has a colon)."""
+MIRROR_FILTERS = ("vipo/v1/dev/+/down/+", "vipo/v1/dev/+/up/ack", "vipo/v1/dev/+/up/state", "vipo/v1/site/+/stop")
+
+
 def stop_topic(site: str) -> str:
     """Return where a site's devices and programs hear its stop."""
     return f"vipo/v1/site/{site}/stop"

@@ -75,7 +75,7 @@ class Child:
             self.process.kill()
 
 
-def start_children(state: Path, speed: float) -> list[Part]:
+def start_children(state: Path, speed: float, pace: str = "") -> list[Part]:
     """Start the pretend world, the firmware on MicroPython, and the robot of the empty site if there is one."""
     from django.conf import settings
 
@@ -84,6 +84,7 @@ def start_children(state: Path, speed: float) -> list[Part]:
     twin_command = [
         *(sys.executable, str(settings.BASE_DIR / "manage.py"), "twin", "--site", "painting-factory"),
         *("--speed", str(speed), "--except", "paintMixer02"),
+        *(f"--pace={each.strip()}" for each in pace.split(",") if each.strip()),
     ]
     children = [Child("twin", lambda: twin_command), Child("firmware", lambda: find_firmware(state, speed))]
     if workshop := registry.find_workshop():

@@ -61,7 +61,7 @@ def any_free_port() -> int:
 
 
 def read_arguments(arguments: list[str]) -> argparse.Namespace:
-    """Read the command line; the Makefile passes PORT, RESET, SPEED and FLOOR on."""
+    """Read the command line; the Makefile passes PORT, RESET, SPEED, FLOOR and PACE on."""
     parser = argparse.ArgumentParser(prog="make demo", description="Run VIPO with the painting factory.")
     parser.add_argument("--port", type=int, default=os.environ.get("PORT") or str(WEB_PORT))
     parser.add_argument("--reset", action="store_true", default=os.environ.get("RESET") == "1")
@@ -69,6 +69,10 @@ def read_arguments(arguments: list[str]) -> argparse.Namespace:
     parser.add_argument(
         "--floor", default=os.environ.get("FLOOR") or "", help="empty: begin with one nobody has mapped"
     )
+    parser.add_argument(
+        "--pace", default=os.environ.get("PACE") or "", metavar="DEVICE.METHOD=TIMES",
+        help="simulated devices that take so many times as long as they should; several with commas between",
+    )  # fmt: skip
     return parser.parse_args(arguments)
 
 
@@ -219,15 +223,18 @@ def start_parts(options: argparse.Namespace, state: Path) -> list[Part]:
     from django.conf import settings
 
     from execution.gateway.gateway import Gateway
+    from execution.mirror.mirror import Mirror
     from execution.services import run_ticker
     from registry.services import Heart
 
     parts = [start_broker(), *start_workers()]
-    gateway, ticker = Heart("gateway", settings.VIPO_GATEWAY), Heart("ticker")
-    parts += [Part(name, heart.start().stop) for name, heart in (("gateway", gateway), ("ticker", ticker))]
+    gateway, ticker, mirror = Heart("gateway", settings.VIPO_GATEWAY), Heart("ticker"), Heart("mirror")
+    hearts = (("gateway", gateway), ("ticker", ticker), ("mirror", mirror))
+    parts += [Part(name, heart.start().stop) for name, heart in hearts]
     parts.append(start_loop("gateway", lambda stopping: Gateway(settings, gateway).run_forever(stopping)))
     parts.append(start_loop("ticker", lambda stopping: run_ticker(stopping=stopping, heart=ticker)))
-    return parts + start_children(state, options.speed)
+    parts.append(start_loop("mirror", Mirror(settings, mirror, speed=options.speed).run_forever))
+    return parts + start_children(state, options.speed, options.pace)
 
 
 def serve(options: argparse.Namespace, state: Path) -> None:

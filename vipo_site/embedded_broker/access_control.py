@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from django.db import close_old_connections
 
-from vipo_device.protocol.topics import is_reader, stop_topic, things_prefix
+from vipo_device.protocol.topics import MIRROR, MIRROR_FILTERS, is_reader, stop_topic, things_prefix
 
 if TYPE_CHECKING:
     from registry.services import Login
@@ -119,8 +119,8 @@ class RegistryAccess:
 
 
 def may_publish(username: str, topic: str) -> bool:
-    """Say whether somebody may write to a topic: a device under its own `up/`, who enrols at its site, no token."""
-    if is_reader(username):
+    """Say whether somebody may write to a topic: a device under its own `up/`, who enrols at its site, nobody else."""
+    if is_reader(username) or username == MIRROR:
         return False
     if username.startswith(ENROLMENT):
         enrolment = _ENROL.fullmatch(topic)
@@ -131,8 +131,11 @@ def may_publish(username: str, topic: str) -> bool:
 def may_subscribe(username: str, topic_filter: str, site: str, topics: Collection[str] = ()) -> bool:
     """Say whether somebody may ask for a filter: a device its own `down/`, its site's stop and the server's births.
 
-    `topics` are the legacy ones that an admin has confirmed for it. A token may ask for its site's Things and stop.
+    `topics` are the legacy ones that an admin has confirmed for it. A token may ask for its site's Things and stop,
+    VIPO's mirror for what all devices are told and say.
     """
+    if username == MIRROR:
+        return topic_filter in MIRROR_FILTERS
     if is_reader(username):
         return topic_filter.startswith(things_prefix(site)) or topic_filter == stop_topic(site)
     if username.startswith(ENROLMENT):

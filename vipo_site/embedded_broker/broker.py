@@ -24,8 +24,9 @@ from amqtt.errors import MQTTError
 from amqtt.mqtt.connack import NOT_AUTHORIZED, SERVER_UNAVAILABLE, UNACCEPTABLE_PROTOCOL_VERSION
 from django.db import DatabaseError
 
+from vipo_device.protocol.credentials import mirror_key
 from vipo_device.protocol.faults import printable
-from vipo_device.protocol.topics import is_reader
+from vipo_device.protocol.topics import MIRROR, is_reader
 from vipo_site.embedded_broker.access_control import AccessControl, Admitted, may_publish
 from vipo_site.embedded_broker.arrivals import Arrivals
 from vipo_site.embedded_broker.client_queue import DEVICE_ROOM, READER_ROOM, SERVER_ROOM, Outbox, Room
@@ -169,6 +170,9 @@ class VipoBroker(SpreadingBroker):
         if username == SERVER:
             right = hmac.compare_digest(password.encode(), self._server_password.encode())
             return "" if right else "wrong password"
+        if username == MIRROR:
+            right = hmac.compare_digest(password.encode(), mirror_key(self._server_password).encode())
+            return "" if right else "wrong password"
         if not username or session.client_id != username:
             return "a device's client id and its user name must both be its id"
         if session.will_flag and not may_publish(username, session.will_topic or ""):
@@ -258,7 +262,7 @@ class VipoBroker(SpreadingBroker):
 
 
 def _room_of(username: str) -> Room:
-    if username == SERVER:
+    if username in {SERVER, MIRROR}:
         return SERVER_ROOM
     return READER_ROOM if is_reader(username) else DEVICE_ROOM
 

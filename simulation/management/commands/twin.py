@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import logging
 from argparse import ArgumentParser
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -36,6 +37,10 @@ class Command(BaseCommand):
         parser.add_argument("--site", default=settings.VIPO_DEFAULT_SITE, help="the site's short name")
         parser.add_argument("--speed", type=float, default=1.0, help="times real time (1)")
         parser.add_argument("--driver", choices=["physics", "kinematic"], default="physics")
+        parser.add_argument(
+            "--pace", action="append", default=[], metavar="DEVICE.METHOD=TIMES",
+            help="a device that takes so many times as long as it should, to see what VIPO makes of it (repeatable)",
+        )  # fmt: skip
         chosen = parser.add_mutually_exclusive_group()
         chosen.add_argument("--only", default="", help="ids with commas between: these devices and no others")
         chosen.add_argument("--except", dest="left_out", default="", help="ids with commas between: not these")
@@ -71,10 +76,30 @@ def make_twin(options: dict[str, Any], heart: Heart) -> Twin:
         pending=frozenset(d.description.id for d in facts.devices) - passwords.keys(),
         speed=options["speed"],
         driver=options["driver"],
+        paces=read_paces(facts, options["pace"]),
         refresh=partial(read_site_facts, site),
         beat=heart.beat,
     )
     return Twin(plan, connections(site, enrolment_key, folder / "secrets"))
+
+
+def read_paces(facts: SiteFacts, said: Sequence[str]) -> dict[str, dict[str, float]]:
+    """Read `DEVICE.METHOD=TIMES`, from a tenth to ten times; what is no such thing is refused."""
+    paces: dict[str, dict[str, float]] = {}
+    methods = {d.description.id: {method.name for method in d.description.methods} for d in facts.devices}
+    for text in said:
+        name, _, times = text.partition("=")
+        device, _, method = name.rpartition(".")
+        if method not in methods.get(device, ()):
+            raise CommandError(f"--pace {text}: {facts.slug} has no virtual device {device!r} that can {method!r}.")
+        try:
+            pace = float(times)
+        except ValueError:
+            pace = 0.0
+        if not 0.1 <= pace <= 10:
+            raise CommandError(f"--pace {text}: write a number from 0.1 to 10 behind the =.")
+        paces.setdefault(device, {})[method] = pace
+    return paces
 
 
 def choose_devices(facts: SiteFacts, only: str, left_out: str) -> frozenset[str]:

@@ -1,4 +1,4 @@
-"""Write Mosquitto's accounts from the registry: the server's own, the sites' for enrolment, the devices with a key."""
+"""Write Mosquitto's accounts from the registry: the server's, the mirror's, the sites' for enrolment, the devices'."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from django.conf import settings
 from django.core.management.base import BaseCommand
 
 from registry import services
-from vipo_device.protocol.credentials import broker_hash
+from vipo_device.protocol.credentials import broker_hash, mirror_key
+from vipo_device.protocol.topics import MIRROR
 
 
 class Command(BaseCommand):
@@ -25,8 +26,9 @@ class Command(BaseCommand):
 
     def handle(self, *_args: Any, **options: Any) -> None:
         """Write the file whole or not at all, readable for its owner only."""
-        server = str(settings.VIPO_MQTT["username"])
-        hashes = {**services.list_broker_hashes(), server: broker_hash(str(settings.VIPO_MQTT["password"]))}
+        server, password = str(settings.VIPO_MQTT["username"]), str(settings.VIPO_MQTT["password"])
+        own = {server: broker_hash(password), MIRROR: broker_hash(mirror_key(password))}
+        hashes = {**services.list_broker_hashes(), **own}
         path: Path = options["file"]
         part = path.with_name(path.name + ".part")
         part.unlink(missing_ok=True)

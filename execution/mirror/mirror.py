@@ -1,0 +1,216 @@
+"""The mirror: hears what devices are told and say, lets their copies do the same, and keeps what both took.
+
+It says nothing to any device: the broker lets its account hear only. What it shows of copies goes to screens, what it
+measures into the database. Several may run; what two measure is kept once.
+"""
+
+from __future__ import annotations
+
+import logging
+import secrets
+import threading
+import time
+from collections import defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from queue import Empty, SimpleQueue
+from typing import Any
+
+from django.db import DatabaseError, close_old_connections
+
+from execution import database
+from execution.mirror.measurements import Kept, change_to_args, keep_job
+from registry import services as registry
+from registry.services import Outage
+from simulation.mirror.device_copy import DeviceCopy
+from simulation.services import make_world
+from simulation.world import Scene, World
+from vipo_device.protocol.credentials import mirror_key
+from vipo_device.protocol.errors import VipoError
+from vipo_device.protocol.messages import BadMessage, parse_ack, parse_state, read_command, read_stop
+from vipo_device.protocol.mqtt_client import MqttClient
+from vipo_device.protocol.topics import MIRROR, MIRROR_FILTERS
+
+log = logging.getLogger(__name__)
+REST_S, TICK_S = 0.5, 0.05
+SHOW_EVERY_S = 0.25
+KNOWN_FOR_S = 10.0
+MOST_WAITING = 20_000
+MOST_AT_ONCE = 500
+MOST_COPIES = 500
+CODE: registry.AlertCode = "pace_changed"
+
+
+@dataclass(slots=True)
+class _Known:
+    """A device, its site, when that was read, and its copy."""
+
+    site: str
+    read_at: float
+    copy: DeviceCopy
+
+
+class Mirror:
+    """One mirror; the embedded mode runs it in a thread, `manage.py mirror` in a process."""
+
+    def __init__(self, settings: Any, heart: registry.Heart | None = None, *, speed: float = 1.0) -> None:
+        broker: Mapping[str, Any] = settings.VIPO_MQTT
+        own = {**broker, "username": MIRROR, "password": mirror_key(str(broker["password"]))}
+        self._client = MqttClient.from_settings(own, client_id=f"mirror-{secrets.token_hex(6)}")
+        self._heart, self._speed = heart, speed
+        self._inbox: SimpleQueue[tuple[float, str, bytes]] = SimpleQueue()
+        self._known: dict[str, _Known] = {}
+        self._stopped: dict[str, bool] = {}
+        self._changed: dict[str, set[str]] = {}
+        self._shown: set[str] = set()
+        self._shown_at = 0.0
+        self._outage = Outage("The database", "What devices take is not measured.")
+
+    def run_forever(self, stopping: threading.Event) -> None:
+        """Serve until `stopping` is set."""
+        for topic in MIRROR_FILTERS:
+            self._client.subscribe(topic, 1, self._arrived)
+        self._client.start()
+        try:
+            while not stopping.is_set():
+                if self._heart is not None:
+                    self._heart.beat("works" if self._client.connected else "broker_away")
+                try:
+                    self._turn()
+                    self._outage.end()
+                except DatabaseError as error:
+                    self._outage.begin(error)
+                    close_old_connections()
+                    stopping.wait(1.0)
+        finally:
+            self._client.stop()
+            close_old_connections()
+
+    def _arrived(self, topic: str, payload: bytes, retained: bool) -> None:
+        """Keep a message with the moment of its arrival; on the network's thread."""
+        is_command = not retained or topic.endswith(("/up/state", "/stop"))
+        if is_command and self._inbox.qsize() < MOST_WAITING:
+            self._inbox.put((time.monotonic(), topic, payload))
+
+    def _turn(self) -> None:
+        at_work = [known for known in self._known.values() if known.copy.is_at_work]
+        try:
+            self._hear(*self._inbox.get(timeout=TICK_S if at_work else REST_S))
+            for _ in range(MOST_AT_ONCE):
+                self._hear(*self._inbox.get_nowait())
+        except Empty:
+            pass
+        now = time.monotonic()
+        for known in self._known.values():
+            if known.copy.is_at_work:
+                known.copy.advance(now)
+                self._keep(known)
+        if now - self._shown_at >= SHOW_EVERY_S:
+            self._shown_at = now
+            self._show()
+
+    def _hear(self, at: float, topic: str, payload: bytes) -> None:
+        parts = topic.split("/")
+        if parts[2:3] == ["site"] and parts[4:] == ["stop"]:
+            self._hold(at, parts[3], active=read_stop(payload).active)
+            return
+        if len(parts) != 6 or parts[2] != "dev":
+            return
+        device, way, kind = parts[3:]
+        try:
+            if way == "down":
+                self._hear_command(at, device, kind, payload)
+            elif device in self._known:
+                copy = self._known[device].copy
+                if kind == "ack":
+                    copy.hear_answer(at, parse_ack(payload))
+                elif payload:
+                    copy.hear_state(at, parse_state(payload))
+        except (BadMessage, VipoError) as error:
+            log.debug("The mirror does not understand %s: %s", topic, error.detail)
+
+    def _hear_command(self, at: float, device: str, method: str, payload: bytes) -> None:
+        command = read_command(method, payload)
+        if command is None or method == "credential":
+            return
+        known = self._find(at, device)
+        if known is not None:
+            known.copy.hear_command(at, command)
+
+    def _find(self, now: float, device: str) -> _Known | None:
+        """Return a device that takes part; what is known of it is read anew before a job, every 10 s at most."""
+        known = self._known.get(device)
+        if known is not None and (known.copy.is_at_work or now - known.read_at < KNOWN_FOR_S):
+            return known
+        if known is None and len(self._known) >= MOST_COPIES:
+            self._forget_resting()
+        view = registry.find_device(device_id=device)
+        if view is None or view.lifecycle != "approved" or len(self._known) >= MOST_COPIES:
+            self._known.pop(device, None)
+            return None
+        machines = [
+            replace(each.canonical, pose=each.pose)
+            for each in registry.list_devices(site=view.site, lifecycle="approved")
+            if each.kind == "machine"
+        ]
+        description = replace(view.canonical, pose=view.pose)
+        if known is not None and known.copy.is_of(description, machines):
+            known.read_at = now
+            return known
+        copy = DeviceCopy(description, machines, _make_world, self._speed)
+        if known is not None:
+            copy.learn_from(known.copy)
+        else:
+            copy.begin_with(view.readings)
+        copy.hold(now, active=self._stopped.get(view.site, False))
+        self._known[device] = _Known(view.site, now, copy)
+        return self._known[device]
+
+    def _forget_resting(self) -> None:
+        for device in [name for name, known in self._known.items() if not known.copy.is_at_work]:
+            del self._known[device]
+
+    def _hold(self, at: float, site: str, *, active: bool) -> None:
+        self._stopped[site] = active
+        for known in self._known.values():
+            if known.site == site:
+                known.copy.hold(at, active=active)
+
+    def _keep(self, known: _Known) -> None:
+        job = known.copy.take_job()
+        if job is None or not job.measured:
+            return
+        for kept in keep_job(job=job, at=database.now()):
+            self._tell(kept)
+        registry.flush_alerts()
+
+    def _tell(self, kept: Kept) -> None:
+        """Raise an alert when a pace has changed, and end it once all of the device's are as before."""
+        changed = self._changed.get(kept.device)
+        if kept.change is not None:
+            if changed is None or kept.method not in changed:
+                args = change_to_args(kept.method, kept.change)
+                registry.note_alert(device_id=kept.device, code=CODE, args=args)
+            self._changed.setdefault(kept.device, set()).add(kept.method)
+        elif changed is None or kept.method in changed:  # None: an alert may be there from before this start
+            left = self._changed.setdefault(kept.device, set())
+            left.discard(kept.method)
+            if not left:
+                registry.end_alert(device_id=kept.device, code=CODE, at=database.now())
+        registry.publish(kept.site, {"type": "measured", "device": kept.device})
+
+    def _show(self) -> None:
+        """Show screens where the copies of robots are."""
+        copies: defaultdict[str, list[dict[str, Any]]] = defaultdict(list)
+        for name, known in self._known.items():
+            pose = known.copy.pose
+            if pose is not None:
+                at = {"x": round(pose.x, 3), "y": round(pose.y, 3), "theta": round(pose.theta, 3)}
+                copies[known.site].append({"device": name, **at})
+        for site in self._shown | copies.keys():
+            registry.publish(site, {"type": "copies", "copies": copies.get(site, [])})
+        self._shown = set(copies)
+
+
+def _make_world(scene: Scene) -> World:
+    return make_world(scene=scene, driver="kinematic")
