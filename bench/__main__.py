@@ -27,6 +27,7 @@ NAMES = (
     "runs",
     "canvas",
     "scan",
+    "mirror",
 )
 
 

@@ -33,7 +33,8 @@ from vipo_device.protocol.description import Pose
 log = logging.getLogger(__name__)
 TICK_S = 0.05
 RESTING_S = 0.2
-SLICE_S = 0.1
+SLICE_S = 0.25
+"""More than `RESTING_S`: a world that rests must not fall behind, it would hurry through the next job."""
 PATIENCE_S = 3.0
 SAVE_EVERY_S = 3.0
 REFRESH_EVERY_S = 5.0

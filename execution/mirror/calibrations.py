@@ -21,6 +21,9 @@ LEAST_MEASURED = 5
 LONGEST_PACE = 20.0
 """What takes a device longer than this many times its model's time is no pace but a model that is wrong."""
 
+WORTH = 0.02
+"""A pace that differs less than this part from the one in use is not offered."""
+
 
 @dataclass(frozen=True, slots=True)
 class Calibrated:
@@ -52,7 +55,8 @@ class MethodPace:
             or not 1 / LONGEST_PACE <= self.pace.usual <= LONGEST_PACE
         ):
             return False
-        return self.calibrated is None or round(self.calibrated.pace, 3) != round(self.pace.usual, 3)
+        in_use = 1.0 if self.calibrated is None else self.calibrated.pace
+        return abs(self.pace.usual / in_use - 1) >= WORTH
 
 
 def find_paces(*, site: str) -> dict[str, dict[str, float]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
@@ -95,7 +95,3 @@ def _number(text: str) -> UUID | None:
     except ValueError:
         return None
 
-
-def change_to_args(method: str, change: Change) -> Mapping[str, Any]:
-    """Return what an alert says of a pace that has changed."""
-    return {"method": method, "percent": abs(change.percent), "slower": change.percent > 0}

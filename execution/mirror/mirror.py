@@ -19,7 +19,8 @@ from typing import Any
 from django.db import DatabaseError, close_old_connections
 
 from execution import database
-from execution.mirror.measurements import Kept, change_to_args, keep_job
+from execution.mirror.measurements import Kept, keep_job
+from execution.mirror.paces import Change
 from registry import services as registry
 from registry.services import Outage
 from simulation.mirror.device_copy import DeviceCopy
@@ -38,7 +39,6 @@ KNOWN_FOR_S = 10.0
 MOST_WAITING = 20_000
 MOST_AT_ONCE = 500
 MOST_COPIES = 500
-CODE: registry.AlertCode = "pace_changed"
 
 
 @dataclass(slots=True)
@@ -61,7 +61,7 @@ class Mirror:
         self._inbox: SimpleQueue[tuple[float, str, bytes]] = SimpleQueue()
         self._known: dict[str, _Known] = {}
         self._stopped: dict[str, bool] = {}
-        self._changed: dict[str, set[str]] = {}
+        self._changed: dict[tuple[str, str], set[str]] = {}
         self._shown: set[str] = set()
         self._shown_at = 0.0
         self._outage = Outage("The database", "What devices take is not measured.")
@@ -186,17 +186,17 @@ class Mirror:
 
     def _tell(self, kept: Kept) -> None:
         """Raise an alert when a pace has changed, and end it once all of the device's are as before."""
-        changed = self._changed.get(kept.device)
-        if kept.change is not None:
-            if changed is None or kept.method not in changed:
-                args = change_to_args(kept.method, kept.change)
-                registry.note_alert(device_id=kept.device, code=CODE, args=args)
-            self._changed.setdefault(kept.device, set()).add(kept.method)
-        elif changed is None or kept.method in changed:  # None: an alert may be there from before this start
-            left = self._changed.setdefault(kept.device, set())
-            left.discard(kept.method)
-            if not left:
-                registry.end_alert(device_id=kept.device, code=CODE, at=database.now())
+        for code, is_so in _directions(kept.change):
+            changed = self._changed.get((kept.device, code))
+            if is_so and (changed is None or kept.method not in changed):
+                args = {"method": kept.method, "percent": abs(kept.change.percent) if kept.change else 0}
+                registry.note_alert(device_id=kept.device, code=code, args=args)
+                self._changed.setdefault((kept.device, code), set()).add(kept.method)
+            elif not is_so and (changed is None or kept.method in changed):  # None: one may be left from before
+                left = self._changed.setdefault((kept.device, code), set())
+                left.discard(kept.method)
+                if not left:
+                    registry.end_alert(device_id=kept.device, code=code, at=database.now())
         registry.publish(kept.site, {"type": "measured", "device": kept.device})
 
     def _show(self) -> None:
@@ -214,3 +214,9 @@ class Mirror:
 
 def _make_world(scene: Scene) -> World:
     return make_world(scene=scene, driver="kinematic")
+
+
+def _directions(change: Change | None) -> tuple[tuple[registry.AlertCode, bool], ...]:
+    """Return which alert there is to be about a method."""
+    percent = 0 if change is None else change.percent
+    return (("became_slower", percent > 0), ("became_faster", percent < 0))

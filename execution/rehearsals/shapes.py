@@ -180,13 +180,17 @@ class RehearsalSummaryShape(Schema):
 
 
 class AskedFor(Schema):
-    """How a rehearsal was asked for: the version, and the conditions; steps are named by their ids."""
+    """How a rehearsal was asked for: the version, and the conditions; steps are named by their ids.
+
+    `paces` are the measured ones that were in use, by device and method: so many times as long as the model's time.
+    """
 
     version: int
     seed: int
     driver: Driver
     parameters: dict[str, Scalar]
     faults: list[dict[str, Any]]
+    paces: dict[str, dict[str, float]] = {}
 
 
 class RehearsalShape(RehearsalSummaryShape):

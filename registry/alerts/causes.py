@@ -28,7 +28,8 @@ AlertCode = Literal[
     "command_rejected",
     "command_failed",
     "command_timed_out",
-    "pace_changed",
+    "became_slower",
+    "became_faster",
 ]
 SOON = timedelta(minutes=10)
 LOW_BATTERY_PERCENT = 15.0
@@ -67,12 +68,14 @@ CAUSES: Mapping[AlertCode, Cause] = {
     "command_timed_out": Cause(
         "error", "It did not answer {method} in time", quiet=timedelta(days=1), anew=timedelta(minutes=1)
     ),
-    "pace_changed": Cause("warning", "It takes another time for {method} than it used to", quiet=timedelta(days=7)),
+    "became_slower": Cause("warning", "{method} takes it {percent} % longer than it used to", quiet=timedelta(days=7)),
+    "became_faster": Cause("info", "{method} takes it {percent} % less time than it used to", quiet=timedelta(days=7)),
 }
 
 
 def sentence_of(code: AlertCode, args: Mapping[str, Any]) -> str:
     """Return an alert as an English sentence."""
-    sentence = CAUSES[code].text.format_map({"method": args.get("method", "a command")})
+    named = {"method": args.get("method", "a command"), "percent": args.get("percent", "some")}
+    sentence = CAUSES[code].text.format_map(named)
     why = str(args.get("why", ""))
     return f"{sentence}: {why}" if why else f"{sentence}."

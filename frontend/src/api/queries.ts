@@ -21,6 +21,7 @@ import type {
   RunSummary,
   Site,
   SiteMap,
+  StepMeasured,
   SiteMapInfo,
   Version,
   WholeVersion,
@@ -36,6 +37,8 @@ export const keys = {
   devices: (slug: string) => ["devices", slug] as const,
   retiredDevices: (slug: string) => ["devices", slug, "retired"] as const,
   deviceEvents: (slug: string, id: string) => ["device-events", slug, id] as const,
+  paces: (slug: string, id: string) => ["paces", slug, id] as const,
+  measurements: (run: string) => ["measurements", run] as const,
   rdf: (slug: string, id: string, format: string) => ["rdf", slug, id, format] as const,
   programs: (slug: string) => ["programs", slug] as const,
   program: (id: string) => ["program", id] as const,
@@ -209,6 +212,11 @@ export const useRun = (id: Maybe) =>
   useGet<Run>(
     keys.run(id ?? ""),
     at(id, (r) => `/runs/${r}`),
+  );
+export const useMeasurements = (run: Maybe) =>
+  useGet<StepMeasured[]>(
+    keys.measurements(run ?? ""),
+    at(run, (r) => `/runs/${r}/measurements`),
   );
 export const useRunEvents = (id: Maybe) =>
   useQuery({ queryKey: keys.runEvents(id ?? ""), queryFn: id ? () => getRunEvents(id) : skipToken });

@@ -1422,6 +1422,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run}/measurements": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Measurements
+         * @description Return what the steps of a run took, beside what the copies of the devices took; empty without a mirror.
+         */
+        get: operations["list_measurements"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs/{run}/pause": {
         parameters: {
             query?: never;
@@ -1728,6 +1748,50 @@ export interface paths {
          */
         post: operations["call_method"];
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/devices/{device_id}/paces": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Paces
+         * @description Return what was measured of each method of a device, beside what its copy took.
+         */
+        get: operations["list_paces"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/devices/{device_id}/paces/{method}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Take Pace
+         * @description Let rehearsals and tests take as long for a method as was measured: the median of the newest 30.
+         */
+        put: operations["take_pace"];
+        post?: never;
+        /**
+         * Drop Pace
+         * @description Let rehearsals and tests take as long for a method as its description says.
+         */
+        delete: operations["drop_pace"];
         options?: never;
         head?: never;
         patch?: never;
@@ -3660,7 +3724,7 @@ export interface components {
                 [key: string]: unknown;
             };
             /** @enum {string} */
-            code: "offline_at_work" | "offline" | "error" | "warning" | "battery_low" | "newcomer_waits" | "description_refused" | "messages_dropped" | "messages_refused" | "flapping" | "wrong_key" | "foreign_knock" | "command_rejected" | "command_failed" | "command_timed_out";
+            code: "offline_at_work" | "offline" | "error" | "warning" | "battery_low" | "newcomer_waits" | "description_refused" | "messages_dropped" | "messages_refused" | "flapping" | "wrong_key" | "foreign_knock" | "command_rejected" | "command_failed" | "command_timed_out" | "became_slower" | "became_faster";
             count: number;
             device: string;
             first_at: string;
@@ -3798,13 +3862,23 @@ export interface components {
         AskRoutes: {
             pairs: components["schemas"]["AskRoute"][];
         };
-        /** @description How a rehearsal was asked for: the version, and the conditions; steps are named by their ids. */
+        /**
+         * @description How a rehearsal was asked for: the version, and the conditions; steps are named by their ids.
+         *
+         *     `paces` are the measured ones that were in use, by device and method: so many times as long as the model's time.
+         */
         AskedFor: {
             /** @enum {string} */
             driver: "physics" | "kinematic";
             faults: {
                 [key: string]: unknown;
             }[];
+            /** @default {} */
+            paces: {
+                [key: string]: {
+                    [key: string]: number;
+                };
+            };
             parameters: {
                 [key: string]: boolean | number | string;
             };
@@ -3897,6 +3971,14 @@ export interface components {
             origin: components["schemas"]["Origin"];
             resolution_m: number;
             width: number;
+        };
+        /** @description A pace that is in use for rehearsals and tests; `count` is of how many measurements it was the median. */
+        CalibrationShape: {
+            /** Format: date-time */
+            at: string;
+            by: string;
+            count: number;
+            pace: number;
         };
         /** @description A method of a device, and its arguments by name. */
         CallMethod: {
@@ -4747,6 +4829,11 @@ export interface components {
             may_create_sites: boolean;
             user: components["schemas"]["Person"] | null;
         };
+        /** @description What the copy took for a command, and what the device took. */
+        MeasuredShape: {
+            predicted_s: number;
+            real_s: number;
+        };
         /** @description What is to be another; what is left out stays, and `ends_at: null` takes the end of access away. */
         MemberChange: {
             ends_at?: string | null;
@@ -4795,6 +4882,24 @@ export interface components {
             second_factor: boolean;
             seen_at: string | null;
             sign_in_by: string[];
+        };
+        /**
+         * @description What was measured of a device's method. A pace is what the device took divided by what its copy took.
+         *
+         *     `usual` is the median of the newest 30, `band` goes from the 1st to the 99th percentile; both are null where nothing
+         *     was measured. `apart_m` is how far a robot was from its copy at most.
+         */
+        MethodPaceShape: {
+            apart_m: number | null;
+            band: number[] | null;
+            calibrated: components["schemas"]["CalibrationShape"] | null;
+            can_be_taken: boolean;
+            change: components["schemas"]["PaceChangeShape"] | null;
+            count: number;
+            last_at: string | null;
+            method: string;
+            newest: components["schemas"]["MeasuredShape"][];
+            usual: number | null;
         };
         /** @description Something a device can be told to do. */
         MethodShape: {
@@ -4995,6 +5100,12 @@ export interface components {
             seen_at: string;
             system: string;
         };
+        /** @description A pace that is not what it was: how much longer it takes, in percent (negative: shorter), and both medians. */
+        PaceChangeShape: {
+            before: number;
+            now: number;
+            percent: number;
+        };
         /** @description Which part of the Things, in which form and order. */
         Page: {
             /**
@@ -5152,7 +5263,7 @@ export interface components {
             clock_apart_s: number | null;
             id: string;
             /** @enum {string} */
-            kind: "web" | "gateway" | "worker" | "ticker" | "twin";
+            kind: "web" | "gateway" | "worker" | "ticker" | "mirror" | "twin";
             machine: string;
             name: string;
             process: number;
@@ -5909,6 +6020,15 @@ export interface components {
         };
         /** @enum {string} */
         StepKind: "move" | "pick" | "drop" | "pick_and_drop" | "cover" | "release" | "operate" | "wait" | "if" | "while" | "repeat" | "for_each" | "parallel" | "try" | "limit" | "on_event" | "break" | "continue" | "return" | "end" | "fail" | "call" | "set" | "notify" | "ask" | "comment";
+        /** @description What a step of a run took, and what its copy took. */
+        StepMeasuredShape: {
+            apart_m: number | null;
+            device: string;
+            method: string;
+            predicted_s: number;
+            real_s: number;
+            step: string;
+        };
         /** @description A step: `place` is parent, branch and order; without it the step is a draft. `pos` in metres. */
         StepShape: {
             kind: components["schemas"]["StepKind"];
@@ -10083,6 +10203,45 @@ export interface operations {
             };
         };
     };
+    list_measurements: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StepMeasuredShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     pause_run: {
         parameters: {
             query?: never;
@@ -10734,6 +10893,136 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CallShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_paces: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MethodPaceShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    take_pace: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                site: string;
+                device_id: string;
+                method: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MethodPaceShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    drop_pace: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                site: string;
+                device_id: string;
+                method: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MethodPaceShape"];
                 };
             };
             400: components["responses"]["Refused400"];

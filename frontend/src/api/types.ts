@@ -37,6 +37,9 @@ export type RouteAnswer = Schemas["RouteShape"];
 
 export type Device = Schemas["DeviceShape"];
 export type DeviceStatus = Device["status"];
+export type MethodPace = Schemas["MethodPaceShape"];
+export type Measured = Schemas["MeasuredShape"];
+export type StepMeasured = Schemas["StepMeasuredShape"];
 export type Activity = Schemas["Activity"];
 export type DeviceProperty = Schemas["PropertyShape"];
 export type DeviceMethod = Schemas["MethodShape"];

@@ -89,6 +89,12 @@ export class SiteFeed {
       case "traffic":
         useLiveStore.setState((state) => ({ traffic: { ...state.traffic, ...message.robots } }));
         return;
+      case "copies":
+        useLiveStore.setState({ copies: Object.fromEntries(message.copies.map((copy) => [copy.device, copy])) });
+        return;
+      case "measured":
+        this.#caches.refresh(keys.paces(this.slug, message.device));
+        return this.#caches.refresh(["measurements"]);
       case "programs":
         return this.#caches.refresh(keys.programs(this.slug));
       case "comments":

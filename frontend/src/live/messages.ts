@@ -23,6 +23,14 @@ export interface RobotTraffic {
   why?: WaitReason | null;
 }
 
+/** Where the mirror's copy of a robot is (metres, radians). */
+export interface CopyPose {
+  device: string;
+  x: number;
+  y: number;
+  theta: number;
+}
+
 export type DeviceChange = Partial<Device> & { id: string };
 
 export type LiveMessage =
@@ -49,6 +57,8 @@ export type LiveMessage =
   | ({ type: "rehearsal" } & RehearsalNews)
   | ({ type: "stop" } & SiteStop)
   | { type: "traffic"; robots: Record<string, RobotTraffic> }
+  | { type: "copies"; copies: CopyPose[] }
+  | { type: "measured"; device: string }
   | { type: "programs" }
   | { type: "comments"; program: string }
   | { type: "tests"; program: string }

@@ -8,7 +8,7 @@ import { useLiveStore } from "./store";
 
 /** Reads the live store as it is at each frame; nothing subscribes. */
 export const liveRobots: RobotSource = (now) => {
-  const { deviceById, traffic } = useLiveStore.getState();
+  const { deviceById, traffic, copies } = useLiveStore.getState();
   const views: RobotView[] = [];
   for (const device of Object.values(deviceById)) {
     if (device.kind !== "robot") continue;
@@ -24,6 +24,7 @@ export const liveRobots: RobotSource = (now) => {
       x: pose.x,
       y: pose.y,
       theta: pose.theta,
+      copy: copies[device.id],
       route: path?.route,
       reserved: path?.reserved,
       wait: waitWords(path?.why, (id) => deviceById[id]?.name ?? id) ?? path?.wait ?? null,

@@ -1,7 +1,7 @@
 /** What changes often at the site that is being looked at; select narrowly. */
 import { create } from "zustand";
 import type { Device, SiteStop } from "@/api/types";
-import type { RobotTraffic } from "./messages";
+import type { CopyPose, RobotTraffic } from "./messages";
 
 export type Connection = "connecting" | "live" | "reconnecting";
 
@@ -23,6 +23,8 @@ export interface LiveState {
   lostAt: number | null;
   deviceById: Record<string, Device>;
   traffic: Record<string, RobotTraffic>;
+  /** The mirror's copies of robots at work, by their ids. */
+  copies: Readonly<Record<string, CopyPose>>;
   stop: SiteStop | null;
   /** The last ones, oldest first. */
   notices: readonly Notice[];
@@ -34,6 +36,7 @@ export const EMPTY: LiveState = {
   lostAt: null,
   deviceById: {},
   traffic: {},
+  copies: {},
   stop: null,
   notices: [],
 };

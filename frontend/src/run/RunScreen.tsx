@@ -4,7 +4,16 @@ import { useCallback, useEffect, useMemo, useState, type ReactNode } from "react
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
-import { keys, useDevices, useQuestions, useRun, useRunEvents, useSite, useSiteMap } from "@/api/queries";
+import {
+  keys,
+  useDevices,
+  useMeasurements,
+  useQuestions,
+  useRun,
+  useRunEvents,
+  useSite,
+  useSiteMap,
+} from "@/api/queries";
 import { mayOperate } from "@/api/roles";
 import type { Device, Run, RunEvent, Site } from "@/api/types";
 import { QuestionCard } from "@/shell/questions/QuestionCard";
@@ -13,6 +22,7 @@ import { LoadProblem } from "@/shell/LoadProblem";
 import { Crumb, TopBar } from "@/shell/TopBar";
 import { Chip } from "@/design/Chip";
 import { ProgramMap } from "@/program/ProgramMap";
+import { byStep } from "@/device/paces/paces";
 import { formatMoment } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
 import { liveRobots } from "@/live/robots";
@@ -238,6 +248,8 @@ function Side({ view }: { view: RunView }) {
   const { t } = useTranslation();
   const { run, lines, numberOf, nameOf } = view;
   const words = useStepWords(run.document, view.devices, view.map?.places);
+  const measurements = useMeasurements(run.id).data;
+  const measured = useMemo(() => byStep(measurements ?? []), [measurements]);
   return (
     <aside className={styles.side}>
       <RunSteps
@@ -248,6 +260,7 @@ function Side({ view }: { view: RunView }) {
         titleOf={words.titleOf}
         iconOf={words.iconOf}
         nameOf={nameOf}
+        measured={measured}
         onSelect={view.setSelected}
       />
       <Journal events={view.events} numberOf={numberOf} nameOf={nameOf} label={t("run.journal")} />

@@ -1,14 +1,17 @@
 import { useEffect, useRef } from "react";
 import { useTranslation } from "react-i18next";
-import type { RunEvent } from "@/api/types";
+import type { Measured, RunEvent } from "@/api/types";
 import { StatusGlyph, type StatusName } from "@/design/StatusGlyph";
 import { VipoIcon } from "@/design/VipoIcon";
 import { clock } from "@/design/clock";
+import { paceOf, percentOver } from "@/device/paces/paces";
+import { formatNumber } from "@/i18n/format";
 import { waitWords } from "@/i18n/waits";
 import styles from "./RunScreen.module.css";
 import { eventWords } from "./eventWords";
 import { outerProgress, spentSeconds, type StepLine } from "./stepList";
 
+const FAR_PERCENT = 20;
 const GLYPHS: Record<StepLine["status"], StatusName> = {
   waiting: "idle",
   running: "busy",
@@ -25,7 +28,29 @@ interface RunStepsProps {
   titleOf: (step: string) => string;
   iconOf: (step: string) => string;
   nameOf: (device: string) => string;
+  /** What steps took at work, beside what was predicted. */
+  measured: ReadonlyMap<string, Measured>;
   onSelect: (step: string) => void;
+}
+
+/** By how much a step took longer than its devices' copies, where that is worth a word. */
+function Beside({ measured }: { measured: Measured | undefined }) {
+  const { t } = useTranslation();
+  const percent = measured ? percentOver(paceOf(measured)) : 0;
+  if (!measured || percent === 0) return null;
+  const words = t("device.paces.step", {
+    real: formatNumber(measured.real_s, 1),
+    predicted: formatNumber(measured.predicted_s, 1),
+  });
+  return (
+    <span className={styles.beside} data-far={Math.abs(percent) >= FAR_PERCENT || undefined} title={words}>
+      <span aria-hidden="true">
+        {percent > 0 ? "+" : "−"}
+        {formatNumber(Math.abs(percent))} %
+      </span>
+      <span className="visually-hidden">{words}</span>
+    </span>
+  );
 }
 
 /** Waiting with a beginning means held up; without one it has not begun. */
@@ -75,6 +100,7 @@ function Line({ line, props }: { line: StepLine; props: RunStepsProps }) {
           {props.titleOf(line.step)}
           {line.count > 1 ? ` · ${t("run.times", { count: line.count })}` : ""}
         </span>
+        <Beside measured={props.measured.get(line.step)} />
         <span className={styles.mono}>{spent === null ? "–" : clock(spent)}</span>
       </button>
     </li>

@@ -69,11 +69,13 @@ function Use({ id, busy_s, total_s, name }: { id: string; busy_s: number; total_
 function Conditions({ asked }: Pick<ResultPanelProps, "asked">) {
   const { t } = useTranslation();
   if (!asked) return null;
+  const measured = Object.values(asked.paces).reduce((sum, methods) => sum + Object.keys(methods).length, 0);
   const parts = [
     t("simulation.conditions.version", { version: asked.version }),
     t(`start.rehearse.drivers.${asked.driver}.name`),
     t("simulation.conditions.seed", { seed: asked.seed }),
     ...Object.entries(asked.parameters).map(([name, value]) => `${name} = ${String(value)}`),
+    ...(measured > 0 ? [t("simulation.conditions.paces", { count: measured })] : []),
     ...(asked.faults.length > 0 ? [t("simulation.conditions.faults", { count: asked.faults.length })] : []),
   ];
   return (

@@ -22,6 +22,7 @@ export function paintWays(canvas: Canvas, palette: Palette, moment: Moment, trai
   canvas.translate(viewport.x, viewport.y);
   canvas.scale(viewport.zoom, viewport.zoom);
   for (const robot of robots) paintWay(canvas, palette, robot);
+  for (const robot of robots) paintCopy(canvas, palette, robot);
   if (trails) for (const robot of robots) paintTrail(canvas, palette, trails.of(robot.id, now));
   canvas.restore();
 }
@@ -68,6 +69,26 @@ function line(canvas: Canvas, points: readonly Point[]): void {
     if (index === 0) canvas.moveTo(at.x, at.y);
     else canvas.lineTo(at.x, at.y);
   });
+}
+
+/** Nearer than this a robot and its copy are where they should be, and one covers the other. */
+const APART_M = 0.15;
+
+/** Where the copy of a robot is that is not where the robot is, and how far that is. */
+function paintCopy(canvas: Canvas, palette: Palette, { copy, x, y }: RobotView): void {
+  if (!copy || Math.hypot(copy.x - x, copy.y - y) < APART_M) return;
+  const [from, to] = [toPixels([x, y]), toPixels([copy.x, copy.y])];
+  canvas.strokeStyle = palette["text-3"];
+  canvas.lineWidth = 1.6;
+  canvas.setLineDash([3, 4]);
+  canvas.beginPath();
+  canvas.moveTo(from.x, from.y);
+  canvas.lineTo(to.x, to.y);
+  canvas.stroke();
+  canvas.beginPath();
+  canvas.arc(to.x, to.y, RADIUS - 4, 0, Math.PI * 2);
+  canvas.stroke();
+  canvas.setLineDash([]);
 }
 
 function paintTrail(canvas: Canvas, palette: Palette, trail: readonly TrailPoint[]): void {

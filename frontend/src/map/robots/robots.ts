@@ -25,6 +25,8 @@ export interface RobotView extends Pose {
   readonly route?: readonly Point[];
   /** The piece of it that is reserved, metres. */
   readonly reserved?: readonly Point[];
+  /** Where its copy in the mirror is, while it is at work. */
+  readonly copy?: Pose;
   /** Why it waits. */
   readonly wait?: string | null;
 }

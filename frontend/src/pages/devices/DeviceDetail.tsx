@@ -20,6 +20,7 @@ import { jobOf } from "./filter";
 import { useFocusInList } from "./focus";
 import { AskKeyDecision, KeyMenuItems, KeyTrouble, type KeyDecision } from "./keys/KeyActions";
 import { OpenCall } from "@/device/methods/OpenCall";
+import { MeasuredTimes } from "@/device/paces/MeasuredTimes";
 import { LiveProperties } from "@/device/readings/LiveProperties";
 import { Methods } from "./methods/Methods";
 import { RdfSource } from "./description/RdfSource";
@@ -91,6 +92,7 @@ function Overview({ site, device }: { site: Site; device: Device }) {
       <LiveProperties site={site} device={device} />
       {device.kind === "robot" && device.lifecycle === "approved" ? <RobotMapCard site={site} device={device} /> : null}
       <Methods site={site} device={device} />
+      {device.lifecycle === "approved" ? <MeasuredTimes site={site} device={device} /> : null}
       <div className={styles.pair}>
         <RdfSource slug={site.slug} device={device.id} />
         <DeviceHistory slug={site.slug} device={device.id} most={6} />

@@ -30,7 +30,7 @@ def test_how_a_rehearsal_was_asked_for_is_told_with_it(program):
     client = sign_in_member("operator", SITE)
     asked = {"seed": 7, "driver": "kinematic", "faults": DEAD}
     made = post_json(client, f"/api/programs/{program}/rehearsals", asked).json()
-    told = {"version": 1, "seed": 7, "driver": "kinematic", "parameters": {}, "faults": DEAD["faults"]}
+    told = {"version": 1, "seed": 7, "driver": "kinematic", "parameters": {}, "faults": DEAD["faults"], "paces": {}}
     assert (made["asked"], client.get(f"/api/rehearsals/{made['id']}").json()["asked"]) == (told, told)
     Rehearsal.objects.update(asked={})  # as those that were made before it was kept
     assert client.get(f"/api/rehearsals/{made['id']}").json()["asked"] is None

@@ -99,7 +99,8 @@ def test_a_robot_that_is_given_its_path_in_pieces_is_measured_over_all_of_it(spe
     (job,) = floor.jobs
     assert [m.command for m in job.measured] == ["c1", "c2", "c3"]
     assert pace_of(job) == pytest.approx(1.2, abs=0.06)
-    assert job.apart_m is not None and 0.5 < job.apart_m < 3  # the copy arrives first
+    assert job.apart_m is not None
+    assert 0.5 < job.apart_m < 3  # the copy arrives first
 
 
 def test_each_job_begins_where_the_device_is() -> None:

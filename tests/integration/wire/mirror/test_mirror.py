@@ -1,0 +1,173 @@
+"""The mirror beside a device that somebody else might have written, on both brokers: it measures, and says nothing."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from uuid import UUID, uuid4
+
+import pytest
+from django.conf import LazySettings
+
+from execution.commands.outbox import record_ack
+from execution.gateway.gateway import Gateway
+from execution.mirror.mirror import Mirror
+from execution.models import Command, Measurement
+from registry import services
+from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
+from tests.kit.files import MIXER_TEXT
+from tests.kit.waiting import wait_for
+from vipo_device.kit.enrolment import take_new_keys
+from vipo_device.protocol.credentials import mirror_key
+from vipo_device.protocol.mqtt_client import MqttClient
+from vipo_device.protocol.topics import MIRROR, MIRROR_FILTERS
+
+pytestmark = pytest.mark.servers
+KEY = "the-key-of-the-mixer-0001"
+MIXER = "paintMixer03"
+A_MINUTE_S = 1.0
+
+
+@pytest.fixture
+def mirror(bus: Bus, gateway: Gateway, settings: LazySettings) -> Iterator[Mirror]:
+    """A mirror that lets a minute pass in a second, as the mixer of these tests does."""
+    wait_for("the mirror's account", lambda: bus.lets_in(MIRROR, mirror_key(SERVER_WORD)))
+    made, stopping = Mirror(settings, speed=60 / A_MINUTE_S), threading.Event()
+    thread = threading.Thread(target=made.run_forever, args=(stopping,))
+    thread.start()
+    wait_for("the mirror", lambda: made._client.connected)
+    yield made
+    stopping.set()
+    thread.join(20)
+
+
+class Mixer:
+    """Takes `pace` times as long as it should; answers as docs/protocol.md says."""
+
+    def __init__(self, bus: Bus) -> None:
+        self.client: MqttClient = bus.client(MIXER, KEY)
+        self.pace, self.heard = 1.0, 0
+        take_new_keys(MIXER, self.client, lambda key: None)
+        self.client.subscribe(f"vipo/v1/dev/{MIXER}/down/mixPaint", 1, self._told)
+
+    def _say(self, kind: str, body: object) -> None:
+        self.client.publish(f"vipo/v1/dev/{MIXER}/up/{kind}", json.dumps(body).encode())
+
+    def _told(self, _topic: str, payload: bytes, _retained: bool) -> None:
+        told = json.loads(payload)
+        self.heard += 1
+        threading.Thread(target=self._mix, args=(told["id"], told["v"]["time"])).start()
+
+    def _mix(self, command: str, minutes: float) -> None:
+        for status in ("ACCEPTED", "RUNNING"):
+            self._say("ack", {"id": command, "st": status})
+        time.sleep(self.pace * minutes * A_MINUTE_S)
+        self._say("ack", {"id": command, "st": "DONE"})
+
+
+@pytest.fixture
+def mixer(bus: Bus, gateway: Gateway) -> Iterator[Mixer]:
+    at = datetime.now(UTC)
+    services.enrol_device(site=SITE, device_id=MIXER, payload=json.dumps({"key": KEY}).encode(), at=at)
+    made = Mixer(bus)
+    made.client.publish(f"vipo/v1/dev/{MIXER}/up/desc", MIXER_TEXT.encode(), retain=True)
+    made.client.publish(f"vipo/v1/dev/{MIXER}/up/presence", b'{"s": "online", "boot": 1}', retain=True)
+    made.client.start()
+    wait_for("its description", lambda: services.find_device(device_id=MIXER))
+    services.approve_device(site=SITE, device_id=MIXER, by=None, at=datetime.now(UTC))
+    wait_for("the approved mixer", lambda: made.client.connected)
+    yield made
+    made.client.stop()
+
+
+def tell(method: str = "mixPaint", **arguments: object) -> UUID:
+    """Put a command into the outbox; the gateway sends it."""
+    at = datetime.now(UTC)
+    command = Command.objects.create(
+        id=uuid4(), site_id=services.get_site_id(site=SITE), position=Command.objects.count() + 1, device=MIXER,
+        method=method, arguments=arguments, run=uuid4(), step="mix", send_after=at, created_at=at,
+    )  # fmt: skip
+    services.wake("gateway")
+    return command.pk
+
+
+def is_over(command: UUID) -> bool:
+    return Command.objects.get(pk=command).status == "done"
+
+
+def test_what_the_device_takes_is_kept_beside_what_its_copy_takes(mixer: Mixer, mirror: Mirror) -> None:
+    mixer.pace = 1.5
+    command = tell(time=1)
+    wait_for("the measurement", Measurement.objects.first)
+    assert is_over(command)
+    found = Measurement.objects.get()
+    assert (found.command, found.device, found.method, found.step) == (command, MIXER, "mixPaint", "mix")
+    assert found.predicted_s == pytest.approx(A_MINUTE_S, abs=0.05)
+    assert 1.4 < found.real_s / found.predicted_s < 2.0
+
+
+def test_two_mirrors_keep_a_command_once(mixer: Mixer, mirror: Mirror, settings: LazySettings) -> None:
+    second, stopping = Mirror(settings, speed=60 / A_MINUTE_S), threading.Event()
+    thread = threading.Thread(target=second.run_forever, args=(stopping,))
+    thread.start()
+    try:
+        wait_for("the second mirror", lambda: second._client.connected)
+        for _ in range(2):
+            command = tell(time=1)
+            wait_for("the end", lambda command=command: is_over(command))
+        wait_for("both", lambda: Measurement.objects.count() == 2)
+        time.sleep(1)
+        assert Measurement.objects.count() == 2
+    finally:
+        stopping.set()
+        thread.join(20)
+
+
+def test_what_is_not_its_business_or_not_a_message_leaves_the_mirror_working(
+    bus: Bus, mixer: Mixer, mirror: Mirror
+) -> None:
+    server = MqttClient(
+        host="127.0.0.1", port=bus.server_port, username="server", password=SERVER_WORD, client_id="somebody"
+    )
+    server.start()
+    wait_for("the server", lambda: server.connected)
+    try:
+        for payload in (b"", b"{", b"[]", b'{"id": 7}', b'{"id": "x", "v": 5}', b"\xff" * 300, b"[" * 5000):
+            for topic in (
+                f"vipo/v1/dev/{MIXER}/down/dispense",
+                f"vipo/v1/dev/{MIXER}/up/ack",
+                "vipo/v1/dev/n/up/state",
+            ):
+                server.publish(topic, payload)
+        server.publish("vipo/v1/dev/nobody/down/mixPaint", b'{"id": "c", "v": {"time": 1}}')
+    finally:
+        server.stop()
+    command = tell(time=1)
+    wait_for("the end", lambda: is_over(command))
+    wait_for("the measurement", Measurement.objects.first)
+
+
+def test_the_mirrors_account_hears_and_says_nothing(bus: Bus, mixer: Mixer, mirror: Mirror) -> None:
+    heard: list[str] = []
+    account = bus.client(MIRROR, mirror_key(SERVER_WORD))
+    for topic in (*MIRROR_FILTERS, "vipo/v1/dev/+/up/map", "vipo/v1/join/+/+", "$CONTROL/#"):
+        account.subscribe(topic, 1, lambda topic, *_: heard.append(topic))
+    account.start()
+    wait_for("the account", lambda: account.connected)
+    mixer.heard = 0
+    account.publish(f"vipo/v1/dev/{MIXER}/down/mixPaint", b'{"id": "forged", "v": {"time": 1}, "ttl_s": 60}')
+    account.publish(f"vipo/v1/dev/{MIXER}/up/ack", b'{"id": "forged", "st": "DONE"}')
+    account.publish(f"vipo/v1/site/{SITE}/stop", b'{"active": true}', retain=True)
+    mixer.client.publish(f"vipo/v1/dev/{MIXER}/up/map", b"not for it")
+    command = tell(time=1)
+    wait_for("the end", lambda: is_over(command))
+    account.stop()
+    assert mixer.heard == 1
+    assert {topic.rsplit("/", 1)[1] for topic in heard} <= {"mixPaint", "ack", "state", "stop", "credential"}
+    assert any(topic.endswith("/down/mixPaint") for topic in heard)
+    assert not record_ack(device=MIXER, command_id="forged", status="DONE", why="", result={}, at=datetime.now(UTC))
+    assert not bus.lets_in(MIRROR, SERVER_WORD)
+    assert not bus.lets_in(MIRROR, mirror_key("another word"))
