@@ -43,7 +43,7 @@ from editor.programs.versions import (
     pin_version,
 )
 from editor.programs.views import AuthorView, ProgramView, VersionView, WholeVersionView
-from editor.reviews.gate import Permit, admit_start
+from editor.reviews.gate import Permit, admit_start, is_admitted
 
 __all__ = [
     "AuthorView",
@@ -85,6 +85,7 @@ __all__ = [
     "get_program",
     "get_version",
     "has_versions_to_test",
+    "is_admitted",
     "list_program_troubles",
     "list_programs",
     "list_versions",

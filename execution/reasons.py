@@ -16,6 +16,7 @@ SENTENCES: Mapping[str, str] = {
     "paused_by": "{by} paused it",
     "cancelled_by": "{by} cancelled it",
     "stopped_by": "{by} stopped all devices of the site",
+    "approval_gone": "When its time came, approvals that the site demands were missing",
     "set_aside": "Something could not be taken in and was set aside for an admin: {error}",
     "branch_failed": "Another branch failed.",
     "enough_ended": "Enough other branches have ended.",

@@ -10,7 +10,7 @@ from uuid import UUID
 from editor.documents.plain_form import digest_of
 from editor.documents.shared_document import migrate_document
 from editor.errors import NotApproved
-from editor.reviews.rules import hold_rule
+from editor.reviews.rules import get_rule, hold_rule
 from editor.reviews.standing import Standing, read_standing
 
 MOST_REASON = 500
@@ -48,6 +48,14 @@ def admit_start(*, site: str, program_id: UUID, document: Mapping[str, Any], eme
     if emergency:
         return Permit(rule.approvals, names, emergency)
     raise _refusal(standing)
+
+
+def is_admitted(*, site: str, program_id: UUID, document: Mapping[str, Any]) -> bool:
+    """Tell whether a run of this document might start now; for one that was admitted earlier, when its time comes."""
+    rule = get_rule(site=site)
+    if rule.approvals == 0:
+        return True
+    return read_standing(site=site, program_id=program_id, digest=content_digest(document), rule=rule).may_run
 
 
 def content_digest(document: Mapping[str, Any]) -> str:

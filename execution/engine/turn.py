@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from editor import services as editor
 from execution.engine.aside import (
     SetAside,
     cancel_by_hand,
@@ -34,6 +35,7 @@ from execution.floor_protocol import (
 from execution.machine.messages import CancelAsked
 from execution.mailbox import run_target, site_target
 from execution.models import Run, RunEvent
+from execution.reasons import SENTENCES
 from execution.runs.before_start import may_begin
 from execution.runs.facts import facts_of, things_named
 from execution.runs.fold import CannotTakeIn, Facts, RunWork, fold
@@ -163,7 +165,20 @@ class Turn:
                 continue
             work = self.runs.get(run) or self.site.runs.get(run)
             if work is not None and work.is_open:
-                self._step_run(work, self._hold_back(work, mails))
+                self._step_run(work, [*self._orders_before_start(work), *self._hold_back(work, mails)])
+
+    def _orders_before_start(self, work: RunWork) -> list[ToRun]:
+        """Return a Cancel for a run whose time has come and whose approvals have gone since it was planned."""
+        row = work.row
+        if work.state is not None or row.not_before is None or not may_begin(row, self.now):
+            return []
+        if row.permit.get("emergency") or self._is_admitted(row):
+            return []
+        return [CancelAsked(SENTENCES["approval_gone"])]
+
+    def _is_admitted(self, row: Run) -> bool:
+        document = Run.objects.values_list("document", flat=True).get(pk=row.pk)
+        return editor.is_admitted(site=self.site.slug, program_id=row.program, document=document)
 
     def _hold_back(self, work: RunWork, mails: Sequence[Mail]) -> list[ToRun]:
         """Return what is taken in now: not the ends of tasks whose device is just about to speak."""

@@ -11,6 +11,7 @@ from django.test import Client
 
 from editor.reviews import reviews
 from execution import services
+from execution.engine.drive import advance_site
 from execution.models import ArmedProgram, Rehearsal, Run
 from registry import services as registry
 from registry.models import AuditLine
@@ -263,6 +264,55 @@ def test_a_run_that_began_lawfully_goes_on_after_its_approval_is_gone(team: Team
         assert team.post("olga", f"/runs/{run['id']}/{order}", {}).status_code == 200
         factory.work()
     factory.go(lambda: Run.objects.get().status == "finished", limit_s=30)
+
+
+def come(run: str) -> Run:
+    """Let the time of a planned run come; return what has become of it."""
+    Run.objects.filter(pk=run).update(not_before=datetime.now(UTC))
+    for _ in range(2):
+        advance_site(SITE)
+    return Run.objects.get(pk=run)
+
+
+def plan(team: Team, who: str = "olga", **more: Any) -> str:
+    later = (datetime.now(UTC) + timedelta(hours=1)).isoformat()
+    return str(team.start(who, not_before=later, **more).json()["id"])
+
+
+def withdraw(team: Team) -> None:
+    assert team.say("bob", "withdrawn").status_code == 200
+
+
+def demand_more(team: Team) -> None:
+    team.demand(2)
+
+
+@pytest.mark.parametrize("change", [withdraw, demand_more, approver_removed])
+def test_a_planned_run_whose_approval_has_gone_never_begins(team: Team, change: Callable[[Team], None]) -> None:
+    approved(team)
+    run = plan(team)
+    change(team)
+    row = come(run)
+    assert (row.status, row.started_at, row.state) == ("cancelled", None, None)
+    assert row.reason == "When its time came, approvals that the site demands were missing"
+    assert signed_in("olga").get(f"/api/runs/{run}").json()["cause"]["code"] == "approval_gone"
+
+
+def test_a_run_planned_where_nothing_was_demanded_is_looked_at_when_its_time_comes(team: Team) -> None:
+    nothing_demanded(team)
+    run = plan(team)
+    team.demand(1)
+    assert come(run).status == "cancelled"
+
+
+@pytest.mark.parametrize("emergency", [False, True])
+def test_a_planned_run_that_may_begin_does(team: Team, emergency: bool) -> None:
+    team.demand(1)
+    if not emergency:
+        assert team.say("bob", "approved").status_code == 200
+    run = plan(team, "root", emergency="The oven burns.") if emergency else plan(team)
+    team.draw("ann", 99)
+    assert come(run).status == "running"
 
 
 def test_only_an_admin_starts_in_an_emergency_and_says_why(team: Team) -> None:
