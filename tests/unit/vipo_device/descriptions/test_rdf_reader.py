@@ -95,7 +95,7 @@ def read_by_rdflib(text: str) -> rdflib.Graph:
 
 
 def plain(graph: rdflib.Graph) -> rdflib.Graph:
-    """Return a graph without rdflib's own spelling: it writes `.5` as `0.5` and languages in small letters."""
+    """Return a graph without rdflib's own spelling: it writes `.5` as `0.5`, `-0` as `0`, languages in small letters."""
     found = rdflib.Graph()
     for subject, predicate, value in graph:
         found.add((subject, predicate, _plain(value) if isinstance(value, rdflib.Literal) else value))
@@ -106,7 +106,7 @@ def _plain(value: rdflib.Literal) -> rdflib.Literal:
     language = value.language.lower() if value.language else None
     if value.datatype in (rdflib.XSD.integer, rdflib.XSD.decimal, rdflib.XSD.double):
         try:
-            return rdflib.Literal(repr(float(str(value))))
+            return rdflib.Literal(repr(float(str(value)) + 0.0))
         except ValueError:
             pass
     return rdflib.Literal(str(value), lang=language, datatype=None if language else value.datatype)
