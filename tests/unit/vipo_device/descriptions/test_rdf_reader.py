@@ -95,7 +95,7 @@ def read_by_rdflib(text: str) -> rdflib.Graph:
 
 
 def plain(graph: rdflib.Graph) -> rdflib.Graph:
-    """Return a graph without rdflib's own spelling: it writes `.5` as `0.5`, `-0` as `0`, languages in small letters."""
+    """Return a graph without rdflib's own spelling: `0.5` for `.5`, `0` for `-0`, languages in small letters."""
     found = rdflib.Graph()
     for subject, predicate, value in graph:
         found.add((subject, predicate, _plain(value) if isinstance(value, rdflib.Literal) else value))
