@@ -17,7 +17,7 @@ from django.test import Client
 
 from editor import services as editor
 from editor.models import Comment, CommentThread
-from execution.models import Command, DeadLetter, ProgramTest, Question, Rehearsal, Run
+from execution.models import Calibration, Command, DeadLetter, Measurement, ProgramTest, Question, Rehearsal, Run
 from registry import services
 from registry.models import Device, DeviceAlert, Site, User
 from registry.people.wall_screens import make_wall_screen
@@ -126,14 +126,24 @@ def make_one_of_each(slug: str) -> dict[str, str]:
         "alert_id": DeviceAlert.objects.create(device_id=device, code="offline", first_at=NOW, last_at=NOW).pk,
     }
     made |= _make_comment(program)
+    _make_paces(site, device)
     ends = "name: It ends\nthen:\n- ends: well\n"
     made["test"] = ProgramTest.objects.create(
         program_id=program, name="It ends", text=ends, created_at=NOW, edited_at=NOW
     ).pk
     named = {"device_id": device, "device": device, "thing": device, "slug": slug, "site": slug, "number": "1"}
     named |= {"version": "1", "name": "jobStatus", "action": "mix", "session": "0", "provider": "none", "sign_on": "0"}
+    named["method"] = "mix"
     named |= _make_guest(site)
     return {**named, **{name: str(key) for name, key in made.items()}}
+
+
+def _make_paces(site: Site, device: str) -> None:
+    """Let a method have been measured, and its pace be in use."""
+    of = {"site": site, "device": device, "method": "mix"}
+    for _ in range(5):
+        Measurement.objects.create(**of, command=uuid4(), real_s=12, predicted_s=10, at=NOW)
+    Calibration.objects.create(**of, pace=1.1, count=5, at=NOW)
 
 
 def _make_comment(program: UUID) -> dict[str, Any]:
