@@ -94,4 +94,3 @@ def _number(text: str) -> UUID | None:
         return UUID(text)
     except ValueError:
         return None
-
