@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from queue import Empty, SimpleQueue
 from typing import Any
 
-from django.db import DatabaseError, close_old_connections
+from django.db import DatabaseError, InterfaceError, close_old_connections
 
 from execution import database
 from execution.mirror.measurements import Kept, keep_job
@@ -39,6 +39,7 @@ KNOWN_FOR_S = 10.0
 MOST_WAITING = 20_000
 MOST_AT_ONCE = 500
 MOST_COPIES = 500
+GIVEN_UP = "The copy of %s is given up; the device itself knows nothing of it."
 
 
 @dataclass(slots=True)
@@ -78,7 +79,7 @@ class Mirror:
                 try:
                     self._turn()
                     self._outage.end()
-                except DatabaseError as error:
+                except (DatabaseError, InterfaceError) as error:
                     self._outage.begin(error)
                     close_old_connections()
                     stopping.wait(1.0)
@@ -101,10 +102,16 @@ class Mirror:
         except Empty:
             pass
         now = time.monotonic()
-        for known in self._known.values():
+        for device, known in list(self._known.items()):
             if known.copy.is_at_work:
-                known.copy.advance(now)
-                self._keep(known)
+                try:
+                    known.copy.advance(now)
+                    self._keep(known)
+                except (DatabaseError, InterfaceError):
+                    raise
+                except Exception:  # one device's copy must not end the copies of all others
+                    log.exception(GIVEN_UP, device)
+                    self._known.pop(device, None)
         if now - self._shown_at >= SHOW_EVERY_S:
             self._shown_at = now
             self._show()
@@ -128,6 +135,11 @@ class Mirror:
                     copy.hear_state(at, parse_state(payload))
         except (BadMessage, VipoError) as error:
             log.debug("The mirror does not understand %s: %s", topic, error.detail)
+        except (DatabaseError, InterfaceError):
+            raise
+        except Exception:  # one device's message must not end the copies of all others
+            log.exception(GIVEN_UP, device)
+            self._known.pop(device, None)
 
     def _hear_command(self, at: float, device: str, method: str, payload: bytes) -> None:
         command = read_command(method, payload)
