@@ -220,13 +220,22 @@ export const useMeasurements = (run: Maybe) =>
   );
 export const useRunEvents = (id: Maybe) =>
   useQuery({ queryKey: keys.runEvents(id ?? ""), queryFn: id ? () => getRunEvents(id) : skipToken });
-/** What was found last stays until the next answer is there: a list that goes while people type cannot be pressed. */
-export const useLibrary = (q: string, fits = "") =>
-  useQuery({
+const FUNCTIONS_AT_ONCE = 60;
+/**
+ * The functions that have the words, by name, part after part. What was found last stays until the next answer is
+ * there: a list that goes while people type cannot be pressed.
+ */
+export const useLibrary = (q: string, fits = "") => {
+  const asked = `q=${encodeURIComponent(q)}&fits=${encodeURIComponent(fits)}`;
+  return useInfiniteQuery({
     queryKey: keys.library(q, fits),
-    queryFn: () => api.all<LibraryFunction>(`/library?q=${encodeURIComponent(q)}&fits=${encodeURIComponent(fits)}`),
+    queryFn: ({ pageParam }) => api.part<LibraryFunction>(pageParam),
+    initialPageParam: `/library?limit=${FUNCTIONS_AT_ONCE}&${asked}`,
+    getNextPageParam: (last) => last.next,
+    select: ({ pages }) => pages.flatMap(({ items }) => items),
     placeholderData: keepPreviousData,
   });
+};
 export const useLibraryFunction = (id: Maybe, fits = "") =>
   useGet<LibraryFunction>(
     keys.libraryFunction(id ?? "", fits),

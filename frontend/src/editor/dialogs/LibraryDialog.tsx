@@ -1,5 +1,5 @@
 /** The library's functions, to be brought into this program and called at once. */
-import { Modal, TextInput } from "@mantine/core";
+import { Button, Modal, TextInput } from "@mantine/core";
 import { useDebouncedValue } from "@mantine/hooks";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
@@ -37,7 +37,13 @@ export function LibraryDialog() {
 function useFound(slug: string, query: string, asked: string | null) {
   const found = useLibrary(query, slug);
   const one = useLibraryFunction(asked ?? undefined, slug);
-  return asked && !query && one.data ? { error: null, data: [one.data] } : found;
+  const alone = asked && !query ? one.data : undefined;
+  return {
+    error: alone ? null : found.error,
+    data: alone ? [alone] : found.data,
+    more: !alone && found.hasNextPage ? () => void found.fetchNextPage() : null,
+    isLoading: found.isFetchingNextPage,
+  };
 }
 
 function Search({ asked, onDone }: { asked: string | null; onDone: () => void }) {
@@ -80,6 +86,11 @@ function Search({ asked, onDone }: { asked: string | null; onDone: () => void })
           </li>
         ))}
       </ul>
+      {found.more ? (
+        <Button variant="default" loading={found.isLoading} onClick={found.more}>
+          {t("library.more")}
+        </Button>
+      ) : null}
     </div>
   );
 }

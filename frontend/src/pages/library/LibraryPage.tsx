@@ -2,10 +2,10 @@
 import { Button, Checkbox, TextInput } from "@mantine/core";
 import { useDebouncedValue } from "@mantine/hooks";
 import { Search, SquareFunction } from "lucide-react";
-import { useState } from "react";
+import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useParams } from "react-router-dom";
-import { useLibrary } from "@/api/queries";
+import { useLibrary, useLibraryFunction } from "@/api/queries";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { Chip } from "@/design/Chip";
@@ -17,6 +17,8 @@ import styles from "./library.module.css";
 import { NothingFound } from "../NothingFound";
 import pages from "../pages.module.css";
 import { TableSkeleton } from "../TableSkeleton";
+
+const FITTING_AT_ONCE = 30;
 
 function EmptyLibrary({ slug }: { slug: string }) {
   const { t } = useTranslation();
@@ -31,6 +33,12 @@ function EmptyLibrary({ slug }: { slug: string }) {
   );
 }
 
+/** How many there are; of a long list only how many are shown is known. */
+function Count({ count, hasMore }: { count: number; hasMore: boolean }) {
+  const { t } = useTranslation();
+  return <Chip>{hasMore ? t("library.first", { count }) : t("library.functions", { count })}</Chip>;
+}
+
 export function LibraryPage() {
   const { t } = useTranslation();
   const { slug = "", id } = useParams();
@@ -38,17 +46,27 @@ export function LibraryPage() {
   const [query] = useDebouncedValue(typed.trim(), 200);
   const [fitting, setFitting] = useState(false);
   const found = useLibrary(query, slug);
+  const { hasNextPage, isFetching, isFetchNextPageError, fetchNextPage } = found;
   const items = (found.data ?? []).filter((item) => !fitting || item.lacks?.length === 0);
+  const needsMore = fitting && items.length < FITTING_AT_ONCE && hasNextPage;
+  useEffect(() => {
+    // Which functions fit is told part by part: those that do may stand far behind.
+    if (needsMore && !isFetching && !isFetchNextPageError) void fetchNextPage();
+  }, [needsMore, isFetching, isFetchNextPageError, fetchNextPage]);
   const narrowed = query !== "" || fitting;
   const clear = () => {
     setTyped("");
     setFitting(false);
   };
-  const chosen = found.data?.find((item) => item.id === id);
+  const beyond = useLibraryFunction(
+    found.isSuccess && !found.data.some((item) => item.id === id) ? id : undefined,
+    slug,
+  );
+  const chosen = found.data?.find((item) => item.id === id) ?? beyond.data;
   return (
     <PageShell
       title={t("shell.nav.library")}
-      chips={found.data ? <Chip>{t("library.functions", { count: items.length })}</Chip> : null}
+      chips={found.data ? <Count count={items.length} hasMore={hasNextPage} /> : null}
       detail={chosen ? <FunctionDetail key={chosen.id} slug={slug} item={chosen} /> : null}
     >
       <div className={pages.stack}>
@@ -70,13 +88,19 @@ export function LibraryPage() {
         </div>
         {found.isPending ? <TableSkeleton /> : null}
         {found.isLoadingError ? <LoadProblem error={found.error} again={() => void found.refetch()} /> : null}
-        {found.data && items.length === 0 && narrowed ? <NothingFound clear={clear} /> : null}
+        {found.data && items.length === 0 && narrowed && !needsMore ? <NothingFound clear={clear} /> : null}
         {found.data && items.length === 0 && !narrowed ? <EmptyLibrary slug={slug} /> : null}
         <ul className={styles.cards}>
           {items.map((item) => (
             <FunctionCard key={item.id} slug={slug} item={item} chosen={item.id === id} />
           ))}
         </ul>
+        {isFetchNextPageError ? <LoadProblem error={found.error} again={() => void fetchNextPage()} /> : null}
+        {hasNextPage && !isFetchNextPageError ? (
+          <Button variant="default" loading={found.isFetchingNextPage} onClick={() => void fetchNextPage()}>
+            {t("library.more")}
+          </Button>
+        ) : null}
       </div>
     </PageShell>
   );

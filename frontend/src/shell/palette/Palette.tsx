@@ -86,7 +86,7 @@ function Field({ query, chosen, onType, onKeyDown }: FieldProps) {
 /** What a sentence means comes before what has its words. */
 function useFound(slug: string | undefined, query: string, person: string): readonly Target[] {
   const other = useOtherLanguage();
-  const targets = useTargets(slug, other);
+  const targets = useTargets(slug, other, query);
   const offer = useOffers((state) => state.offer);
   return useMemo(() => {
     const said = query.trim() ? (offer?.said(query, other) ?? []) : [];

@@ -16,10 +16,12 @@ import {
   Workflow,
   type LucideIcon,
 } from "lucide-react";
+import { useDebouncedValue } from "@mantine/hooks";
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
 import { useDevices, useLibrary, usePrograms, useRuns, useSite, useSiteMap } from "@/api/queries";
+import type { LibraryFunction } from "@/api/types";
 import { chooseLanguage, LANGUAGES } from "@/i18n";
 import { seesOperations } from "../findings/findings";
 import { chooseTheme } from "../theme";
@@ -34,14 +36,15 @@ const PAGES: readonly [string, LucideIcon][] = [
   ["map", Map],
 ];
 const RUNS = 20;
+const TYPING_MS = 200;
 
 type Words = (key: string) => string;
 
-/** All that can be found on this page; `other` reads the language that is not chosen. */
-export function useTargets(slug: string | undefined, other: Words): readonly Target[] {
+/** All that can be found on this page by what is typed; `other` reads the language that is not chosen. */
+export function useTargets(slug: string | undefined, other: Words, query: string): readonly Target[] {
   const offer = useOffers((state) => state.offer);
   const pages = usePageTargets(slug, other);
-  const things = useThingTargets(slug);
+  const things = useThingTargets(slug, query);
   return useMemo(() => [...(offer?.targets(other) ?? []), ...things, ...pages], [offer, other, things, pages]);
 }
 
@@ -95,8 +98,19 @@ function lookTargets(t: Words, other: Words): Target[] {
   ];
 }
 
+/** The first functions of the library, and those that have the words: a long library is not read for a jump. */
+function useFunctions(slug: string | undefined, query: string): readonly LibraryFunction[] {
+  const [words] = useDebouncedValue(query.trim(), TYPING_MS);
+  const first = useLibrary("", slug).data;
+  const found = useLibrary(words, slug).data;
+  return useMemo(() => {
+    const known = new Set((first ?? []).map(({ id }) => id));
+    return [...(first ?? []), ...(found ?? []).filter(({ id }) => !known.has(id))];
+  }, [first, found]);
+}
+
 /** What there is at the site. */
-function useThingTargets(slug: string | undefined): readonly Target[] {
+function useThingTargets(slug: string | undefined, query: string): readonly Target[] {
   const { t } = useTranslation();
   const navigate = useNavigate();
   const programs = usePrograms(slug).data;
@@ -104,7 +118,7 @@ function useThingTargets(slug: string | undefined): readonly Target[] {
   const runs = useRuns(slug).data;
   const site = useSite(slug).data;
   const places = useSiteMap(site?.has_map ? slug : undefined).data?.places;
-  const functions = useLibrary("", slug).data;
+  const functions = useFunctions(slug, query);
   return useMemo(() => {
     const thing = (kind: TargetKind, icon: LucideIcon, to: string, name: string, also = ""): Target => {
       return { id: `${kind}:${to}`, kind, icon, name, also, run: () => void navigate(to) };
