@@ -58,6 +58,7 @@ def test_each_function_of_a_long_library_is_reached(page: Page) -> None:
     more = page.get_by_role("button", name="Show more")
     assert page.get_by_role("link", name=re.compile("Resting 129")).count() == 0
     more.press("Enter")
+    expect(page.get_by_text("The first 120 functions", exact=True)).to_be_visible()
     more.press("Enter")
     expect(page.get_by_role("link", name=re.compile("Resting 129"))).to_be_visible()
     expect(more).to_have_count(0)
@@ -65,7 +66,7 @@ def test_each_function_of_a_long_library_is_reached(page: Page) -> None:
     page.goto(base + last)
     expect(page.get_by_role("complementary", name="Resting 129")).to_be_visible()
     page.keyboard.press("Control+k")
-    page.keyboard.type("Resting 128")
+    page.get_by_role("combobox", name="Search or jump to").fill("Resting 128")
     expect(page.get_by_role("option", name=re.compile("Resting 128"))).to_be_visible()
     page.keyboard.press("Escape")
     page.get_by_role("textbox", name="Search").fill("resting 127")

@@ -71,6 +71,13 @@ async def running(**limits: Any) -> AsyncIterator[Compilers]:
         assert not [pid for pid in pids if _runs(pid)]
 
 
+def kill_all(compilers: Compilers) -> None:
+    """Kill its processes; one that is just ended by itself needs no killing."""
+    for pid in compilers.pids:
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+
+
 async def test_a_process_that_is_killed_at_any_moment_costs_no_check() -> None:
     program, chance = Edited("p", 400), random.Random(0)
     async with running(lanes=1) as compilers:
@@ -79,8 +86,7 @@ async def test_a_process_that_is_killed_at_any_moment_costs_no_check() -> None:
             program.add(1)
             checking = asyncio.create_task(program.check(compilers))
             await asyncio.sleep(chance.random() * 0.08)
-            for pid in compilers.pids:
-                os.kill(pid, signal.SIGKILL)
+            kill_all(compilers)
             assert _without_revision((await checking).said) == program.whole()
 
 
@@ -100,13 +106,12 @@ async def test_a_program_that_kills_its_process_each_time_is_said_to_break_off_a
     async with running(lanes=1) as compilers:
         await other.check(compilers)
 
-        async def kill_all() -> None:
+        async def go_on_killing() -> None:
             while True:
                 await asyncio.sleep(0.1)
-                for pid in compilers.pids:
-                    os.kill(pid, signal.SIGKILL)
+                kill_all(compilers)
 
-        killing = asyncio.create_task(kill_all())
+        killing = asyncio.create_task(go_on_killing())
         with pytest.raises(CheckFailed, match="check_broke_off"):
             await deadly.check(compilers)
         killing.cancel()
