@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from django.db import DatabaseError, InterfaceError
+
 from editor import services as editor
 from execution.engine.aside import (
     SetAside,
@@ -168,12 +170,22 @@ class Turn:
                 self._step_run(work, [*self._orders_before_start(work), *self._hold_back(work, mails)])
 
     def _orders_before_start(self, work: RunWork) -> list[ToRun]:
-        """Return a Cancel for a run whose time has come and whose approvals have gone since it was planned."""
+        """Return a Cancel for a run whose time has come and whose approvals have gone since it was planned.
+
+        One of which that cannot be told is set aside, before it begins.
+        """
         row = work.row
         if work.state is not None or row.not_before is None or not may_begin(row, self.now):
             return []
-        if row.permit.get("emergency") or self._is_admitted(row):
-            return []
+        try:
+            if row.permit.get("emergency") or self._is_admitted(row):
+                return []
+        except (DatabaseError, InterfaceError):
+            raise
+        except Exception as error:
+            log.exception("Whether run %s may begin cannot be told.", work.id)
+            self._note_dead(run_target(work.id), {"type": "start"}, words_of(error), work.id)
+            return [pause_for(words_of(error))]
         return [CancelAsked(SENTENCES["approval_gone"])]
 
     def _is_admitted(self, row: Run) -> bool:

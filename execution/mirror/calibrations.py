@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Any
+from typing import Any, NamedTuple
 
 from django.db import transaction
 
@@ -23,6 +23,15 @@ LONGEST_PACE = 20.0
 
 WORTH = 0.02
 """A pace that differs less than this part from the one in use is not offered."""
+
+
+class _Row(NamedTuple):
+    """One measurement, as far as it counts here."""
+
+    predicted_s: float
+    real_s: float
+    apart_m: float | None
+    at: datetime
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,9 +80,10 @@ def find_paces(*, site: str) -> dict[str, dict[str, float]]:
 def list_paces(*, site: str, device_id: str) -> tuple[MethodPace, ...]:
     """Return what was measured of each method of a device, by name. Raises NoSuchDevice."""
     registry.get_device(site=site, device_id=device_id)
-    measured: defaultdict[str, list[Measurement]] = defaultdict(list)
-    for row in Measurement.objects.filter(site__slug=site, device=device_id).order_by("at", "id"):
-        measured[row.method].append(row)
+    measured: defaultdict[str, list[_Row]] = defaultdict(list)
+    rows = Measurement.objects.filter(site__slug=site, device=device_id).order_by("at", "id")
+    for row in rows.only("method", *_Row._fields):
+        measured[row.method].append(_Row(row.predicted_s, row.real_s, row.apart_m, row.at))
     taken = {row.method: row for row in _calibrations(site, device_id).select_related("by")}
     return tuple(
         _view(method, measured[method][-KEPT:], taken.get(method)) for method in sorted(measured.keys() | taken.keys())
@@ -153,7 +163,7 @@ def _find(site: str, device_id: str, method: str) -> MethodPace:
     return found.get(method) or MethodPace(method, None, (), None, None, None)
 
 
-def _view(method: str, rows: list[Measurement], taken: Calibration | None) -> MethodPace:
+def _view(method: str, rows: list[_Row], taken: Calibration | None) -> MethodPace:
     apart = [row.apart_m for row in rows[-USUAL_OF:] if row.apart_m is not None]
     calibrated = None
     if taken is not None:

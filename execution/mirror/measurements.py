@@ -11,6 +11,7 @@ from typing import Any
 from uuid import UUID
 
 from django.db import transaction
+from django.db.models import Count, Max, Min, Sum
 
 from execution.mirror.paces import KEPT, Change, find_change
 from execution.models import Command, Measurement
@@ -60,18 +61,25 @@ def keep_job(*, job: Job, at: datetime) -> list[Kept]:
 
 
 def list_of_run(*, run: UUID | str) -> list[dict[str, Any]]:
-    """Return what each step of a run took and what was predicted, in the order of time."""
-    rows = Measurement.objects.filter(run=run).order_by("at", "id")
+    """Return what each step of a run took of each method of a device, and what was predicted, all of it added up.
+
+    A step that is done a thousand times is one line; the newest `KEPT` measurements of a method count.
+    """
+    rows = Measurement.objects.filter(run=run).values("step", "device", "method")
+    sums = rows.annotate(
+        real_s=Sum("real_s"), predicted_s=Sum("predicted_s"), apart_m=Max("apart_m"), count=Count("id"), first=Min("id")
+    )
     return [
         {
-            "step": row.step,
-            "device": row.device,
-            "method": row.method,
-            "real_s": round(row.real_s, 2),
-            "predicted_s": round(row.predicted_s, 2),
-            "apart_m": None if row.apart_m is None else round(row.apart_m, 2),
+            "step": row["step"],
+            "device": row["device"],
+            "method": row["method"],
+            "count": row["count"],
+            "real_s": round(row["real_s"], 2),
+            "predicted_s": round(row["predicted_s"], 2),
+            "apart_m": None if row["apart_m"] is None else round(row["apart_m"], 2),
         }
-        for row in rows
+        for row in sums.order_by("first")
     ]
 
 

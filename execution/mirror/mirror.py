@@ -19,6 +19,7 @@ from typing import Any
 from django.db import DatabaseError, InterfaceError, close_old_connections
 
 from execution import database
+from execution.mirror.attention import Attention
 from execution.mirror.measurements import Kept, keep_job
 from execution.mirror.paces import Change
 from registry import services as registry
@@ -35,6 +36,8 @@ from vipo_device.protocol.topics import MIRROR, MIRROR_FILTERS
 log = logging.getLogger(__name__)
 REST_S, TICK_S = 0.5, 0.05
 SHOW_EVERY_S = 0.25
+TELL_EVERY_S = 2.0
+"""Pages read measured times anew upon it: in a crowd not at each command."""
 KNOWN_FOR_S = 10.0
 MOST_WAITING = 20_000
 MOST_AT_ONCE = 500
@@ -60,17 +63,20 @@ class Mirror:
         self._client = MqttClient.from_settings(own, client_id=f"mirror-{secrets.token_hex(6)}")
         self._heart, self._speed = heart, speed
         self._inbox: SimpleQueue[tuple[float, str, bytes]] = SimpleQueue()
+        self._attention, self._new_line = Attention(), threading.Event()
         self._known: dict[str, _Known] = {}
         self._stopped: dict[str, bool] = {}
         self._changed: dict[tuple[str, str], set[str]] = {}
         self._shown: set[str] = set()
-        self._shown_at = 0.0
+        self._shown_at = self._told_at = 0.0
+        self._measured: dict[str, set[str]] = {}
         self._outage = Outage("The database", "What devices take is not measured.")
 
     def run_forever(self, stopping: threading.Event) -> None:
         """Serve until `stopping` is set."""
         for topic in MIRROR_FILTERS:
             self._client.subscribe(topic, 1, self._arrived)
+        self._client.on_connected(self._new_line.set)
         self._client.start()
         try:
             while not stopping.is_set():
@@ -94,6 +100,11 @@ class Mirror:
             self._inbox.put((time.monotonic(), topic, payload))
 
     def _turn(self) -> None:
+        is_new_line = self._new_line.is_set()
+        self._new_line.clear()
+        if not self._attention.turn(time.monotonic(), is_new_line=is_new_line):
+            for known in self._known.values():
+                known.copy.forget()
         at_work = [known for known in self._known.values() if known.copy.is_at_work]
         try:
             self._hear(*self._inbox.get(timeout=TICK_S if at_work else REST_S))
@@ -143,7 +154,7 @@ class Mirror:
 
     def _hear_command(self, at: float, device: str, method: str, payload: bytes) -> None:
         command = read_command(method, payload)
-        if command is None or method == "credential":
+        if command is None or method == "credential" or not self._attention.hears(at):
             return
         known = self._find(at, device)
         if known is not None:
@@ -209,10 +220,10 @@ class Mirror:
                 left.discard(kept.method)
                 if not left:
                     registry.end_alert(device_id=kept.device, code=code, at=database.now())
-        registry.publish(kept.site, {"type": "measured", "device": kept.device})
+        self._measured.setdefault(kept.site, set()).add(kept.device)
 
     def _show(self) -> None:
-        """Show screens where the copies of robots are."""
+        """Show screens where the copies of robots are, and, more seldom, of which devices something was measured."""
         copies: defaultdict[str, list[dict[str, Any]]] = defaultdict(list)
         for name, known in self._known.items():
             pose = known.copy.pose
@@ -222,6 +233,11 @@ class Mirror:
         for site in self._shown | copies.keys():
             registry.publish(site, {"type": "copies", "copies": copies.get(site, [])})
         self._shown = set(copies)
+        if self._shown_at - self._told_at >= TELL_EVERY_S and self._measured:
+            self._told_at = self._shown_at
+            for site, devices in self._measured.items():
+                registry.publish(site, {"type": "measured", "devices": sorted(devices)})
+            self._measured = {}
 
 
 def _make_world(scene: Scene) -> World:

@@ -51,9 +51,10 @@ class MethodPaceShape(Schema):
 
 
 class StepMeasuredShape(MeasuredShape):
-    """What a step of a run took, and what its copy took."""
+    """What a method took in a step of a run, and what the copy took, added up over `count` times."""
 
     step: str
     device: str
     method: str
+    count: int
     apart_m: float | None

@@ -47,6 +47,7 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         self.site: str = self.scope["url_route"]["kwargs"]["slug"]
         self._waiting: deque[Message] = deque()
         self._devices: dict[str, dict[str, Any]] = {}
+        self._copies: Message | None = None
         self._something = asyncio.Event()
         await self.accept()
         try:
@@ -121,12 +122,17 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         return bool(message["type"] != "members")
 
     def _put(self, message: Message) -> bool:
-        """Keep a message for the writer; a device's changes are put on top of those that still wait."""
+        """Keep a message for the writer; a device's changes are put on top of those that still wait.
+
+        Of where copies are, only the newest counts.
+        """
         if message["type"] == "hello":
             message = {"type": "hello", "site": self.site}
         if message["type"] == "device":
             device = message["device"]
             self._devices[device["id"]] = {**self._devices.get(device["id"], {}), **device}
+        elif message["type"] == "copies":
+            self._copies = message
         else:
             if message["type"] == "device_removed":
                 self._devices.pop(message["id"], None)
@@ -151,4 +157,7 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
             devices, self._devices = self._devices, {}
             for device in devices.values():
                 await self.send(text_data=json.dumps({"type": "device", "device": device}))
+            copies, self._copies = self._copies, None
+            if copies is not None:
+                await self.send(text_data=json.dumps(copies))
             await asyncio.sleep(BREATH_S)

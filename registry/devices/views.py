@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from datetime import datetime
@@ -13,13 +12,13 @@ from registry.devices.activity import NOT_TRUSTED, NOTHING, Activity, Seen, acti
 from registry.models import Device
 from vipo_device.descriptions.forms import CONTENT_TYPES
 from vipo_device.protocol.description import Description, MethodSpec, Pose, PropertySpec, Scalar, description_from_json
+from vipo_device.protocol.loads import read_load
 from vipo_device.protocol.topics import split_methods
 
 Status = Literal["idle", "busy", "done", "waiting", "warning", "error", "offline", "pending"]
 _ICONS = {"turtlebot": "turtle"}
 _MOST_KNOWN = 5000
 _known: dict[str, Description] = {}
-_LOAD = re.compile(r"([A-Za-z0-9_.-]+)\s*[:=]\s*(\d{1,6})")
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,11 +122,6 @@ def _read_description(device: Device) -> Description:
         if device.description_hash:
             _known[device.description_hash] = said
     return said
-
-
-def read_load(value: Scalar) -> dict[str, int]:
-    """Read what a robot carries from its property `load`: text such as `box:1,can:2`."""
-    return {name: int(count) for name, count in _LOAD.findall(value) if int(count)} if isinstance(value, str) else {}
 
 
 def status_of(view: DeviceView) -> Status:

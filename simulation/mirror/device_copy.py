@@ -7,13 +7,14 @@ Times are seconds of one clock, the mirror's own; no device's clock is asked.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot
 
 from registry.floorplan.plan import FREE, Grid
 from simulation.world import Ack, Scene, World
 from vipo_device.protocol.description import Description, DeviceState, Pose, Scalar
+from vipo_device.protocol.loads import read_load
 from vipo_device.protocol.messages import CONTROLS, AckMessage, DeviceCommand, is_final
 
 MOST_COMMANDS = 400
@@ -176,17 +177,20 @@ class DeviceCopy:
         while self._world.time_s < limit and any(not o.void and o.copy_ended is None for o in self._orders.values()):
             self._let_pass(at, AHEAD_S)
             at += AHEAD_S / self._speed
-        measured = tuple(
-            Measured(
-                self.description.id, name, order.method, order.real_ended - order.real_began,
-                order.copy_ended - order.copy_began,
-            )
-            for name, order in self._orders.items()
-            if not order.void and order.real_began is not None and order.real_ended is not None
-            and order.copy_began is not None and order.copy_ended is not None
-        )  # fmt: skip
+        measured = tuple(self._measure())
         self._jobs.append(Job(measured, self._apart_m))
         self.forget()
+
+    def _measure(self) -> Iterator[Measured]:
+        """Tell what each command took: from its beginning, or the end of the one before, which some begin in."""
+        real_free = copy_free = float("-inf")
+        for name, order in self._orders.items():
+            real, copy = (order.real_began, order.real_ended), (order.copy_began, order.copy_ended)
+            if real[0] is not None and real[1] is not None and copy[0] is not None and copy[1] is not None:
+                real_s, copy_s = real[1] - max(real[0], real_free), copy[1] - max(copy[0], copy_free)
+                if not order.void and real_s > 0 and copy_s > 0:
+                    yield Measured(self.description.id, name, order.method, real_s, copy_s)
+            real_free, copy_free = max(real_free, real[1] or real_free), max(copy_free, copy[1] or copy_free)
 
     def _let_pass(self, at: float, virtual_s: float) -> None:
         """Let virtual time pass in the copy's world, from the moment `at` on, and note what it does."""
@@ -205,7 +209,7 @@ class DeviceCopy:
             devices=[self.description, *self._machines],
             poses={name: pose} if self.description.kind == "robot" else {},
             readings={} if state is None else {name: state.properties},
-            carrying={} if state is None else {name: _load(state.properties)},
+            carrying={} if state is None else {name: read_load(state.properties.get("load"))},
             bodiless=frozenset(machine.id for machine in self._machines),
         )
         self._world = self._make_world(scene)
@@ -246,14 +250,3 @@ def _open_floor(around: Pose) -> Grid:
     """Return a floor without walls: a copy is not asked whether a path is free, but how long it takes."""
     half_m = 5_000.0
     return Grid(1, 1, 2 * half_m, around.x - half_m, around.y - half_m, bytes([FREE]))
-
-
-def _load(readings: Mapping[str, object]) -> dict[str, int]:
-    """Return what a robot says that it carries (`box:1,can:2`)."""
-    said = readings.get("load")
-    found: dict[str, int] = {}
-    for part in said.split(",") if isinstance(said, str) else ():
-        name, _, count = part.partition(":")
-        if name and count.isdigit():
-            found[name] = int(count)
-    return found

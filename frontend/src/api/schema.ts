@@ -6020,9 +6020,10 @@ export interface components {
         };
         /** @enum {string} */
         StepKind: "move" | "pick" | "drop" | "pick_and_drop" | "cover" | "release" | "operate" | "wait" | "if" | "while" | "repeat" | "for_each" | "parallel" | "try" | "limit" | "on_event" | "break" | "continue" | "return" | "end" | "fail" | "call" | "set" | "notify" | "ask" | "comment";
-        /** @description What a step of a run took, and what its copy took. */
+        /** @description What a method took in a step of a run, and what the copy took, added up over `count` times. */
         StepMeasuredShape: {
             apart_m: number | null;
+            count: number;
             device: string;
             method: string;
             predicted_s: number;

@@ -93,7 +93,7 @@ export class SiteFeed {
         useLiveStore.setState({ copies: Object.fromEntries(message.copies.map((copy) => [copy.device, copy])) });
         return;
       case "measured":
-        this.#caches.refresh(keys.paces(this.slug, message.device));
+        for (const device of message.devices) this.#caches.refresh(keys.paces(this.slug, device));
         return this.#caches.refresh(["measurements"]);
       case "programs":
         return this.#caches.refresh(keys.programs(this.slug));

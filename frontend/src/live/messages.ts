@@ -58,7 +58,7 @@ export type LiveMessage =
   | ({ type: "stop" } & SiteStop)
   | { type: "traffic"; robots: Record<string, RobotTraffic> }
   | { type: "copies"; copies: CopyPose[] }
-  | { type: "measured"; device: string }
+  | { type: "measured"; devices: string[] }
   | { type: "programs" }
   | { type: "comments"; program: string }
   | { type: "tests"; program: string }

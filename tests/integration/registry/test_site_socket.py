@@ -96,6 +96,19 @@ async def test_a_device_is_sent_at_most_ten_times_a_second_and_the_latest_wins(p
         assert count <= (time.monotonic() - began) / 0.1 + 2, "the first and the last come besides"
 
 
+async def test_of_where_copies_are_only_the_newest_waits(person: Callable[[str], User]) -> None:
+    async with opened(await database_sync_to_async(person)("viewer")) as socket:
+        await socket.receive_json_from(5)
+        for number in range(5000):  # far more than may wait of what counts one by one
+            fanout.publish("hall", {"type": "copies", "copies": [{"device": "r1", "x": number, "y": 0, "theta": 0}]})
+            if number % 500 == 0:
+                await asyncio.sleep(0.001)
+        count, x = 0, -1
+        while x != 4999:
+            x, count = (await socket.receive_json_from(5))["copies"][0]["x"], count + 1
+        assert count < 50
+
+
 async def test_a_device_that_was_removed_is_not_heard_of_again(person: Callable[[str], User]) -> None:
     async with opened(await database_sync_to_async(person)("viewer")) as socket:
         await socket.receive_json_from(5)

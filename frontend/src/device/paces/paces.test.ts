@@ -22,7 +22,7 @@ test("equal paces still have a place on the scale", () => {
 });
 
 test("the commands of one step count together", () => {
-  const part = { step: "a", device: "r", method: "move", apart_m: null };
+  const part = { step: "a", device: "r", method: "move", count: 1, apart_m: null };
   const steps = byStep([
     { ...part, real_s: 4, predicted_s: 3 },
     { ...part, real_s: 2, predicted_s: 2 },

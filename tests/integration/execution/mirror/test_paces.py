@@ -56,9 +56,25 @@ def test_the_pieces_of_a_move_are_one_measurement_and_a_job_is_kept_once(factory
     for _ in range(2):
         keep_job(job=job, at=AT)
     assert list_of_run(run=run) == [
-        {"step": "fetch", "device": ROBOT, "method": "move", "real_s": 12, "predicted_s": 9, "apart_m": 0.4},
-        {"step": "fetch", "device": ROBOT, "method": "pick", "real_s": 2, "predicted_s": 2, "apart_m": 0.4},
+        {
+            "step": "fetch",
+            "device": ROBOT,
+            "method": "move",
+            "count": 1,
+            "real_s": 12,
+            "predicted_s": 9,
+            "apart_m": 0.4,
+        },
+        {"step": "fetch", "device": ROBOT, "method": "pick", "count": 1, "real_s": 2, "predicted_s": 2, "apart_m": 0.4},
     ]
+
+
+def test_a_step_that_is_done_again_and_again_is_one_line(factory: Any) -> None:
+    run = uuid4()
+    for _ in range(KEPT + 5):
+        keep_job(job=Job((measured(command(run, "fetch"), 4, 3),), None), at=AT)
+    (line,) = list_of_run(run=run)
+    assert (line["count"], line["real_s"], line["predicted_s"]) == (KEPT, 4 * KEPT, 3 * KEPT)
 
 
 def test_what_is_too_short_or_of_nobody_is_not_kept(factory: Any) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from datetime import UTC, datetime, timedelta
 from typing import Any
+from uuid import UUID
 
 import pytest
 from django.test import Client
@@ -12,7 +13,7 @@ from django.test import Client
 from editor.reviews import reviews
 from execution import services
 from execution.engine.drive import advance_site
-from execution.models import ArmedProgram, Rehearsal, Run
+from execution.models import ArmedProgram, DeadLetter, Rehearsal, Run
 from registry import services as registry
 from registry.models import AuditLine
 from tests.integration.execution.reviews.conftest import Team
@@ -303,6 +304,17 @@ def test_a_run_planned_where_nothing_was_demanded_is_looked_at_when_its_time_com
     run = plan(team)
     team.demand(1)
     assert come(run).status == "cancelled"
+
+
+def test_a_planned_run_of_which_nobody_can_tell_stops_itself_and_not_the_site(team: Team) -> None:
+    approved(team)
+    odd, good = plan(team), plan(team)
+    Run.objects.filter(pk=odd).update(document=[7])
+    Run.objects.update(not_before=datetime.now(UTC))
+    for _ in range(2):
+        advance_site(SITE)
+    assert {str(run.pk): run.status for run in Run.objects.all()} == {odd: "paused", good: "running"}
+    assert DeadLetter.objects.get().run_id == UUID(odd)
 
 
 @pytest.mark.parametrize("emergency", [False, True])

@@ -31,6 +31,11 @@ MIXER = "paintMixer03"
 A_MINUTE_S = 1.0
 
 
+def hears(mirror: Mirror) -> bool:
+    """Tell whether it is connected, and has been for long enough to measure."""
+    return mirror._client.connected and not mirror._new_line.is_set() and mirror._attention.hears(time.monotonic())
+
+
 @pytest.fixture
 def mirror(bus: Bus, gateway: Gateway, settings: LazySettings) -> Iterator[Mirror]:
     """A mirror that lets a minute pass in a second, as the mixer of these tests does."""
@@ -38,7 +43,7 @@ def mirror(bus: Bus, gateway: Gateway, settings: LazySettings) -> Iterator[Mirro
     made, stopping = Mirror(settings, speed=60 / A_MINUTE_S), threading.Event()
     thread = threading.Thread(target=made.run_forever, args=(stopping,))
     thread.start()
-    wait_for("the mirror", lambda: made._client.connected)
+    wait_for("the mirror", lambda: hears(made))
     yield made
     stopping.set()
     thread.join(20)
@@ -114,7 +119,7 @@ def test_two_mirrors_keep_a_command_once(mixer: Mixer, mirror: Mirror, settings:
     thread = threading.Thread(target=second.run_forever, args=(stopping,))
     thread.start()
     try:
-        wait_for("the second mirror", lambda: second._client.connected)
+        wait_for("the second mirror", lambda: hears(second))
         for _ in range(2):
             command = tell(time=1)
             wait_for("the end", lambda command=command: is_over(command))

@@ -12,7 +12,7 @@ from simulation.mirror.device_copy import DeviceCopy, Job
 from simulation.services import make_world
 from simulation.world import Ack, Scene, World
 from tests.unit.simulation.stage_set import scene
-from vipo_device.protocol.description import DeviceState
+from vipo_device.protocol.description import DeviceState, Pose
 from vipo_device.protocol.messages import AckMessage, DeviceCommand
 
 TICK_S = 0.05
@@ -171,3 +171,34 @@ def test_what_is_repeated_or_strange_is_passed_over() -> None:
     floor.copy.hear_answer(floor.now, AckMessage("c1", "DONE"))
     (job,) = floor.jobs
     assert len(job.measured) == 1
+
+
+def test_who_says_at_once_that_all_its_pieces_run_is_measured_as_if_one_ran_after_the_other() -> None:
+    floor = Floor("robot")
+    floor.is_heard = False
+    floor.give("move", move((5.0, 4.0)), "c1")
+    floor.give("move", move((5.0, 4.0), (7.0, 4.0)), "c2")
+    for command in ("c1", "c2"):
+        floor.copy.hear_answer(floor.now, AckMessage(command, "RUNNING"))
+    began = floor.now
+    for command in ("c1", "c2"):
+        floor.pass_time(6)
+        floor.copy.hear_answer(floor.now, AckMessage(command, "DONE"))
+    floor.pass_time(1)
+    (job,) = floor.jobs
+    assert [m.real_s for m in job.measured] == pytest.approx([6, 6], abs=0.1)
+    assert sum(m.real_s for m in job.measured) == pytest.approx(floor.now - 1 - began, abs=0.1)
+
+
+@pytest.mark.parametrize("said", ["box:1", " box = 1 ", "box:1,can:0"])
+def test_a_robot_that_carries_something_puts_it_down_as_its_copy_does(said: str) -> None:
+    floor = Floor("robot")
+    at_rollers = Pose(8.0, 1.85, 0.0)
+    floor.copy.hear_state(floor.now, DeviceState(1, 1, True, at_rollers, "", {"load": said}))
+    drop = {"device": "rollers", "object": "box", "value": 1}
+    floor.copy.hear_command(floor.now, DeviceCommand("d1", "drop", drop))
+    floor.copy.hear_answer(floor.now, AckMessage("d1", "RUNNING"))
+    floor.copy.hear_answer(floor.now + 2, AckMessage("d1", "DONE"))
+    job = floor.copy.take_job()
+    assert job is not None
+    assert [m.command for m in job.measured] == ["d1"]
