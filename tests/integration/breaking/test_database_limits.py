@@ -97,7 +97,7 @@ def test_the_row_of_a_frozen_process_is_free_again(database_url: str, tmp_path: 
 def test_only_sessions_of_ours_that_are_silent_in_a_transaction_are_ended(
     database_url: str, settings: Any, django_db_blocker: DjangoDbBlocker
 ) -> None:
-    settings.FROZEN_AFTER_S = 1
+    settings.FROZEN_AFTER_S = 5
     silent, resting, somebody, at_work = (
         psycopg.connect(database_url, autocommit=True, application_name=name)
         for name in ("vipo worker", "vipo web", "psql", "vipo gateway")
@@ -106,7 +106,7 @@ def test_only_sessions_of_ours_that_are_silent_in_a_transaction_are_ended(
         session.execute("BEGIN")
         with session.pipeline():
             session.execute("SELECT 1")
-    time.sleep(1.2)
+    time.sleep(5.2)
     at_work.execute("SELECT 2")
     with django_db_blocker.unblock(), on_database(**postgres(database_url)):
         assert end_frozen_sessions() == 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import socket
 import threading
 import time
@@ -155,8 +156,9 @@ def test_nonsense_instead_of_a_connect_harms_nobody(broker: EmbeddedBroker, ear:
         with socket.create_connection(("127.0.0.1", broker.port)) as raw:
             raw.sendall(nonsense)
             raw.shutdown(socket.SHUT_WR)
-            raw.settimeout(5)
-            assert raw.recv(16) in (b"", b"\x20\x02\x00\x01")
+            raw.settimeout(20)
+            with contextlib.suppress(ConnectionResetError):  # closed before all of it was read
+                assert raw.recv(16) in (b"", b"\x20\x02\x00\x01")
     ear.say("vipo/v1/dev/robot01/up/state", b"still here")
     ear.wait(lambda h: h.payload == b"still here")
 

@@ -111,7 +111,7 @@ def test_what_the_device_takes_is_kept_beside_what_its_copy_takes(mixer: Mixer, 
     found = Measurement.objects.get()
     assert (found.command, found.device, found.method, found.step) == (command, MIXER, "mixPaint", "mix")
     assert found.predicted_s == pytest.approx(A_MINUTE_S, abs=0.05)
-    assert 1.4 < found.real_s / found.predicted_s < 2.0
+    assert 1.4 < found.real_s / found.predicted_s < 10, "a busy machine adds to it; a wrong unit is a factor of 60"
 
 
 def test_two_mirrors_keep_a_command_once(mixer: Mixer, mirror: Mirror, settings: LazySettings) -> None:
