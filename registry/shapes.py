@@ -103,13 +103,14 @@ class PlaceShape(Schema):
     label: tuple[float, float] | None
 
 
-ZoneRule = Literal["keep_out", "slow", "one_at_a_time"]
+ZoneRule = Literal["keep_out", "slow", "one_at_a_time", "one_way", "preferred"]
 
 
 class SiteZoneShape(Schema):
     """A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow.
 
-    `robots` is how many may be in it at once where the rule is `one_at_a_time`.
+    `robots` is how many may be in it at once where the rule is `one_at_a_time`, `heading_deg` where robots drive where
+    it is `one_way`: degrees from the x axis, counter-clockwise.
     """
 
     id: str
@@ -118,6 +119,7 @@ class SiteZoneShape(Schema):
     points: list[tuple[float, float]]
     speed_m_s: float | None
     robots: int | None
+    heading_deg: float | None
 
 
 class MapShape(Schema):

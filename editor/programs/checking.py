@@ -53,7 +53,7 @@ def find_devices(*, site: str) -> dict[str, DeviceFacts]:
 def find_zones(*, site: str) -> tuple[ZoneFacts, ...]:
     """Return the zones of a site's floor as the language and traffic see them, by id."""
     return tuple(
-        ZoneFacts(z.id, z.name, cast("ZoneRule", z.rule), z.points, z.speed_m_s, z.robots or 1)
+        ZoneFacts(z.id, z.name, cast("ZoneRule", z.rule), z.points, z.speed_m_s, z.robots or 1, z.heading_deg)
         for z in registry.list_zones(site=site)
     )
 

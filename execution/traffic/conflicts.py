@@ -212,7 +212,7 @@ def _evade(turn: Turn, robot: Robot, other: Robot) -> bool:
     taken |= kept_out(turn, robot) - {layout.cell(turn.node(robot))}
     others_paths = {c for r in turn.robots.values() if r.id not in {robot.id, other.id} for c in _ahead(turn, r)}
     start = layout.cell(turn.node(robot))
-    reach = layout.lattice.distances(start, closed=taken)
+    reach = layout.lattice.distances(start, closed=taken, closed_links=layout.against)
     for avoid in (own_path | spots | others_paths, own_path | spots, own_path):
         free = [
             (steps, cell) for cell, steps in reach.items() if cell not in avoid and (steps or robot.path[0] != start)

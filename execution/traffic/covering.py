@@ -53,8 +53,9 @@ def lane_m(turn: Turn, task: FloorTask, robot: Robot) -> float:
 def distance_to_zone(turn: Turn, task: FloorTask, robot: Robot) -> float:
     """Return how many cells lie between a robot and the zone that it might cover; 0 where no way leads there."""
     zone = zone_of(turn, task)
-    reach = turn.layout.lattice.distances(turn.layout.cell(turn.node(robot)))
-    cells = cells_of(turn.layout, zone) if zone else ()
+    layout = turn.layout
+    reach = layout.lattice.distances(layout.cell(turn.node(robot)), closed_links=layout.against)
+    cells = cells_of(layout, zone) if zone else ()
     return float(min((reach[cell] for cell in cells if cell in reach), default=0))
 
 

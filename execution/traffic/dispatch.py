@@ -146,7 +146,8 @@ def _cost(turn: Turn, task: FloorTask, robot: Robot) -> float:
         goal = turn.layout.spot_for(task.order.target).cell
     except NoSuchSpot:
         return 0.0
-    return float(turn.layout.lattice.distances(goal).get(turn.layout.cell(turn.node(robot)), UNABLE / 2))
+    reach = turn.layout.lattice.distances(goal, closed_links=turn.layout.against_backwards)
+    return float(reach.get(turn.layout.cell(turn.node(robot)), UNABLE / 2))
 
 
 def _fits(turn: Turn, task: FloorTask, robot: Robot) -> bool:

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from editor.language.site.surroundings import PlaceFacts
 from execution.machine.floor_task import Target
+from execution.traffic.directions import Way, preferred_cells, ways_against
 from execution.traffic.messages import FloorZone
 from registry.floorplan.lattice import STANDING_MARGIN_M, Ground, Lattice, Point, attach, make_lattice
 from registry.floorplan.plan import FloorPlan, Grid, stations
@@ -55,6 +57,21 @@ class Layout:
     """What holds on this floor for every robot, besides the zones of its run's program."""
     points: dict[str, Spot] = field(default_factory=dict)
     zone_cells: dict[tuple[tuple[Point, ...], bool], frozenset[int]] = field(default_factory=dict)
+
+    @cached_property
+    def against(self) -> frozenset[Way]:
+        """The ways from cell to cell that no robot drives, since they lead against a one-way zone of the floor."""
+        return ways_against(self.lattice, self.zones)
+
+    @cached_property
+    def against_backwards(self) -> frozenset[Way]:
+        """The same ways from their ends: for who looks from a goal for those who can come to it."""
+        return frozenset((end, start) for start, end in self.against)
+
+    @cached_property
+    def preferred(self) -> frozenset[int]:
+        """The cells where robots drive rather than elsewhere; none where the floor says nothing of that."""
+        return preferred_cells(self.lattice, self.zones)
 
     def name(self, thing: str) -> str:
         """Return what people call a device or a place."""

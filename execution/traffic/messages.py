@@ -37,6 +37,8 @@ class FloorZone:
     """The device that is opened for who drives through, where the rule is `door`."""
     robots: int = 1
     """How many may be in it at once, where the rule is `one_at_a_time`."""
+    heading_deg: float | None = None
+    """Where robots drive, where the rule is `one_way`: degrees from the x axis, counter-clockwise."""
 
 
 def zone_from_json(data: Mapping[str, Any]) -> FloorZone:
@@ -51,12 +53,15 @@ def floor_zones(program: str, zones: Iterable[Zone]) -> tuple[FloorZone, ...]:
 
 def site_zones(zones: Iterable[ZoneFacts]) -> tuple[FloorZone, ...]:
     """Return the zones of a site's floor as the floor knows them; no program has their keys."""
-    return tuple(FloorZone(f"site/{z.id}", z.name, z.rule, z.points, z.speed_m_s, robots=z.robots) for z in zones)
+    return tuple(
+        FloorZone(f"site/{z.id}", z.name, z.rule, z.points, z.speed_m_s, robots=z.robots, heading_deg=z.heading_deg)
+        for z in zones
+    )
 
 
 def zone_to_json(zone: FloorZone) -> dict[str, Any]:
     """Return a zone as plain JSON; what the version before did not know only where it says something."""
-    usual = {"door": "", "robots": 1}
+    usual = {"door": "", "robots": 1, "heading_deg": None}
     return {name: value for name, value in asdict(zone).items() if name not in usual or value != usual[name]}
 
 

@@ -230,8 +230,8 @@ def _stand_here(turn: Turn, robot: Robot) -> None:
 def heed_zones(turn: Turn) -> None:
     """Let robots under way heed zones of the floor that are new or another since the last step.
 
-    A path that leads into a keep-out is cut before it; what of it was released already is called off, and the robot
-    plans anew from where it comes to stand. So is what was released with too high a speed.
+    A path that leads into a keep-out, or against a one-way zone, is cut before it; what of it was released already is
+    called off, and the robot plans anew from where it comes to stand. So is what was released with too high a speed.
     """
     before, now = turn.zones.get(SITE, ()), turn.layout.zones
     if before == now:

@@ -14,6 +14,8 @@ TURN_COST = 0.8
 NARROW_COST = 0.35
 AGAINST_COST = 0.1
 """Every other row and column is cheaper in one direction: robots that meet keep apart by themselves."""
+ELSEWHERE_COST = 0.5
+"""Where a floor has preferred zones, a robot drives half as far again before it leaves them."""
 
 
 def find_route(
@@ -27,7 +29,7 @@ def find_route(
 
     `extra` adds a cost to single cells. A* over (cell, heading) with the Manhattan distance as its bound.
     """
-    columns = layout.lattice.columns
+    columns, against, preferred = layout.lattice.columns, layout.against, layout.preferred
     goal_row, goal_column = divmod(goal, columns)
     best: dict[tuple[int, int], float] = {(start, 0): 0.0}
     came: dict[tuple[int, int], tuple[int, int]] = {}
@@ -39,10 +41,11 @@ def find_route(
         if cost > best[cell, heading]:
             continue
         for neighbour in layout.lattice.links.get(cell, ()):
-            if neighbour in closed:
+            if neighbour in closed or (against and (cell, neighbour) in against):
                 continue
             turn = neighbour - cell
             total = cost + _cost(layout, cell, neighbour, heading) + (extra.get(neighbour, 0.0) if extra else 0.0)
+            total += ELSEWHERE_COST if preferred and neighbour not in preferred else 0.0
             if total < best.get((neighbour, turn), float("inf")) - 1e-9:
                 best[neighbour, turn] = total
                 came[neighbour, turn] = (cell, heading)

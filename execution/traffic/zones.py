@@ -1,4 +1,5 @@
-"""What zones mean for robots: where they may not drive, drive slowly, or only so many at once.
+"""What zones mean for robots: where they may not drive, drive slowly, or only so many at once. Which way they drive
+in zones stands in `directions`.
 
 Those of the site's floor hold for every robot at any time, those of a program for the robots of its runs. A zone's
 cells are those from which a way to a neighbour, as far as its middle, lies in the zone or nearer to it than a robot's
@@ -127,14 +128,15 @@ def path_outside(
 
 
 def enters_at(turn: Turn, robot: Robot) -> int | None:
-    """Return where on its path a robot comes where it may not drive, or drives on there; None: it does not.
+    """Return where on its path a robot comes where it may not drive, or that way; None: it does not.
 
     One that is inside already is not asked to stay there: it plans anew, and so leaves by the shortest way.
     """
     layout, zones = turn.layout, tuple(_zones(turn, robot, "keep_out"))
     shut = shut_cells(layout, zones)
     for index, node in enumerate(robot.path[robot.passed + 1 :], robot.passed + 1):
-        if layout.cell(node) in shut or is_shut_spot(layout, zones, node):
+        way = (layout.cell(robot.path[index - 1]), layout.cell(node))
+        if way[1] in shut or way in layout.against or is_shut_spot(layout, zones, node):
             return index
     return None
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from math import ceil, hypot
 from typing import Protocol
@@ -79,14 +79,16 @@ class Lattice:
                     found.append((round(distance, 9), r * self.columns + c))
         return [cell for _, cell in sorted(found)]
 
-    def distances(self, start: int, closed: Iterable[int] = ()) -> dict[int, int]:
+    def distances(
+        self, start: int, closed: Iterable[int] = (), closed_links: Collection[tuple[int, int]] = ()
+    ) -> dict[int, int]:
         """Return the number of links from a cell to every cell that can be reached without the closed ones."""
         shut = set(closed)
         found, queue = {start: 0}, deque([start])
         while queue:
             cell = queue.popleft()
             for neighbour in self.links.get(cell, ()):
-                if neighbour not in found and neighbour not in shut:
+                if neighbour not in found and neighbour not in shut and (cell, neighbour) not in closed_links:
                     found[neighbour] = found[cell] + 1
                     queue.append(neighbour)
         return found

@@ -54,7 +54,8 @@ class ZoneTaken(RegistryError):
 class ZoneChange:
     """What is to be another about a zone; None leaves it. Metres in the map frame, metres a second.
 
-    `robots` is how many may be in a zone at once whose rule is that.
+    `robots` is how many may be in a zone at once whose rule is that; `heading_deg` where one drives in a one-way zone,
+    degrees from the x axis, counter-clockwise.
     """
 
     name: str | None = None
@@ -62,6 +63,7 @@ class ZoneChange:
     points: Sequence[tuple[float, float]] | None = None
     speed_m_s: float | None = None
     robots: int | None = None
+    heading_deg: float | None = None
 
 
 def add_zone(*, site: str, zone: ZoneChange, zone_id: str = "") -> ZoneView:
@@ -142,8 +144,19 @@ def _change(row: SiteZone, zone: ZoneChange, grid: Grid) -> None:
         row.speed_m_s = _checked_speed(zone.speed_m_s)
     if zone.robots is not None:
         row.robots = _checked_robots(zone.robots)
+    if zone.heading_deg is not None:
+        row.heading_deg = round(zone.heading_deg, 1) % 360
+    _settle(row)
+
+
+def _settle(row: SiteZone) -> None:
+    """Leave of the numbers the one that belongs to the row's rule. Raises BadZone if it is missing."""
     if row.rule != SiteZone.Rule.ONE_AT_A_TIME:
         row.robots = None
+    if row.rule != SiteZone.Rule.ONE_WAY:
+        row.heading_deg = None
+    elif row.heading_deg is None:
+        raise BadZone("A one-way zone says where robots drive in it. Choose a direction.", {"why": "no_heading"})
     if row.rule != SiteZone.Rule.SLOW:
         row.speed_m_s = None
     elif row.speed_m_s is None:

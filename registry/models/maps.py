@@ -76,6 +76,8 @@ class SiteZone(models.Model):
         KEEP_OUT = "keep_out"
         SLOW = "slow"
         ONE_AT_A_TIME = "one_at_a_time"
+        ONE_WAY = "one_way"
+        PREFERRED = "preferred"
 
     site = models.ForeignKey(Site, on_delete=models.CASCADE, related_name="zones")
     key = models.CharField(max_length=64)
@@ -84,6 +86,7 @@ class SiteZone(models.Model):
     points = models.JSONField()
     speed_m_s = models.FloatField(null=True)
     robots = models.PositiveSmallIntegerField(null=True)
+    heading_deg = models.FloatField(null=True)
 
     class Meta:
         """A zone's key is its id at the site."""

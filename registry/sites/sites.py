@@ -159,6 +159,7 @@ def list_zones(*, site: str) -> tuple[ZoneView, ...]:
             tuple((float(x), float(y)) for x, y in z.points),
             z.speed_m_s,
             (z.robots or 1) if z.rule == SiteZone.Rule.ONE_AT_A_TIME else None,
+            z.heading_deg,
         )
         for z in rows
     )

@@ -24,7 +24,8 @@ class PlaceView:
 class ZoneView:
     """A zone of a site: a polygon in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow.
 
-    `rule` is `keep_out`, `slow` or `one_at_a_time`, where `robots` says how many may be in it at once.
+    `rule` is `keep_out`, `slow`, `preferred`, `one_way`, where `heading_deg` says where one drives (degrees from the x
+    axis, counter-clockwise), or `one_at_a_time`, where `robots` says how many may be in it at once.
     """
 
     id: str
@@ -33,6 +34,7 @@ class ZoneView:
     points: tuple[tuple[float, float], ...]
     speed_m_s: float | None = None
     robots: int | None = None
+    heading_deg: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

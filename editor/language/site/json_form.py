@@ -12,7 +12,7 @@ from vipo_device.protocol.description import description_from_json, description_
 
 LIFECYCLES = ("pending", "approved", "retired")
 PLACE_KINDS = ("dock", "room", "point")
-ZONE_RULES = ("keep_out", "one_at_a_time", "slow")
+ZONE_RULES = ("keep_out", "one_at_a_time", "slow", "one_way", "preferred")
 MOST_ROBOTS = 20
 """What zones of a site's floor ask; passages of doors belong to programs."""
 FEWEST_CORNERS = 3
@@ -117,11 +117,13 @@ def _place_from_json(body: Mapping[str, Any]) -> PlaceFacts:
 
 
 def zone_to_json(zone: ZoneFacts) -> dict[str, Any]:
-    """Return a zone of a site's floor as plain JSON; `speed_m_s` only where it has one, `robots` only above one."""
+    """Return a zone of a site's floor as plain JSON; what concerns some rules alone only where it says something."""
     body: dict[str, Any] = {"id": zone.id, "name": zone.name, "rule": zone.rule}
     body["points"] = [list(point) for point in zone.points]
     if zone.speed_m_s is not None:
         body["speed_m_s"] = zone.speed_m_s
+    if zone.heading_deg is not None:
+        body["heading_deg"] = zone.heading_deg
     return body if zone.robots == 1 else {**body, "robots": zone.robots}
 
 
@@ -130,11 +132,11 @@ def zone_from_json(body: Mapping[str, Any]) -> ZoneFacts:
     name, points, speed, robots = body.get("id"), body.get("points"), body.get("speed_m_s"), body.get("robots", 1)
     corners = [_corner(point) for point in points] if isinstance(points, list) else []
     good = isinstance(name, str) and name and len(corners) >= FEWEST_CORNERS and None not in corners
-    slow = body.get("rule") != "slow" or _is_finite(speed)
-    if not good or not slow or body.get("rule") not in ZONE_RULES:
+    needed = {"slow": speed, "one_way": body.get("heading_deg")}.get(str(body.get("rule")), 0)
+    if not good or not _is_finite(needed) or body.get("rule") not in ZONE_RULES:
         raise UnreadableSite(
             f"Zone {name} needs an id, a rule: {', '.join(ZONE_RULES)}, points: at least {FEWEST_CORNERS} [x, y] in"
-            " metres, and for slow a speed_m_s."
+            " metres, for slow a speed_m_s, and for one_way a heading_deg."
         )
     if not isinstance(robots, int) or isinstance(robots, bool) or not 1 <= robots <= MOST_ROBOTS:
         raise UnreadableSite(
@@ -142,7 +144,8 @@ def zone_from_json(body: Mapping[str, Any]) -> ZoneFacts:
         )
     outline = tuple(corner for corner in corners if corner is not None)
     speed_m_s = float(speed) if body["rule"] == "slow" and isinstance(speed, int | float) else None
-    return ZoneFacts(str(name), str(body.get("name", name)), body["rule"], outline, speed_m_s, robots)
+    heading_deg = float(needed) % 360 if body["rule"] == "one_way" and isinstance(needed, int | float) else None
+    return ZoneFacts(str(name), str(body.get("name", name)), body["rule"], outline, speed_m_s, robots, heading_deg)
 
 
 def _corner(point: object) -> tuple[float, float] | None:

@@ -9,7 +9,7 @@ from typing import Final, Literal, Protocol
 from editor.language.site.signature import Signature
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
 
-ZoneRule = Literal["keep_out", "one_at_a_time", "slow"]
+ZoneRule = Literal["keep_out", "one_at_a_time", "slow", "one_way", "preferred"]
 Lifecycle = Literal["pending", "approved", "retired"]
 
 
@@ -39,9 +39,10 @@ class PlaceFacts:
 
 @dataclass(frozen=True, slots=True)
 class ZoneFacts:
-    """A zone of the site's floor: a polygon in metres that all robots keep out of, share, or go slowly in.
+    """A zone of the site's floor: a polygon in metres that all robots keep out of, share, go slowly in, or rather use.
 
-    Where they share it, `robots` of them may be in it at once.
+    Where they share it, `robots` of them may be in it at once. Where it is one-way they drive towards `heading_deg`,
+    degrees from the x axis, counter-clockwise, or across.
     """
 
     id: str
@@ -50,6 +51,7 @@ class ZoneFacts:
     points: tuple[tuple[float, float], ...]
     speed_m_s: float | None = None
     robots: int = 1
+    heading_deg: float | None = None
 
 
 class FloorFacts(Protocol):

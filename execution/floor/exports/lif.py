@@ -72,7 +72,7 @@ def _node(site: Site, layout: Layout, stop: Stop, vehicles: Iterable[str]) -> di
     }
 
 
-def _edges(road: Road, vehicles: Iterable[str]) -> tuple[dict[str, Any], dict[str, Any]]:
+def _edges(road: Road, vehicles: Iterable[str]) -> tuple[dict[str, Any], ...]:
     limit = {} if road.speed_m_s is None else {"maxSpeed": road.speed_m_s}
     properties = [
         {
@@ -91,7 +91,8 @@ def _edges(road: Road, vehicles: Iterable[str]) -> tuple[dict[str, Any], dict[st
         ends = {"startNodeId": start, "endNodeId": end}
         return {"edgeId": f"{start}--{end}", **ends, "vehicleTypeEdgeProperties": properties}
 
-    return edge(road.start, road.end), edge(road.end, road.start)
+    there = edge(road.start, road.end)
+    return (there,) if road.one_way else (there, edge(road.end, road.start))
 
 
 def _is_station(layout: Layout, stop: Stop) -> bool:

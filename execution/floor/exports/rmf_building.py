@@ -85,7 +85,7 @@ def _vertex(stop: Stop, layout: Layout, name: str) -> list[Any]:
 def _lane(road: Road, index: dict[str, int], mutexes: dict[str, str], layout: Layout) -> list[Any]:
     mutex = mutexes[road.alone[0]] if road.alone else ""
     parameters = {
-        "bidirectional": [_YES_NO, True],
+        "bidirectional": [_YES_NO, not road.one_way],
         "graph_idx": [_WHOLE, 0],
         "mutex": [_TEXT, mutex],
         "orientation": [_TEXT, ""],

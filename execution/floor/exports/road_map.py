@@ -1,8 +1,9 @@
 """The roads of a floor: where robots stop, and the ways that the planner finds between these, as a graph.
 
 Nodes are the places and the machines' stations that robots can come to, and the bends and crossings between them.
-Roads are straight and lead both ways. They are made of planned routes: from each place to its nearest neighbours, and
-as many more as it takes that every place which robots can reach from another one is joined to it.
+Roads are straight and lead both ways, but for those in one-way zones. They are made of planned routes: from each place
+to its nearest neighbours, and as many more as it takes that every place which robots can reach from another one is
+joined to it.
 """
 
 from __future__ import annotations
@@ -11,13 +12,14 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot
 
+from execution.traffic.directions import is_against
 from execution.traffic.layout import Layout, Node
 from execution.traffic.messages import FloorZone
 from execution.traffic.zones import is_in, is_shut_spot, path_outside, shut_cells
 
 _Ends = tuple[str, str]
 _Links = dict[Node, dict[Node, frozenset[FloorZone]]]
-"""What each node is joined to, and the zones on the way there."""
+"""What each node is joined to, and the zones on the way there: of one-way ones those that shut it."""
 NEAREST = 3
 """So many neighbours of a place are joined to it directly."""
 
@@ -35,7 +37,7 @@ class Stop:
 
 @dataclass(frozen=True, slots=True)
 class Road:
-    """A straight road between two stops, by their ids, that robots drive both ways.
+    """A straight road between two stops, by their ids, that robots drive both ways unless it is `one_way`.
 
     `speed_m_s` is the limit of slow zones (None: none), `alone` the keys of the zones for one robot at a time.
     """
@@ -44,6 +46,7 @@ class Road:
     end: str
     speed_m_s: float | None
     alone: tuple[str, ...]
+    one_way: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,13 +63,17 @@ def make_road_map(layout: Layout) -> RoadMap:
     links: _Links = {}
     for spots in _parts(layout):
         links.update((spot, {}) for spot in spots)
-        for ends in _pairs(layout, spots):
+        pairs = _pairs(layout, spots)
+        back = [(b, a) for a, b in pairs] if layout.against else []
+        for ends in (*pairs, *back):
             for a, b in pairwise(path_outside(layout, layout.zones, ends) or ()):
-                _join(links, a, b, _zones_at(layout, a) | _zones_at(layout, b))
+                zones = _zones_at(layout, a) | _zones_at(layout, b)
+                _join(links, a, b, (zones | _shutting(layout, a, b), zones | _shutting(layout, b, a)))
     for node in [node for node in links if isinstance(node, int)]:
         _straighten(layout, links, node)
     nodes = sorted(links, key=_order)
-    roads = (_road(a, b, links[a][b]) for a in nodes for b in sorted(links[a], key=_order) if _order(a) < _order(b))
+    pairs_of_nodes = ((a, b) for a in nodes for b in sorted(links[a], key=_order) if _order(a) < _order(b))
+    roads = [road for a, b in pairs_of_nodes if (road := _road(links, a, b))]
     machines = {device.id for device in layout.devices.values() if device.kind == "machine"}
     wanted = machines | (set(layout.names) - set(layout.devices))
     return RoadMap(tuple(_stop(layout, node) for node in nodes), tuple(roads), tuple(sorted(wanted - set(links))))
@@ -114,21 +121,29 @@ def _zones_at(layout: Layout, node: Node) -> frozenset[FloorZone]:
     )
 
 
-def _join(links: _Links, a: Node, b: Node, zones: frozenset[FloorZone]) -> None:
-    links.setdefault(a, {})[b] = zones
-    links.setdefault(b, {})[a] = zones
+def _shutting(layout: Layout, a: Node, b: Node) -> frozenset[FloorZone]:
+    """Return the one-way zones that shut the way from one cell to the next; the last step to a stop is open."""
+    if not isinstance(a, int) or not isinstance(b, int):
+        return frozenset()
+    return frozenset(zone for zone in layout.zones if is_against(zone, layout.point(a), layout.point(b)))
+
+
+def _join(links: _Links, a: Node, b: Node, zones: tuple[frozenset[FloorZone], frozenset[FloorZone]]) -> None:
+    """Join two nodes; `zones` are those on the way there, and back."""
+    links.setdefault(a, {})[b], links.setdefault(b, {})[a] = zones
 
 
 def _straighten(layout: Layout, links: _Links, node: Node) -> None:
     """Make one road of two that lead straight on through a node, if the same holds on both."""
     if len(links[node]) != 2:
         return
-    (a, zones), (b, others) = links[node].items()
+    a, b = links[node]
+    there, back = links[a][node], links[b][node]
     (ax, ay), (x, y), (bx, by) = layout.point(a), layout.point(node), layout.point(b)
     is_straight = abs((x - ax) * (by - y) - (y - ay) * (bx - x)) < 1e-6 and b not in links[a]
-    if zones == others and is_straight:
+    if there == links[node][b] and back == links[node][a] and is_straight:
         del links[a][node], links[b][node], links[node]
-        _join(links, a, b, zones)
+        _join(links, a, b, (there, back))
 
 
 def _order(node: Node) -> tuple[bool, str, int]:
@@ -146,7 +161,16 @@ def _id(node: Node) -> str:
     return f"way-{node}" if isinstance(node, int) else node
 
 
-def _road(a: Node, b: Node, zones: frozenset[FloorZone]) -> Road:
+def _road(links: _Links, a: Node, b: Node) -> Road | None:
+    """Return the road between two nodes, in its direction if it has one; None where zones shut it both ways."""
+    zones, there, back = links[a][b], _is_shut(links[a][b]), _is_shut(links[b][a])
+    if there and back:
+        return None
+    start, end = (b, a) if there else (a, b)
     speeds = [zone.speed_m_s for zone in zones if zone.rule == "slow" and zone.speed_m_s]
     alone = sorted(zone.key for zone in zones if zone.rule == "one_at_a_time" and zone.robots == 1)
-    return Road(_id(a), _id(b), min(speeds, default=None), tuple(alone))
+    return Road(_id(start), _id(end), min(speeds, default=None), tuple(alone), there or back)
+
+
+def _is_shut(zones: frozenset[FloorZone]) -> bool:
+    return any(zone.rule == "one_way" for zone in zones)

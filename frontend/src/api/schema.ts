@@ -4990,9 +4990,11 @@ export interface components {
         };
         /**
          * @description A zone that is to be: corners in metres in the map frame; `speed_m_s` for `slow` alone, `robots` for
-         *     `one_at_a_time` (1 unless it says so); `id` made of its name.
+         *     `one_at_a_time` (1 unless it says so), `heading_deg` for `one_way`: where robots drive, in degrees from the x axis,
+         *     counter-clockwise; `id` made of its name.
          */
         NewZone: {
+            heading_deg?: number | null;
             /** @default  */
             id: string;
             name: string;
@@ -5002,7 +5004,7 @@ export interface components {
             ][];
             robots?: number | null;
             /** @enum {string} */
-            rule: "keep_out" | "slow" | "one_at_a_time";
+            rule: "keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred";
             speed_m_s?: number | null;
         };
         /**
@@ -5942,9 +5944,11 @@ export interface components {
         /**
          * @description A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow.
          *
-         *     `robots` is how many may be in it at once where the rule is `one_at_a_time`.
+         *     `robots` is how many may be in it at once where the rule is `one_at_a_time`, `heading_deg` where robots drive where
+         *     it is `one_way`: degrees from the x axis, counter-clockwise.
          */
         SiteZoneShape: {
+            heading_deg: number | null;
             id: string;
             name: string;
             points: [
@@ -5953,7 +5957,7 @@ export interface components {
             ][];
             robots: number | null;
             /** @enum {string} */
-            rule: "keep_out" | "slow" | "one_at_a_time";
+            rule: "keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred";
             speed_m_s: number | null;
         };
         /** @description Metres. */
@@ -6348,13 +6352,14 @@ export interface components {
         };
         /** @description What is to be another about a zone; what is left out stays. */
         ZoneEdit: {
+            heading_deg?: number | null;
             name?: string | null;
             points?: [
                 number,
                 number
             ][] | null;
             robots?: number | null;
-            rule?: ("keep_out" | "slow" | "one_at_a_time") | null;
+            rule?: ("keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred") | null;
             speed_m_s?: number | null;
         };
         /** @description A named area of the map: a polygon in metres, and what it asks of robots. */

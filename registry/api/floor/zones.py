@@ -1,4 +1,4 @@
-"""The zones of a site over HTTP: where its robots keep out, drive slowly, or go one at a time."""
+"""The zones of a site over HTTP: where its robots keep out, drive slowly, one way, rather, or one at a time."""
 
 from __future__ import annotations
 
@@ -19,11 +19,13 @@ Coordinate = Annotated[Number, Field(ge=-1e6, le=1e6)]
 Corners = Annotated[list[tuple[Coordinate, Coordinate]], Field(max_length=1000)]
 Speed = Annotated[Number, Field(gt=0, le=1000)]
 Robots = Annotated[int, Strict(), Field(ge=1, le=1000)]
+Heading = Annotated[Number, Field(ge=-360, le=360)]
 
 
 class NewZone(Asked):
     """A zone that is to be: corners in metres in the map frame; `speed_m_s` for `slow` alone, `robots` for
-    `one_at_a_time` (1 unless it says so); `id` made of its name.
+    `one_at_a_time` (1 unless it says so), `heading_deg` for `one_way`: where robots drive, in degrees from the x axis,
+    counter-clockwise; `id` made of its name.
     """
 
     name: Line = Field(max_length=200)
@@ -31,6 +33,7 @@ class NewZone(Asked):
     points: Corners
     speed_m_s: Speed | None = None
     robots: Robots | None = None
+    heading_deg: Heading | None = None
     id: Line = Field("", max_length=60)
 
 
@@ -42,6 +45,7 @@ class ZoneEdit(Asked):
     points: Corners | None = None
     speed_m_s: Speed | None = None
     robots: Robots | None = None
+    heading_deg: Heading | None = None
 
 
 @router.post("/sites/{slug}/zones", response={201: SiteZoneShape})

@@ -41,7 +41,7 @@ def test_a_zone_is_drawn_changed_and_removed(
     with django_capture_on_commit_callbacks(execute=True):
         made = post_json(admin, ZONES, AISLE)
         assert (made.status_code, made["Location"]) == (201, f"{ZONES}/service_aisle")
-        assert made.json() == {**AISLE, "id": "service_aisle", "speed_m_s": None, "robots": None}
+        assert made.json() == {**AISLE, "id": "service_aisle", "speed_m_s": None, "robots": None, "heading_deg": None}
         slow = patch_json(admin, made["Location"], {"rule": "slow", "speed_m_s": 0.25, "name": "Aisle"})
         changed = {"name": "Aisle", "rule": "slow", "speed_m_s": 0.25}
         assert slow.json() == {**made.json(), **changed}
@@ -66,6 +66,21 @@ def test_a_zone_is_drawn_changed_and_removed(
         assert refused(answer) == (404, "no_such_zone")
 
 
+def test_a_zone_is_made_one_way_turned_and_made_preferred(admin: Client) -> None:
+    made = post_json(admin, ZONES, {**AISLE, "rule": "one_way", "heading_deg": -90})
+    assert (made.status_code, made.json()["heading_deg"]) == (201, 270)
+    at = made["Location"]
+    assert refused(patch_json(admin, at, {"heading_deg": 400})) == (422, "bad_request")
+    assert patch_json(admin, at, {"heading_deg": 359.96}).json()["heading_deg"] == 0
+    layout = get_layout("hall")
+    assert [(zone.rule, zone.heading_deg) for zone in layout.zones] == [("one_way", 0)]
+    assert layout.against
+    preferred = patch_json(admin, at, {"rule": "preferred"}).json()
+    assert (preferred["rule"], preferred["heading_deg"]) == ("preferred", None)
+    assert get_layout("hall").preferred
+    assert refused(patch_json(admin, at, {"rule": "one_way"})) == (422, "no_heading")
+
+
 @pytest.mark.parametrize(
     ("change", "answer"),
     [
@@ -82,6 +97,8 @@ def test_a_zone_is_drawn_changed_and_removed(
         ({"points": [[0, 0], [1e300, 0], [1, 1]]}, (422, "bad_request")),
         ({"points": [[0, 0], [1], [1, 1]]}, (422, "bad_request")),
         ({"rule": "slow"}, (422, "no_speed")),
+        ({"rule": "one_way"}, (422, "no_heading")),
+        *(({"rule": "one_way", "heading_deg": odd}, (422, "bad_request")) for odd in (361, -1e9, "left", True, [0])),
         ({"rule": "slow", "speed_m_s": 0.04}, (422, "speed")),
         ({"rule": "slow", "speed_m_s": 0}, (422, "bad_request")),
         ({"rule": "door"}, (422, "bad_request")),
@@ -105,7 +122,13 @@ def test_a_refused_change_leaves_a_zone_as_it_is(admin: Client) -> None:
         422,
         "crossing",
     )
-    assert admin.get(at).json() == {**AISLE, "id": "service_aisle", "speed_m_s": None, "robots": None}
+    assert admin.get(at).json() == {
+        **AISLE,
+        "id": "service_aisle",
+        "speed_m_s": None,
+        "robots": None,
+        "heading_deg": None,
+    }
 
 
 def test_two_admins_who_change_different_things_of_a_zone_both_have_their_way(admin: Client) -> None:
@@ -120,6 +143,7 @@ def test_two_admins_who_change_different_things_of_a_zone_both_have_their_way(ad
         "points": moved,
         "speed_m_s": None,
         "robots": None,
+        "heading_deg": None,
     }
 
 

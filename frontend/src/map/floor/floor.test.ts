@@ -58,9 +58,10 @@ const zone: MapZone = {
   ],
   speed_m_s: null,
   robots: null,
+  heading_deg: null,
 };
 
-test("routes are planned anew on another map and round other zones to keep out of, for nothing else", () => {
+test("routes are planned anew on another map and for other zones that lead robots elsewhere, for nothing else", () => {
   const marks = [
     plan,
     { ...plan, version: 8 },
@@ -83,5 +84,8 @@ test("routes are planned anew on another map and round other zones to keep out o
   expect(new Set(marks).size).toBe(4);
   expect(floorMark({ ...plan, zones: [{ ...zone, name: "Other" }] })).toBe(marks[2]);
   expect(floorMark({ ...plan, zones: [{ ...zone, rule: "slow", speed_m_s: 0.3 }] })).toBe("1");
+  const ways = [0, 90].map((heading_deg) => floorMark({ ...plan, zones: [{ ...zone, rule: "one_way", heading_deg }] }));
+  ways.push(floorMark({ ...plan, zones: [{ ...zone, rule: "preferred" }] }));
+  expect(new Set([...marks, ...ways]).size).toBe(7);
   expect(floorMark(null)).toBeUndefined();
 });

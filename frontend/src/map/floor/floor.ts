@@ -16,11 +16,13 @@ export interface MapPlace {
 export interface MapZone {
   readonly id: string;
   readonly name: string;
-  readonly rule: "keep_out" | "slow" | "one_at_a_time";
+  readonly rule: "keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred";
   readonly points: readonly Point[];
   readonly speed_m_s: number | null;
   /** How many may be in it at once, where its rule is that. */
   readonly robots: number | null;
+  /** Where one drives in it, where its rule is that: degrees from the x axis, counter-clockwise. */
+  readonly heading_deg: number | null;
 }
 
 /** One version of a site's map; `cells` row by row from the bottom row: 0 free, 100 wall, 255 unknown. */
@@ -124,13 +126,15 @@ export function cellAt(plan: FloorPlan, point: Point): number {
 
 const marks = new WeakMap<FloorPlan, string>();
 
-/** Differs whenever robots may drive over another floor: another map, or other zones to keep out of. */
+/** Differs whenever robots would drive over another floor: another map, or other zones that lead them elsewhere. */
 export function floorMark(plan: FloorPlan | null | undefined): string | undefined {
   if (!plan) return undefined;
   const known = marks.get(plan);
   if (known !== undefined) return known;
-  const closed = (plan.zones ?? []).filter(({ rule }) => rule === "keep_out").map(({ points }) => points);
-  const mark = String(plan.version) + (closed.length > 0 ? `-${hashOf(JSON.stringify(closed))}` : "");
+  const leading = (plan.zones ?? [])
+    .filter(({ rule }) => rule === "keep_out" || rule === "one_way" || rule === "preferred")
+    .map(({ rule, points, heading_deg }) => [rule, points, heading_deg]);
+  const mark = String(plan.version) + (leading.length > 0 ? `-${hashOf(JSON.stringify(leading))}` : "");
   marks.set(plan, mark);
   return mark;
 }

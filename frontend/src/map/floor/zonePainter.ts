@@ -14,17 +14,20 @@ export interface ZoneSign {
 interface Look {
   readonly line: PaletteName;
   readonly dash: readonly number[];
-  /** Drawing pixels from one line of the hatching to the next; 0: none. */
-  readonly hatch: number;
+  readonly filling: "lines" | "arrows" | "dots" | "none";
+  /** Drawing pixels from one line, arrow or dot of the filling to the next. */
+  readonly gap: number;
   readonly tint: number;
 }
 
 type Canvas = CanvasRenderingContext2D;
 
 const LOOKS: Readonly<Record<MapZone["rule"], Look>> = {
-  keep_out: { line: "error", dash: [], hatch: 8, tint: 0.08 },
-  slow: { line: "warn-fill", dash: [7, 4], hatch: 18, tint: 0.08 },
-  one_at_a_time: { line: "brand", dash: [], hatch: 0, tint: 0.07 },
+  keep_out: { line: "error", dash: [], filling: "lines", gap: 8, tint: 0.08 },
+  slow: { line: "warn-fill", dash: [7, 4], filling: "lines", gap: 18, tint: 0.08 },
+  one_at_a_time: { line: "brand", dash: [], filling: "none", gap: 0, tint: 0.07 },
+  one_way: { line: "motion", dash: [2, 4], filling: "arrows", gap: 44, tint: 0.07 },
+  preferred: { line: "done", dash: [12, 4], filling: "dots", gap: 16, tint: 0.07 },
 };
 const FONT = "600 11.5px 'Inter Variable', Inter, sans-serif";
 /** Below this zoom words could not be read; the hatching stays. */
@@ -41,14 +44,14 @@ export function zoneSign(zone: MapZone, words: ZoneSign["words"]): ZoneSign {
 
 export function paintZones(canvas: Canvas, palette: Palette, signs: readonly ZoneSign[], zoom: number): void {
   for (const { zone, outline, box } of signs) {
-    const { line, dash, hatch, tint } = LOOKS[zone.rule];
+    const { line, dash, filling, gap, tint } = LOOKS[zone.rule];
     canvas.save();
     canvas.fillStyle = canvas.strokeStyle = palette[line];
     canvas.globalAlpha = tint;
     canvas.fill(outline);
     canvas.globalAlpha = 0.5;
     canvas.lineWidth = 1.2;
-    if (hatch > 0) paintHatching(canvas, outline, box, hatch);
+    if (filling !== "none") paintFilling(canvas, outline, linesOf(filling, box, gap, zone.heading_deg ?? 0));
     canvas.globalAlpha = 1;
     canvas.lineWidth = 1.8 / Math.max(zoom, 0.4);
     canvas.lineJoin = "round";
@@ -58,17 +61,55 @@ export function paintZones(canvas: Canvas, palette: Palette, signs: readonly Zon
   }
 }
 
-function paintHatching(canvas: Canvas, outline: Path2D, box: Box, gap: number): void {
+function paintFilling(canvas: Canvas, outline: Path2D, lines: Path2D): void {
   canvas.save();
   canvas.clip(outline);
-  canvas.beginPath();
-  const height = box.bottom - box.top;
-  for (let x = Math.floor((box.left - height) / gap) * gap; x <= box.right; x += gap) {
-    canvas.moveTo(x, box.bottom);
-    canvas.lineTo(x + height, box.top);
-  }
-  canvas.stroke();
+  canvas.lineCap = canvas.lineJoin = "round";
+  canvas.stroke(lines);
   canvas.restore();
+}
+
+function linesOf(filling: Exclude<Look["filling"], "none">, box: Box, gap: number, heading_deg: number): Path2D {
+  const path = new Path2D();
+  if (filling === "lines") {
+    const height = box.bottom - box.top;
+    for (let x = Math.floor((box.left - height) / gap) * gap; x <= box.right; x += gap) {
+      path.moveTo(x, box.bottom);
+      path.lineTo(x + height, box.top);
+    }
+    return path;
+  }
+  const columns = Math.max(1, Math.floor((box.right - box.left) / gap));
+  const rows = Math.max(1, Math.floor((box.bottom - box.top) / gap));
+  const left = (box.left + box.right - (columns - 1) * gap) / 2;
+  const top = (box.top + box.bottom - (rows - 1) * gap) / 2;
+  for (let row = 0; row < rows; row += 1) {
+    for (let column = 0; column < columns; column += 1) {
+      const [x, y] = [left + column * gap, top + row * gap];
+      if (filling === "arrows") addArrow(path, x, y, 9, heading_deg);
+      else addDot(path, x, y, 1.6);
+    }
+  }
+  return path;
+}
+
+function addDot(path: Path2D, x: number, y: number, radius: number): void {
+  path.moveTo(x + radius, y);
+  path.arc(x, y, radius, 0, 2 * Math.PI);
+}
+
+/** An arrow around a point; its head shows the direction, on a screen whose y leads down. */
+function addArrow(path: Path2D, x: number, y: number, half: number, heading_deg: number): void {
+  const angle = (-heading_deg * Math.PI) / 180;
+  const at = (along: number, across: number): [number, number] => [
+    x + along * Math.cos(angle) - across * Math.sin(angle),
+    y + along * Math.sin(angle) + across * Math.cos(angle),
+  ];
+  path.moveTo(...at(-half, 0));
+  path.lineTo(...at(half, 0));
+  path.moveTo(...at(half * 0.35, -half * 0.6));
+  path.lineTo(...at(half, 0));
+  path.lineTo(...at(half * 0.35, half * 0.6));
 }
 
 /** Signs and words, over all that else stands on the floor. */
@@ -99,13 +140,13 @@ function paintTag(canvas: Canvas, palette: Palette, { zone, words, box }: ZoneSi
   canvas.stroke();
   const middle = top + TAG.height / 2;
   canvas.lineWidth = 1.5;
-  canvas.stroke(iconOf(zone.rule, left + TAG.pad + TAG.icon / 2, middle));
+  canvas.stroke(iconOf(zone, left + TAG.pad + TAG.icon / 2, middle));
   canvas.fillStyle = palette.text;
   canvas.fillText(said, left + TAG.pad + TAG.icon + TAG.gap, middle + 0.5);
 }
 
-/** A barred circle, a dial, one head: what each rule says without words. */
-function iconOf(rule: MapZone["rule"], x: number, y: number): Path2D {
+/** A barred circle, a dial, an arrow, a tick, one head: what each rule says without words. */
+function iconOf({ rule, heading_deg }: MapZone, x: number, y: number): Path2D {
   const path = new Path2D();
   if (rule === "keep_out") {
     path.arc(x, y, 5.5, 0, 2 * Math.PI);
@@ -115,6 +156,12 @@ function iconOf(rule: MapZone["rule"], x: number, y: number): Path2D {
     path.arc(x, y + 2, 6, Math.PI, 2 * Math.PI);
     path.moveTo(x, y + 2);
     path.lineTo(x - 3, y - 2);
+  } else if (rule === "one_way") {
+    addArrow(path, x, y, 6, heading_deg ?? 0);
+  } else if (rule === "preferred") {
+    path.moveTo(x - 5, y);
+    path.lineTo(x - 1.5, y + 4);
+    path.lineTo(x + 5.5, y - 4.5);
   } else {
     path.arc(x, y - 3, 2.6, 0, 2 * Math.PI);
     path.moveTo(x - 5, y + 6);

@@ -4,8 +4,20 @@ import { formatNumber, withUnit } from "@/i18n/format";
 import type { MapZone } from "./floor";
 
 /** Its rule: "Keep out", "At most 0.3 m/s", "2 robots". */
-export function ruleWords({ rule, speed_m_s, robots }: Omit<MapZone, "id" | "name" | "points">, t: TFunction): string {
-  return t(`zone.short.${rule}`, { speed: speedWords(speed_m_s ?? 0), count: robots ?? 1 });
+export function ruleWords(zone: Omit<MapZone, "id" | "name" | "points">, t: TFunction): string {
+  const { rule, speed_m_s, robots, heading_deg } = zone;
+  return t(`zone.short.${rule}`, {
+    speed: speedWords(speed_m_s ?? 0),
+    count: robots ?? 1,
+    arrow: arrowOf(heading_deg ?? 0),
+  });
+}
+
+const ARROWS = ["→", "↗", "↑", "↖", "←", "↙", "↓", "↘"] as const;
+
+/** The arrow that is nearest to a direction. */
+export function arrowOf(heading_deg: number): string {
+  return ARROWS[((Math.round(heading_deg / 45) % 8) + 8) % 8] ?? ARROWS[0];
 }
 
 /** Its rule and its name: "Keep out, service aisle". */

@@ -127,6 +127,35 @@ def test_lif_says_limits_and_its_own_version(tmp_path):
     assert (meta["lifVersion"], meta["exportTimestamp"]) == ("1.0.0", "2026-11-25T22:05:03.12Z")
 
 
+def test_a_one_way_zone_makes_roads_that_lead_one_way(tmp_path):
+    strip = ((6.0, -14.0), (10.0, -14.0), (10.0, 0.0), (6.0, 0.0))
+    layout = layout_with(zone("one_way", strip, heading_deg=0.0))
+    roads = make_road_map(layout)
+    at = {stop.id: (stop.x, stop.y) for stop in roads.stops}
+    single = [road for road in roads.roads if road.one_way]
+    assert single
+    for road in roads.roads:
+        (x, y), (x2, y2) = at[road.start], at[road.end]
+        inside = max(min(x, x2), 6.0) < min(max(x, x2), 10.0) - 1e-9 and abs(y - y2) < 1e-9
+        assert road.one_way == inside
+        assert not road.one_way or x < x2
+    graph, _ = lif_of(layout, tmp_path)
+    assert all(graph.has_edge(road.start, road.end) for road in roads.roads)
+    assert [graph.has_edge(road.end, road.start) for road in roads.roads] == [not road.one_way for road in roads.roads]
+    level = next(iter(rmf_of(layout)["levels"].values()))
+    both = [lane[2]["bidirectional"][1] for lane in level["lanes"]]
+    assert both == [not road.one_way for road in roads.roads]
+    assert networkx.has_path(graph, "dropOff01", "dock1") != networkx.has_path(graph, "dock1", "dropOff01")
+
+
+def test_a_road_that_two_zones_shut_both_ways_is_none():
+    strip = ((6.0, -14.0), (10.0, -14.0), (10.0, 0.0), (6.0, 0.0))
+    pair = (zone("one_way", strip, heading_deg=0.0), zone("one_way", strip, "site/y", heading_deg=180.0))
+    graph = networkx.DiGraph((road.start, road.end) for road in roads_with(*pair).roads)
+    assert not networkx.has_path(graph, "dropOff01", "dock1")
+    assert not networkx.has_path(graph, "dock1", "dropOff01")
+
+
 def test_rmf_has_the_map_in_metres_with_named_waypoints_and_lanes():
     layout, building = layout_with(), rmf_of(layout_with())
     level = building["levels"][building["reference_level_name"]]

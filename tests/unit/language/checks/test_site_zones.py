@@ -63,7 +63,7 @@ def test_a_machine_whose_station_lies_in_a_zone_of_the_site_is_told_where_the_ma
     assert told_at(replace(site, floor=None), to={"device": "dropOff01"}) == []
 
 
-@pytest.mark.parametrize("rule", ["slow", "one_at_a_time"])
+@pytest.mark.parametrize("rule", ["slow", "one_at_a_time", "one_way", "preferred"])
 def test_a_goal_in_a_zone_of_another_rule_is_no_problem(rule: Any) -> None:
     dock = demo_floor.places()[0]
     zone = ZoneFacts("z", "Hall", rule, inside(dock.x, dock.y), 0.3)
@@ -79,6 +79,19 @@ def test_a_site_keeps_its_zones_as_json() -> None:
     assert "zones" not in surroundings_to_json(factory())
 
 
+def test_a_site_keeps_where_robots_drive_in_a_zone() -> None:
+    lanes = (
+        ZoneFacts("a", "Lane", "one_way", ROUND_DOCK_1, heading_deg=90.0),
+        ZoneFacts("b", "Aisle", "preferred", ROUND_DOCK_1),
+    )
+    site = replace(factory(), zones=lanes)
+    body = surroundings_to_json(site)
+    assert [zone.get("heading_deg") for zone in body["zones"]] == [90.0, None]
+    assert surroundings_from_json(body) == site
+    (turned,) = surroundings_from_json({"zones": [{**HALL, "rule": "one_way", "heading_deg": -90}]}).zones
+    assert (turned.heading_deg, turned.speed_m_s) == (270.0, None)
+
+
 def test_a_zone_without_a_name_is_called_by_its_id() -> None:
     (zone,) = surroundings_from_json({"zones": [HALL]}).zones
     assert zone == ZoneFacts("hall", "hall", "slow", ((0, 0), (2, 0), (2, 2)), 0.3)
@@ -88,10 +101,13 @@ def test_a_zone_without_a_name_is_called_by_its_id() -> None:
     "change",
     [{"id": ""}, {"id": 3}, {"rule": "door"}, {"points": [[0, 0], [1, 1]]}, {"points": [[0, 0], [1, 1], [2]]},
      {"points": [[0, 0], [1, 1], [2, float("nan")]]}, {"points": "here"}, {"speed_m_s": None},
-     {"speed_m_s": "fast"}],
+     {"speed_m_s": "fast"}, {"rule": "one_way"}, {"rule": "one_way", "heading_deg": "left"},
+     {"rule": "one_way", "heading_deg": float("inf")}],
 )  # fmt: skip
 def test_a_zone_of_a_site_that_cannot_be_read_is_told(change: dict[str, Any]) -> None:
-    with pytest.raises(UnreadableSite, match=r"needs an id, a rule: keep_out, one_at_a_time, slow, points"):
+    with pytest.raises(
+        UnreadableSite, match=r"needs an id, a rule: keep_out, one_at_a_time, slow, one_way, preferred, points"
+    ):
         surroundings_from_json({"zones": [{**HALL, **change}]})
 
 

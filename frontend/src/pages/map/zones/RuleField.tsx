@@ -1,18 +1,20 @@
-/** What a zone asks of robots, with a sentence about it: how fast they may be there, or how many at once. */
-import { NumberInput, Radio } from "@mantine/core";
+/** What a zone asks of robots, with a sentence about it: how fast they may be there, how many at once, or where to. */
+import { NativeSelect, NumberInput, Radio } from "@mantine/core";
 import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { MapZone } from "@/api/types";
 import { ZONE_RULES, type ZoneRule } from "@/api/zones";
+import { formatNumber } from "@/i18n/format";
 import styles from "../places/places.module.css";
 
 export const USUAL_SPEED_M_S = 0.3;
 const SLOWEST_M_S = 0.05;
 const FASTEST_M_S = 5;
 const MOST_ROBOTS = 20;
+const HEADINGS = [0, 45, 90, 135, 180, 225, 270, 315] as const;
 
-/** A rule with its number: the speed where robots drive slowly, their count where only so many may be in it. */
-export type RuleOfZone = Pick<MapZone, "rule" | "speed_m_s" | "robots">;
+/** A rule with its number: the speed where robots drive slowly, how many may be in it, where they drive one way. */
+export type RuleOfZone = Pick<MapZone, "rule" | "speed_m_s" | "robots" | "heading_deg">;
 
 interface RuleFieldProps {
   value: RuleOfZone;
@@ -21,12 +23,13 @@ interface RuleFieldProps {
 
 export function RuleField({ value, change }: RuleFieldProps) {
   const { t } = useTranslation();
-  const { rule, speed_m_s, robots } = value;
+  const { rule, speed_m_s, robots, heading_deg } = value;
   const choose = (next: ZoneRule) =>
     change({
       rule: next,
       speed_m_s: next === "slow" ? (speed_m_s ?? USUAL_SPEED_M_S) : null,
       robots: next === "one_at_a_time" ? (robots ?? 1) : null,
+      heading_deg: next === "one_way" ? (heading_deg ?? 0) : null,
     });
   return (
     <>
@@ -46,7 +49,7 @@ export function RuleField({ value, change }: RuleFieldProps) {
           max={FASTEST_M_S}
           decimalScale={2}
           known={speed_m_s ?? USUAL_SPEED_M_S}
-          keep={(next) => change({ rule, speed_m_s: next, robots: null })}
+          keep={(next) => change({ rule, speed_m_s: next, robots: null, heading_deg: null })}
         />
       ) : null}
       {rule === "one_at_a_time" ? (
@@ -57,10 +60,40 @@ export function RuleField({ value, change }: RuleFieldProps) {
           max={MOST_ROBOTS}
           decimalScale={0}
           known={robots ?? 1}
-          keep={(next) => change({ rule, speed_m_s: null, robots: next })}
+          keep={(next) => change({ rule, speed_m_s: null, robots: next, heading_deg: null })}
+        />
+      ) : null}
+      {rule === "one_way" ? (
+        <HeadingField
+          known={heading_deg ?? 0}
+          keep={(next) => change({ rule, speed_m_s: null, robots: null, heading_deg: next })}
         />
       ) : null}
     </>
+  );
+}
+
+/** Where robots drive: one of eight directions, or another one that somebody has said elsewhere. */
+function HeadingField({ known, keep }: { known: number; keep: (heading_deg: number) => void }) {
+  const { t } = useTranslation();
+  const [value, setValue] = useState(known); // at once: who presses a key twice goes on from what is shown
+  useEffect(() => setValue(known), [known]);
+  const others = HEADINGS.some((each) => each === value) ? [] : [value];
+  const words = (each: number) =>
+    HEADINGS.some((usual) => usual === each)
+      ? t(`zone.headings.${each}`)
+      : t("zone.headings.other", { degrees: formatNumber(each, 1) });
+  return (
+    <NativeSelect
+      label={t("zone.heading")}
+      value={String(value)}
+      onChange={(event) => {
+        const next = Number(event.currentTarget.value);
+        setValue(next);
+        keep(next);
+      }}
+      data={[...HEADINGS, ...others].map((each) => ({ value: String(each), label: words(each) }))}
+    />
   );
 }
 

@@ -13,9 +13,14 @@ import { RuleField, type RuleOfZone } from "./RuleField";
 import { ZoneUses } from "./RemoveZone";
 import type { ZoneEditing } from "./useZones";
 
-/** A rule as it is sent: with the number that belongs to it, and without the other. */
-function said({ rule, speed_m_s, robots }: RuleOfZone): ZoneFields {
-  return { rule, ...(speed_m_s === null ? {} : { speed_m_s }), ...(robots === null ? {} : { robots }) };
+/** A rule as it is sent: with the number that belongs to it, and without the others. */
+function said({ rule, speed_m_s, robots, heading_deg }: RuleOfZone): ZoneFields {
+  return {
+    rule,
+    ...(speed_m_s === null ? {} : { speed_m_s }),
+    ...(robots === null ? {} : { robots }),
+    ...(heading_deg === null ? {} : { heading_deg }),
+  };
 }
 
 interface ZoneFormProps {
@@ -71,7 +76,12 @@ function NameField({ name, keep }: { name: string; keep: (name: string, refused:
 export function NewZoneForm({ editing }: { editing: ZoneEditing }) {
   const { t } = useTranslation();
   const [name, setName] = useState("");
-  const [rule, setRule] = useState<RuleOfZone>({ rule: "keep_out", speed_m_s: null, robots: null });
+  const [rule, setRule] = useState<RuleOfZone>({
+    rule: "keep_out",
+    speed_m_s: null,
+    robots: null,
+    heading_deg: null,
+  });
   const field = useRef<HTMLInputElement>(null);
   useEffect(() => field.current?.focus(), []);
   const submit = (event: FormEvent) => {
