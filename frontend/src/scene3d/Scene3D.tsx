@@ -10,8 +10,9 @@ import { Incidents } from "./Incidents";
 import { Machine } from "./Machine";
 import { type Palette, readPalette } from "./palette";
 import { Robot } from "./Robot";
+import { RobotCopy } from "./RobotCopy";
 import styles from "./Scene3D.module.css";
-import type { CameraMode, Moment, SceneDevice, SceneMap, SceneRecording } from "./types";
+import type { CameraMode, CopyOf, Moment, SceneDevice, SceneMap, SceneRecording } from "./types";
 
 interface SceneProps {
   map: SceneMap;
@@ -27,6 +28,8 @@ interface SceneProps {
   t_s: number;
   /** What is said of a device at the moment, beside its name. */
   stateOf?: (device: string) => string;
+  /** Where the copies of robots are, asked for in each picture. */
+  copyOf?: CopyOf;
   incidents?: readonly Incident[];
   onJump?: (t_s: number) => void;
 }
@@ -178,7 +181,7 @@ function Lights({ palette, map }: { palette: Palette; map: SceneMap }) {
 
 /** The whole scene: the place built from its map, its machines, and the robots at the moment that is shown. */
 export function Scene3D(props: SceneProps) {
-  const { map, devices, recording, moment, labels, label, stateOf, playing, t_s } = props;
+  const { map, devices, recording, moment, labels, label, stateOf, copyOf, playing, t_s } = props;
   const palette = usePalette();
   const layer = useRef<HTMLDivElement>(null) as Layer;
   const machines = devices.filter((device) => device.kind === "machine");
@@ -210,6 +213,18 @@ export function Scene3D(props: SceneProps) {
               recording={recording}
               moment={moment}
               palette={palette}
+            />
+          ))}
+        {recording &&
+          copyOf &&
+          robots.map((device) => (
+            <RobotCopy
+              key={device.id}
+              device={device}
+              recording={recording}
+              moment={moment}
+              palette={palette}
+              copyOf={copyOf}
             />
           ))}
         <Incidents

@@ -5,7 +5,7 @@ import { useTranslation } from "react-i18next";
 import type { Device } from "@/api/types";
 import { Segments } from "@/design/Segments";
 import type { Incident } from "./incidents";
-import type { CameraMode, Moment, SceneDevice, SceneMap, SceneRecording } from "./types";
+import type { CameraMode, CopyOf, Moment, SceneDevice, SceneMap, SceneRecording } from "./types";
 import styles from "./View3D.module.css";
 
 const Scene3D = lazy(() => import("./Scene3D").then((module) => ({ default: module.Scene3D })));
@@ -32,6 +32,8 @@ interface View3DProps {
   labelOf: (summary: string) => string;
   /** What kind of picture this is, always in view. */
   sign: string;
+  /** Where the copies of robots are, asked for in each picture. */
+  copyOf?: CopyOf;
   incidents?: readonly Incident[];
   onJump?: (t_s: number) => void;
   /** More buttons, whether they need a robot to be chosen, and what they show of it. */
@@ -165,6 +167,7 @@ export function View3D(props: View3DProps) {
             t_s={t_s}
             label={props.labelOf(summary)}
             stateOf={stateOf}
+            copyOf={props.copyOf}
             incidents={props.incidents}
             onJump={props.onJump}
           />

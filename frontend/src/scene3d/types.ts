@@ -27,4 +27,7 @@ export interface Moment {
   t_s: number;
 }
 
+/** Where the copy of a robot is now, if it has one. */
+export type CopyOf = (robot: string) => { readonly x: number; readonly y: number } | undefined;
+
 export type CameraMode = "orbit" | "top" | "follow" | "robot";

@@ -1,7 +1,7 @@
 /** Paints live robots: reserved path, trail, body, ring, what they carry and why they wait. */
 import type { Palette } from "../plane/palette";
 import { toPixels, type Box, type Point, type Viewport } from "../plane/projection";
-import type { RobotView, TrailPoint, Trails } from "./robots";
+import { apartOf, type RobotView, type TrailPoint, type Trails } from "./robots";
 
 type Canvas = CanvasRenderingContext2D;
 
@@ -71,12 +71,9 @@ function line(canvas: Canvas, points: readonly Point[]): void {
   });
 }
 
-/** Nearer than this a robot and its copy are where they should be, and one covers the other. */
-const APART_M = 0.15;
-
 /** Where the copy of a robot is that is not where the robot is, and how far that is. */
 function paintCopy(canvas: Canvas, palette: Palette, { copy, x, y }: RobotView): void {
-  if (!copy || Math.hypot(copy.x - x, copy.y - y) < APART_M) return;
+  if (!copy || apartOf(copy, { x, y }) === null) return;
   const [from, to] = [toPixels([x, y]), toPixels([copy.x, copy.y])];
   canvas.strokeStyle = palette["text-3"];
   canvas.lineWidth = 1.6;

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { interpolatePose, Trails, turn, type RobotView } from "./robots";
+import { apartOf, interpolatePose, Trails, turn, type RobotView } from "./robots";
 
 test("a robot is drawn between its last two poses", () => {
   const pose = interpolatePose({ x: 0, y: 0, theta: 0, at: 0 }, { x: 1, y: 2, theta: 1, at: 100 }, 150);
@@ -40,4 +40,9 @@ test("a trail has a gap where the robot was not seen, instead of a line through 
     [7, false],
     [7.5, true],
   ]);
+});
+
+test("a copy that is where its robot is, is nothing to speak of; another says how far it is", () => {
+  expect(apartOf({ x: 1, y: 2 }, { x: 1.1, y: 2.1 })).toBeNull();
+  expect(apartOf({ x: 4, y: 6 }, { x: 1, y: 2 })).toBe(5);
 });

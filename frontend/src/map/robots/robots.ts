@@ -93,3 +93,12 @@ export class Trails {
     }));
   }
 }
+
+/** Nearer than this a robot and its copy are where they should be, and one covers the other. */
+const APART_M = 0.15;
+
+/** How far a robot and its copy are apart, metres; null while that is nothing to speak of. */
+export function apartOf(copy: { x: number; y: number }, robot: { x: number; y: number }): number | null {
+  const apart = Math.hypot(copy.x - robot.x, copy.y - robot.y);
+  return apart < APART_M ? null : apart;
+}

@@ -1,12 +1,15 @@
 /** The place in 3D as it is now: robots and machines move as they do on the floor. */
+import type { TFunction } from "i18next";
 import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, SiteMap } from "@/api/types";
 import { useNow } from "@/design/useNow";
 import { activityWords } from "@/i18n/activity";
-import { formatTime } from "@/i18n/format";
+import { formatNumber, formatTime, withUnit } from "@/i18n/format";
+import { poseOf } from "@/live/readings";
 import { liveRobots } from "@/live/robots";
 import { useLiveStore } from "@/live/store";
+import { apartOf } from "@/map/robots/robots";
 import { View3D } from "@/scene3d/View3D";
 import { EVERY_S, LiveRecording, type Seen } from "./liveRecording";
 import styles from "./scene.module.css";
@@ -60,6 +63,18 @@ function useLiveRecording(devices: readonly Device[]): LiveRecording {
   return live;
 }
 
+const copyOf = (robot: string) => useLiveStore.getState().copies[robot];
+
+/** Of each robot that is not where its copy is, how far that is, in words. */
+function copiesApart(devices: readonly Device[], t: TFunction): string[] {
+  return devices.flatMap((device) => {
+    const copy = copyOf(device.id);
+    const apart = copy ? apartOf(copy, poseOf(device.id)?.current ?? device.location) : null;
+    if (apart === null) return [];
+    return [t("run.scene.copyApart", { name: device.name, apart: withUnit(formatNumber(apart, 1), "m") })];
+  });
+}
+
 /** Whether nothing, all or some of what is seen is simulated. */
 function kindOf(devices: readonly Device[]): "live" | "simulated" | "mixed" {
   const approved = devices.filter((device) => device.lifecycle === "approved");
@@ -78,6 +93,7 @@ export function LiveScene({ map, devices }: LiveSceneProps) {
     const doing = device.status === "offline" ? t("shell.status.offline") : activityWords(device);
     return kind === "mixed" && device.simulated ? t("run.scene.ofSimulated", { doing }) : doing;
   };
+  const withCopies = (summary: string) => [summary, ...copiesApart(devices, t)].join(", ");
   return (
     <div className={styles.scene}>
       <View3D
@@ -88,7 +104,11 @@ export function LiveScene({ map, devices }: LiveSceneProps) {
         t_s={now / 1000}
         playing
         stateOf={stateOf}
-        labelOf={(summary) => t("simulation.sceneLabel", { time: formatTime(new Date(now).toISOString()), summary })}
+        copyOf={copyOf}
+        labelOf={(summary) => {
+          const time = formatTime(new Date(now).toISOString());
+          return t("simulation.sceneLabel", { time, summary: withCopies(summary) });
+        }}
         sign={t(`run.scene.${kind}`)}
       />
     </div>
