@@ -4,10 +4,10 @@ import { useMemo, useRef, useState } from "react";
 import type * as THREE from "three";
 import { latest, poseAt, trailBefore } from "./frames";
 import type { Palette } from "./palette";
-import type { Moment, SceneDevice, SceneRecording } from "./types";
+import { RobotCopy } from "./RobotCopy";
+import { ROBOT_SCALE } from "./scale";
+import type { CopyOf, Moment, SceneDevice, SceneRecording } from "./types";
 
-/** Robots are drawn larger than they are, so that they are seen in a hall; the page says so. */
-export const ROBOT_SCALE = 2;
 const TRAIL_S = 30;
 const NOWHERE: readonly (readonly [number, number])[] = [];
 
@@ -21,6 +21,7 @@ interface RobotProps {
 interface OwnProps extends RobotProps {
   /** The view is from its own place. */
   hidden?: boolean;
+  copyOf?: CopyOf;
 }
 
 function Turtle({ radius, palette }: { radius: number; palette: Palette }) {
@@ -104,7 +105,7 @@ function PlannedPath({ device, recording, moment, palette }: RobotProps) {
 
 /** A robot where the recording has it, with its load, its trail and its path. */
 export function Robot(props: OwnProps) {
-  const { device, recording, moment, palette, hidden = false } = props;
+  const { device, recording, moment, palette, copyOf, hidden = false } = props;
   const body = useRef<THREE.Group>(null);
   const load = useLoad(recording, device.id, moment);
   useFrame(() => {
@@ -124,6 +125,7 @@ export function Robot(props: OwnProps) {
       </group>
       <Trail {...props} />
       <PlannedPath {...props} />
+      {copyOf ? <RobotCopy {...props} copyOf={copyOf} /> : null}
     </>
   );
 }

@@ -4,7 +4,7 @@ import type * as THREE from "three";
 import { apartOf } from "@/map/robots/robots";
 import { poseAt } from "./frames";
 import type { Palette } from "./palette";
-import { ROBOT_SCALE } from "./Robot";
+import { ROBOT_SCALE } from "./scale";
 import type { CopyOf, Moment, SceneDevice, SceneRecording } from "./types";
 
 interface RobotCopyProps {

@@ -10,7 +10,6 @@ import { Incidents } from "./Incidents";
 import { Machine } from "./Machine";
 import { type Palette, readPalette } from "./palette";
 import { Robot } from "./Robot";
-import { RobotCopy } from "./RobotCopy";
 import styles from "./Scene3D.module.css";
 import type { CameraMode, CopyOf, Moment, SceneDevice, SceneMap, SceneRecording } from "./types";
 
@@ -208,17 +207,6 @@ export function Scene3D(props: SceneProps) {
           robots.map((device) => (
             <Robot
               hidden={props.camera === "robot" && props.follow === device.id}
-              key={device.id}
-              device={device}
-              recording={recording}
-              moment={moment}
-              palette={palette}
-            />
-          ))}
-        {recording &&
-          copyOf &&
-          robots.map((device) => (
-            <RobotCopy
               key={device.id}
               device={device}
               recording={recording}

@@ -8,28 +8,40 @@ export interface ZoneSign {
   /** Its rule and name, and its rule alone where there is no room for both. */
   readonly words: readonly [string, string];
   readonly outline: Path2D;
+  /** What it is filled with: lines, chevrons or dots. */
+  readonly filling: Path2D;
   readonly box: Box;
+}
+
+interface Spot {
+  readonly x: number;
+  readonly y: number;
 }
 
 interface Look {
   readonly line: PaletteName;
   readonly dash: readonly number[];
-  readonly filling: "lines" | "arrows" | "dots" | "none";
-  /** Drawing pixels from one line, arrow or dot of the filling to the next. */
+  readonly filling: "lines" | "chevrons" | "dots" | "none";
+  /** Drawing pixels from one line, chevron or dot of the filling to the next. */
   readonly gap: number;
+  /** How thick and how strong the filling is drawn. */
+  readonly stroke: number;
+  readonly alpha: number;
   readonly tint: number;
 }
 
 type Canvas = CanvasRenderingContext2D;
 
 const LOOKS: Readonly<Record<MapZone["rule"], Look>> = {
-  keep_out: { line: "error", dash: [], filling: "lines", gap: 8, tint: 0.08 },
-  slow: { line: "warn-fill", dash: [7, 4], filling: "lines", gap: 18, tint: 0.08 },
-  one_at_a_time: { line: "brand", dash: [], filling: "none", gap: 0, tint: 0.07 },
-  one_way: { line: "motion", dash: [2, 4], filling: "arrows", gap: 44, tint: 0.07 },
-  preferred: { line: "done", dash: [12, 4], filling: "dots", gap: 16, tint: 0.07 },
+  keep_out: { line: "error", dash: [], filling: "lines", gap: 8, stroke: 1.2, alpha: 0.5, tint: 0.08 },
+  slow: { line: "warn-fill", dash: [7, 4], filling: "lines", gap: 18, stroke: 1.2, alpha: 0.5, tint: 0.08 },
+  one_at_a_time: { line: "brand", dash: [], filling: "none", gap: 0, stroke: 0, alpha: 0, tint: 0.07 },
+  one_way: { line: "motion", dash: [], filling: "chevrons", gap: 45, stroke: 2.6, alpha: 1, tint: 0.07 },
+  preferred: { line: "done", dash: [12, 4], filling: "dots", gap: 16, stroke: 1.2, alpha: 0.5, tint: 0.07 },
 };
 const FONT = "600 11.5px 'Inter Variable', Inter, sans-serif";
+/** So many chevrons or dots are drawn in a zone at most. */
+const MOST_SPOTS = 400;
 /** Below this zoom words could not be read; the hatching stays. */
 const WORDS_FROM = 0.45;
 const TAG = { height: 22, pad: 7, icon: 14, gap: 5, inset: 5 };
@@ -39,19 +51,23 @@ export function zoneSign(zone: MapZone, words: ZoneSign["words"]): ZoneSign {
   const outline = new Path2D();
   corners.forEach(({ x, y }, index) => (index === 0 ? outline.moveTo(x, y) : outline.lineTo(x, y)));
   outline.closePath();
-  return { zone, words, outline, box: boxAround(corners) ?? { left: 0, top: 0, right: 0, bottom: 0 } };
+  const box = boxAround(corners) ?? { left: 0, top: 0, right: 0, bottom: 0 };
+  return { zone, words, outline, filling: fillingOf(zone, box), box };
 }
 
 export function paintZones(canvas: Canvas, palette: Palette, signs: readonly ZoneSign[], zoom: number): void {
-  for (const { zone, outline, box } of signs) {
-    const { line, dash, filling, gap, tint } = LOOKS[zone.rule];
+  for (const { zone, outline, filling } of signs) {
+    const { line, dash, stroke, alpha, tint } = LOOKS[zone.rule];
     canvas.save();
     canvas.fillStyle = canvas.strokeStyle = palette[line];
     canvas.globalAlpha = tint;
     canvas.fill(outline);
-    canvas.globalAlpha = 0.5;
-    canvas.lineWidth = 1.2;
-    if (filling !== "none") paintFilling(canvas, outline, linesOf(filling, box, gap, zone.heading_deg ?? 0));
+    canvas.save();
+    canvas.clip(outline);
+    canvas.globalAlpha = alpha;
+    canvas.lineWidth = stroke;
+    canvas.stroke(filling);
+    canvas.restore();
     canvas.globalAlpha = 1;
     canvas.lineWidth = 1.8 / Math.max(zoom, 0.4);
     canvas.lineJoin = "round";
@@ -61,50 +77,58 @@ export function paintZones(canvas: Canvas, palette: Palette, signs: readonly Zon
   }
 }
 
-function paintFilling(canvas: Canvas, outline: Path2D, lines: Path2D): void {
-  canvas.save();
-  canvas.clip(outline);
-  canvas.lineCap = canvas.lineJoin = "round";
-  canvas.stroke(lines);
-  canvas.restore();
-}
-
-function linesOf(filling: Exclude<Look["filling"], "none">, box: Box, gap: number, heading_deg: number): Path2D {
+function fillingOf({ rule, heading_deg }: MapZone, box: Box): Path2D {
+  const { filling, gap } = LOOKS[rule];
   const path = new Path2D();
-  if (filling === "lines") {
-    const height = box.bottom - box.top;
-    for (let x = Math.floor((box.left - height) / gap) * gap; x <= box.right; x += gap) {
-      path.moveTo(x, box.bottom);
-      path.lineTo(x + height, box.top);
-    }
-    return path;
-  }
-  const columns = Math.max(1, Math.floor((box.right - box.left) / gap));
-  const rows = Math.max(1, Math.floor((box.bottom - box.top) / gap));
-  const left = (box.left + box.right - (columns - 1) * gap) / 2;
-  const top = (box.top + box.bottom - (rows - 1) * gap) / 2;
-  for (let row = 0; row < rows; row += 1) {
-    for (let column = 0; column < columns; column += 1) {
-      const [x, y] = [left + column * gap, top + row * gap];
-      if (filling === "arrows") addArrow(path, x, y, 9, heading_deg);
-      else addDot(path, x, y, 1.6);
-    }
-  }
+  if (filling === "lines") addLines(path, box, gap);
+  else if (filling === "chevrons") for (const at of spread(box, gap)) addChevron(path, at, 7, heading_deg ?? 0);
+  else if (filling === "dots") for (const at of spread(box, gap)) addDot(path, at, 1.6);
   return path;
 }
 
-function addDot(path: Path2D, x: number, y: number, radius: number): void {
+function addLines(path: Path2D, box: Box, gap: number): void {
+  const height = box.bottom - box.top;
+  for (let x = Math.floor((box.left - height) / gap) * gap; x <= box.right; x += gap) {
+    path.moveTo(x, box.bottom);
+    path.lineTo(x + height, box.top);
+  }
+}
+
+/** Points over a box in rows and columns; farther apart in a large one, so that there are not too many. */
+function spread(box: Box, gap: number): Spot[] {
+  const [width, height] = [box.right - box.left, box.bottom - box.top];
+  const wide = Math.max(gap, Math.sqrt((width * height) / MOST_SPOTS));
+  const columns = Math.max(1, Math.floor(width / wide));
+  const rows = Math.max(1, Math.floor(height / wide));
+  const left = (box.left + box.right - (columns - 1) * wide) / 2;
+  const top = (box.top + box.bottom - (rows - 1) * wide) / 2;
+  return Array.from({ length: rows * columns }, (_, index) => ({
+    x: left + (index % columns) * wide,
+    y: top + Math.floor(index / columns) * wide,
+  }));
+}
+
+function addDot(path: Path2D, { x, y }: Spot, radius: number): void {
   path.moveTo(x + radius, y);
   path.arc(x, y, radius, 0, 2 * Math.PI);
 }
 
-/** An arrow around a point; its head shows the direction, on a screen whose y leads down. */
-function addArrow(path: Path2D, x: number, y: number, half: number, heading_deg: number): void {
+/** Turns what leads to the right into a direction, on a screen whose y leads down. */
+function turned({ x, y }: Spot, heading_deg: number): (along: number, across: number) => [number, number] {
   const angle = (-heading_deg * Math.PI) / 180;
-  const at = (along: number, across: number): [number, number] => [
-    x + along * Math.cos(angle) - across * Math.sin(angle),
-    y + along * Math.sin(angle) + across * Math.cos(angle),
-  ];
+  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+  return (along, across) => [x + along * cos - across * sin, y + along * sin + across * cos];
+}
+
+function addChevron(path: Path2D, spot: Spot, half: number, heading_deg: number): void {
+  const at = turned(spot, heading_deg);
+  path.moveTo(...at(-half / 2, -half));
+  path.lineTo(...at(half / 2, 0));
+  path.lineTo(...at(-half / 2, half));
+}
+
+function addArrow(path: Path2D, spot: Spot, half: number, heading_deg: number): void {
+  const at = turned(spot, heading_deg);
   path.moveTo(...at(-half, 0));
   path.lineTo(...at(half, 0));
   path.moveTo(...at(half * 0.35, -half * 0.6));
@@ -157,7 +181,7 @@ function iconOf({ rule, heading_deg }: MapZone, x: number, y: number): Path2D {
     path.moveTo(x, y + 2);
     path.lineTo(x - 3, y - 2);
   } else if (rule === "one_way") {
-    addArrow(path, x, y, 6, heading_deg ?? 0);
+    addArrow(path, { x, y }, 6, heading_deg ?? 0);
   } else if (rule === "preferred") {
     path.moveTo(x - 5, y);
     path.lineTo(x - 1.5, y + 4);

@@ -11,6 +11,7 @@ export const USUAL_SPEED_M_S = 0.3;
 const SLOWEST_M_S = 0.05;
 const FASTEST_M_S = 5;
 const MOST_ROBOTS = 20;
+const NO_NUMBER = { speed_m_s: null, robots: null, heading_deg: null };
 const HEADINGS = [0, 45, 90, 135, 180, 225, 270, 315] as const;
 
 /** A rule with its number: the speed where robots drive slowly, how many may be in it, where they drive one way. */
@@ -49,7 +50,7 @@ export function RuleField({ value, change }: RuleFieldProps) {
           max={FASTEST_M_S}
           decimalScale={2}
           known={speed_m_s ?? USUAL_SPEED_M_S}
-          keep={(next) => change({ rule, speed_m_s: next, robots: null, heading_deg: null })}
+          keep={(next) => change({ ...NO_NUMBER, rule, speed_m_s: next })}
         />
       ) : null}
       {rule === "one_at_a_time" ? (
@@ -60,14 +61,11 @@ export function RuleField({ value, change }: RuleFieldProps) {
           max={MOST_ROBOTS}
           decimalScale={0}
           known={robots ?? 1}
-          keep={(next) => change({ rule, speed_m_s: null, robots: next, heading_deg: null })}
+          keep={(next) => change({ ...NO_NUMBER, rule, robots: next })}
         />
       ) : null}
       {rule === "one_way" ? (
-        <HeadingField
-          known={heading_deg ?? 0}
-          keep={(next) => change({ rule, speed_m_s: null, robots: null, heading_deg: next })}
-        />
+        <HeadingField known={heading_deg ?? 0} keep={(next) => change({ ...NO_NUMBER, rule, heading_deg: next })} />
       ) : null}
     </>
   );
