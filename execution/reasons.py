@@ -43,6 +43,7 @@ SENTENCES: Mapping[str, str] = {
     "door_shut": "{door} did not open in time.",
     "no_door": "{door} is no approved device that can be told to open.",
     "no_way": "There is no way for {robot} to {target}.",
+    "zones_shut": "Zones leave no way for {robot} to {target}. Change a zone on the map, or choose another place.",
     "no_standing": "No robot can stand at {place}; there is no free side that it can reach.",
     "no_room": "A robot cannot stand at ({point}); choose a place with more room.",
     "not_reached": "No robot can reach ({point}).",

@@ -23,6 +23,7 @@ from execution.traffic.messages import RoleBound, RoleReleased
 from execution.traffic.path_release import cut_path, set_path
 from execution.traffic.precedence import Waiting, in_groups, note_behind
 from execution.traffic.route_points import leads_along, path_along, points_ahead, set_points
+from execution.traffic.routes import plan_path
 from execution.traffic.turn import Turn
 from vipo_device.protocol.description import Description
 from vipo_device.protocol.messages import EXPLORE
@@ -255,9 +256,19 @@ def _go(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:
     if path is None:
         point = task.order.target.point
         where = turn.name(task.order.target.id) if point is None else f"({point[0]:.2f}, {point[1]:.2f})"
-        turn.finish(task, "blocked", f"There is no way for {turn.name(robot.id)} to {where}.")
+        why = f"There is no way for {turn.name(robot.id)} to {where}."
+        if _is_open_without_zones(turn, robot, spot):
+            why = (
+                f"Zones leave no way for {turn.name(robot.id)} to {where}. Change a zone on the map, or choose another "
+            )
+            why += "place."
+        turn.finish(task, "blocked", why)
         return
     set_points(turn, set_path(turn, robot, path[0]), task, path[1])
+
+
+def _is_open_without_zones(turn: Turn, robot: Robot, spot: Spot) -> bool:
+    return plan_path(replace(turn.layout, zones=()), turn.node(robot), spot.id) is not None
 
 
 def _act(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:

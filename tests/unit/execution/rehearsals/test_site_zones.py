@@ -50,13 +50,38 @@ def test_a_goal_in_a_zone_to_keep_out_of_fails_the_rehearsal():
     everywhere = ((0.0, -6.0), (6.0, -6.0), (6.0, 0.0), (0.0, 0.0))
     _, result = driven("kinematic", ZoneFacts("z", "Goods in", "keep_out", everywhere))
     assert result["ok"] is False
-    assert result["errors"][0]["message"].startswith("There is no way for")
+    assert result["errors"][0]["message"].startswith("Zones leave no way for")
+
+
+HALF = ((6.0, -14.0), (10.0, -14.0), (10.0, 0.0), (6.0, 0.0))
+"""From wall to wall across the demo's factory: robots come from the docks in the east."""
+
+
+def test_a_rehearsal_is_told_that_a_one_way_zone_leaves_no_way_and_drives_where_it_does():
+    shut = driven("kinematic", ZoneFacts("z", "Aisle", "one_way", HALF, heading_deg=0.0))[1]
+    assert shut["errors"][0]["message"] == (
+        "Zones leave no way for TurtleBot 1 to Item Inventory. Change a zone on the map, or choose another place."
+    )
+    track, open_ = driven("kinematic", ZoneFacts("z", "Aisle", "one_way", HALF, heading_deg=180.0))
+    assert (open_["ok"], track) == (True, driven("kinematic")[0])
+
+
+def test_a_rehearsal_drives_over_preferred_floor():
+    usual, _ = driven("kinematic")
+    lanes = [((4.0, y), (17.0, y), (17.0, y + 0.5), (4.0, y + 0.5)) for y in (-8.9, -8.4, -7.9, -7.4)]
+    inside = [sum(lies_in(point, lane) for point in usual) for lane in lanes]
+    lane = lanes[inside.index(min(inside))]
+    track, result = driven("kinematic", ZoneFacts("z", "Road", "preferred", lane))
+    assert result["ok"]
+    assert sum(lies_in(point, lane) for point in track) > len(track) / 4 > min(inside)
 
 
 def test_a_job_carries_its_zones_and_one_from_before_has_none():
     zones = (
         ZoneFacts("a", "Aisle", "keep_out", ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0))),
         ZoneFacts("b", "Door", "slow", ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0)), 0.3),
+        ZoneFacts("c", "Lane", "one_way", ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0)), heading_deg=90.0),
+        ZoneFacts("d", "Road", "preferred", ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0))),
     )
     body = json.loads(json.dumps(scene_to_json(demo_floor.scene(), demo_floor.places(), zones)))
     assert scene_from_json(body)[2] == zones
