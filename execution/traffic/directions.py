@@ -11,13 +11,13 @@ from execution.traffic.outlines import touches_way
 from registry.floorplan.lattice import Lattice, Point
 
 ACROSS = 0.1
-"""Who drives across a one-way zone goes neither with it nor against it: the cosine of the angle is smaller than this
-where the direction is one of the lattice's."""
+"""A way whose angle to a zone's direction has a cosine nearer to 0 than this leads across it, not against it: up to
+5 degrees from a right angle."""
 Way = tuple[int, int]
 """From a cell to its neighbour."""
 
 
-def is_against(zone: FloorZone, start: Point, end: Point) -> bool:
+def _is_against(zone: FloorZone, start: Point, end: Point) -> bool:
     """Tell whether a straight way leads over a one-way zone against its direction; across it one may drive."""
     if zone.rule != "one_way" or zone.heading_deg is None:
         return False
@@ -34,7 +34,7 @@ def ways_against(lattice: Lattice, zones: Iterable[FloorZone]) -> frozenset[Way]
         if zone.rule == "one_way"
         for cell in _cells_near(lattice, zone)
         for neighbour in lattice.links[cell]
-        if is_against(zone, lattice.centre(cell), lattice.centre(neighbour))
+        if _is_against(zone, lattice.centre(cell), lattice.centre(neighbour))
     )
 
 
@@ -53,7 +53,4 @@ def _cells_near(lattice: Lattice, zone: FloorZone) -> Iterator[int]:
     """Go through the cells in a zone's bounding box, and those beside it."""
     (left, right), (bottom, top) = ((min(axis), max(axis)) for axis in zip(*zone.points, strict=True))
     near_m = lattice.side_m * 1.001
-    for cell in lattice.links:
-        x, y = lattice.centre(cell)
-        if left - near_m < x < right + near_m and bottom - near_m < y < top + near_m:
-            yield cell
+    return lattice.cells_in_box(left - near_m, bottom - near_m, right + near_m, top + near_m)

@@ -73,6 +73,10 @@ class Layout:
         """The cells where robots drive rather than elsewhere; none where the floor says nothing of that."""
         return preferred_cells(self.lattice, self.zones)
 
+    def is_against(self, start: Node, end: Node) -> bool:
+        """Tell whether a way leads against a one-way zone; the last step between a cell and a spot is not judged."""
+        return isinstance(start, int) and isinstance(end, int) and (start, end) in self.against
+
     def name(self, thing: str) -> str:
         """Return what people call a device or a place."""
         return self.names.get(thing, thing)

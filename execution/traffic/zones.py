@@ -38,10 +38,8 @@ def _find_cells(layout: Layout, zone: FloorZone) -> Iterator[int]:
     lattice, reach_m = layout.lattice, layout.ground.radius_m
     near_m = reach_m + lattice.side_m / 2
     (left, right), (bottom, top) = ((min(axis), max(axis)) for axis in zip(*zone.points, strict=True))
-    for cell in lattice.links:
+    for cell in lattice.cells_in_box(left - near_m, bottom - near_m, right + near_m, top + near_m):
         x, y = lattice.centre(cell)
-        if not (left - near_m < x < right + near_m and bottom - near_m < y < top + near_m):
-            continue
         ways = _half_ways(layout, cell) if zone.rule != "door" else (((x, y), (x, y)),)
         if any(touches_way(zone.points, *way, reach_m) for way in ways):
             yield cell
@@ -135,8 +133,8 @@ def enters_at(turn: Turn, robot: Robot) -> int | None:
     layout, zones = turn.layout, tuple(_zones(turn, robot, "keep_out"))
     shut = shut_cells(layout, zones)
     for index, node in enumerate(robot.path[robot.passed + 1 :], robot.passed + 1):
-        way = (layout.cell(robot.path[index - 1]), layout.cell(node))
-        if way[1] in shut or way in layout.against or is_shut_spot(layout, zones, node):
+        is_against = layout.is_against(robot.path[index - 1], node)
+        if is_against or layout.cell(node) in shut or is_shut_spot(layout, zones, node):
             return index
     return None
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from math import ceil, hypot
+from math import ceil, floor, hypot
 from typing import Protocol
 
 import numpy as np
@@ -79,16 +79,27 @@ class Lattice:
                     found.append((round(distance, 9), r * self.columns + c))
         return [cell for _, cell in sorted(found)]
 
+    def cells_in_box(self, left: float, bottom: float, right: float, top: float) -> Iterator[int]:
+        """Go through the cells that one can stand on and whose middle lies between these metres, edges included."""
+        (x, y), side = self.origin, self.side_m
+        columns = range(max(0, ceil((left - x) / side - 0.5)), min(self.columns, floor((right - x) / side - 0.5) + 1))
+        for row in range(max(0, ceil((bottom - y) / side - 0.5)), min(self.rows, floor((top - y) / side - 0.5) + 1)):
+            for cell in range(row * self.columns + columns.start, row * self.columns + columns.stop):
+                if cell in self.links:
+                    yield cell
+
     def distances(
         self, start: int, closed: Iterable[int] = (), closed_links: Collection[tuple[int, int]] = ()
     ) -> dict[int, int]:
         """Return the number of links from a cell to every cell that can be reached without the closed ones."""
-        shut = set(closed)
+        shut, open_links = set(closed), not closed_links
         found, queue = {start: 0}, deque([start])
         while queue:
             cell = queue.popleft()
             for neighbour in self.links.get(cell, ()):
-                if neighbour not in found and neighbour not in shut and (cell, neighbour) not in closed_links:
+                if neighbour in found or neighbour in shut:
+                    continue
+                if open_links or (cell, neighbour) not in closed_links:
                     found[neighbour] = found[cell] + 1
                     queue.append(neighbour)
         return found

@@ -129,11 +129,13 @@ def zone_to_json(zone: ZoneFacts) -> dict[str, Any]:
 
 def zone_from_json(body: Mapping[str, Any]) -> ZoneFacts:
     """Read a zone of a site's floor. Raises UnreadableSite."""
-    name, points, speed, robots = body.get("id"), body.get("points"), body.get("speed_m_s"), body.get("robots", 1)
+    name, points, rule, robots = body.get("id"), body.get("points"), body.get("rule"), body.get("robots", 1)
     corners = [_corner(point) for point in points] if isinstance(points, list) else []
     good = isinstance(name, str) and name and len(corners) >= FEWEST_CORNERS and None not in corners
-    needed = {"slow": speed, "one_way": body.get("heading_deg")}.get(str(body.get("rule")), 0)
-    if not good or not _is_finite(needed) or body.get("rule") not in ZONE_RULES:
+    speed_m_s = _number(body.get("speed_m_s")) if rule == "slow" else None
+    heading_deg = _number(body.get("heading_deg")) if rule == "one_way" else None
+    lacks = (rule == "slow" and speed_m_s is None) or (rule == "one_way" and heading_deg is None)
+    if not good or lacks or rule not in ZONE_RULES:
         raise UnreadableSite(
             f"Zone {name} needs an id, a rule: {', '.join(ZONE_RULES)}, points: at least {FEWEST_CORNERS} [x, y] in"
             " metres, for slow a speed_m_s, and for one_way a heading_deg."
@@ -143,15 +145,19 @@ def zone_from_json(body: Mapping[str, Any]) -> ZoneFacts:
             f"Zone {name} must say with a whole number from 1 to {MOST_ROBOTS} how many robots may be in it at once."
         )
     outline = tuple(corner for corner in corners if corner is not None)
-    speed_m_s = float(speed) if body["rule"] == "slow" and isinstance(speed, int | float) else None
-    heading_deg = float(needed) % 360 if body["rule"] == "one_way" and isinstance(needed, int | float) else None
-    return ZoneFacts(str(name), str(body.get("name", name)), body["rule"], outline, speed_m_s, robots, heading_deg)
+    turned = None if heading_deg is None else heading_deg % 360
+    return ZoneFacts(str(name), str(body.get("name", name)), rule, outline, speed_m_s, robots, turned)
 
 
 def _corner(point: object) -> tuple[float, float] | None:
     if not isinstance(point, list | tuple) or len(point) != 2 or not all(map(_is_finite, point)):
         return None
     return (float(point[0]), float(point[1]))
+
+
+def _number(value: object) -> float | None:
+    """Return a number as it is said; None for what is none."""
+    return float(value) if isinstance(value, int | float) and _is_finite(value) else None
 
 
 def _is_finite(value: object) -> bool:

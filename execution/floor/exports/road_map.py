@@ -11,15 +11,24 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot
+from typing import NamedTuple
 
-from execution.traffic.directions import is_against
 from execution.traffic.layout import Layout, Node
 from execution.traffic.messages import FloorZone
 from execution.traffic.zones import is_in, is_shut_spot, path_outside, shut_cells
 
 _Ends = tuple[str, str]
-_Links = dict[Node, dict[Node, frozenset[FloorZone]]]
-"""What each node is joined to, and the zones on the way there: of one-way ones those that shut it."""
+
+
+class _Way(NamedTuple):
+    """A straight way from one node to another: the zones on it, and whether it leads against one that is one-way."""
+
+    zones: frozenset[FloorZone]
+    is_shut: bool
+
+
+_Links = dict[Node, dict[Node, _Way]]
+"""What each node is joined to, and the way there."""
 NEAREST = 3
 """So many neighbours of a place are joined to it directly."""
 
@@ -68,7 +77,7 @@ def make_road_map(layout: Layout) -> RoadMap:
         for ends in (*pairs, *back):
             for a, b in pairwise(path_outside(layout, layout.zones, ends) or ()):
                 zones = _zones_at(layout, a) | _zones_at(layout, b)
-                _join(links, a, b, (zones | _shutting(layout, a, b), zones | _shutting(layout, b, a)))
+                _join(links, a, b, _Way(zones, layout.is_against(a, b)), _Way(zones, layout.is_against(b, a)))
     for node in [node for node in links if isinstance(node, int)]:
         _straighten(layout, links, node)
     nodes = sorted(links, key=_order)
@@ -121,16 +130,9 @@ def _zones_at(layout: Layout, node: Node) -> frozenset[FloorZone]:
     )
 
 
-def _shutting(layout: Layout, a: Node, b: Node) -> frozenset[FloorZone]:
-    """Return the one-way zones that shut the way from one cell to the next; the last step to a stop is open."""
-    if not isinstance(a, int) or not isinstance(b, int):
-        return frozenset()
-    return frozenset(zone for zone in layout.zones if is_against(zone, layout.point(a), layout.point(b)))
-
-
-def _join(links: _Links, a: Node, b: Node, zones: tuple[frozenset[FloorZone], frozenset[FloorZone]]) -> None:
-    """Join two nodes; `zones` are those on the way there, and back."""
-    links.setdefault(a, {})[b], links.setdefault(b, {})[a] = zones
+def _join(links: _Links, a: Node, b: Node, there: _Way, back: _Way) -> None:
+    links.setdefault(a, {})[b] = there
+    links.setdefault(b, {})[a] = back
 
 
 def _straighten(layout: Layout, links: _Links, node: Node) -> None:
@@ -143,7 +145,7 @@ def _straighten(layout: Layout, links: _Links, node: Node) -> None:
     is_straight = abs((x - ax) * (by - y) - (y - ay) * (bx - x)) < 1e-6 and b not in links[a]
     if there == links[node][b] and back == links[node][a] and is_straight:
         del links[a][node], links[b][node], links[node]
-        _join(links, a, b, (there, back))
+        _join(links, a, b, there, back)
 
 
 def _order(node: Node) -> tuple[bool, str, int]:
@@ -163,14 +165,10 @@ def _id(node: Node) -> str:
 
 def _road(links: _Links, a: Node, b: Node) -> Road | None:
     """Return the road between two nodes, in its direction if it has one; None where zones shut it both ways."""
-    zones, there, back = links[a][b], _is_shut(links[a][b]), _is_shut(links[b][a])
+    (zones, there), (_, back) = links[a][b], links[b][a]
     if there and back:
         return None
     start, end = (b, a) if there else (a, b)
     speeds = [zone.speed_m_s for zone in zones if zone.rule == "slow" and zone.speed_m_s]
     alone = sorted(zone.key for zone in zones if zone.rule == "one_at_a_time" and zone.robots == 1)
     return Road(_id(start), _id(end), min(speeds, default=None), tuple(alone), there or back)
-
-
-def _is_shut(zones: frozenset[FloorZone]) -> bool:
-    return any(zone.rule == "one_way" for zone in zones)

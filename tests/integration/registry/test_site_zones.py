@@ -205,3 +205,24 @@ def test_a_route_on_the_drawing_goes_round_a_zone_to_keep_out_of_and_there_is_no
     assert round_it["length_m"] > straight + 1
     assert not any(3.8 < x < 6.2 and 3.8 < y < 6.2 for x, y in round_it["path"])
     assert route([5.25, 5.25]) is None
+
+
+def test_a_route_on_the_drawing_goes_round_a_zone_that_leads_against_it(admin: Client) -> None:
+    services.save_map(site="hall", grid=Grid(100, 100, 0.1, 0.0, 0.0, bytes(10_000)))
+
+    def length_m(start: list[float], to: list[float]) -> float:
+        found = post_json(admin, "/api/sites/hall/routes", {"pairs": [{"from": start, "to": to}]}).json()[0]
+        return float(found["length_m"])
+
+    west, east = [2.25, 5.25], [8.25, 5.25]
+    straight = length_m(west, east)
+    at = post_json(
+        admin,
+        ZONES,
+        {**AISLE, "rule": "one_way", "heading_deg": 180, "points": [[4, 4], [6, 4], [6, 6], [4, 6]]},
+    )["Location"]
+    assert length_m(west, east) > straight + 1
+    assert length_m(east, west) == straight
+    patch_json(signed_in("admin"), at, {"heading_deg": 0})
+    assert length_m(west, east) == straight
+    assert length_m(east, west) > straight + 1

@@ -107,4 +107,4 @@ class PretendFloor:
         robots = [
             (r.id, r.path[r.passed :][:3], r.evading, r.yields_to, r.blocked_since) for r in self.state.robots.values()
         ]
-        return robots, [(j.run, j.task, j.robot, j.wait) for j in self.state.tasks], dict(self.state.stations)
+        return robots, [(j.run, j.number, j.robot, j.wait) for j in self.state.tasks], dict(self.state.stations)

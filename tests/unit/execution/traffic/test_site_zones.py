@@ -96,7 +96,8 @@ def test_a_zone_that_is_narrower_than_the_gap_between_cells_is_not_driven_throug
     wire = ((x - 0.01, bottom), (x + 0.01, bottom), (x + 0.01, top), (x - 0.01, top))
     floor = floor_with(zone("keep_out", wire), poses={"robot01": WEST})
     go(floor, "r", EAST, "robot01")
-    assert floor.over["r", 1] == ("blocked", f"There is no way for {layout.name('robot01')} to (18.00, -8.00).")
+    why = f"Zones leave no way for {layout.name('robot01')} to (18.00, -8.00). "
+    assert floor.over["r", 1] == ("blocked", why + "Change a zone on the map, or choose another place.")
     assert floor.at["robot01"] == WEST
 
 
