@@ -33,7 +33,7 @@ from editor.language.tree import nodes as n
 from editor.language.tree.program import Tree
 from editor.language.tree.robots import with_roles_of_robots
 
-VARIABLE_FIELDS = frozenset({"variable", "result"})
+VARIABLE_FIELDS = frozenset({"variable", "result", "index"})
 """Parameters that name a variable."""
 
 

@@ -369,6 +369,28 @@ def test_nothing_in_a_step_before_makes_drawing_raise(document: dict[str, Any], 
     assert compile_document(tree_to_document(tree, factory(), document), factory()).tree == tree
 
 
+def test_a_script_that_sets_what_a_loop_counts_with_speaks_of_the_same_variable() -> None:
+    """The document calls it “Paint count”; a second variable of nearly that name would become another one."""
+    before = migrate(
+        {
+            "format": 2,
+            "steps": {
+                "f": {"kind": "for_each", "place": ["program", "body", "V"],
+                      "params": {"variable": "can", "index": "Paint count", "items": [1, 2]}},
+            },
+        }
+    )  # fmt: skip
+    text = compile_document(before, factory()).script
+    loop = "for paint_count, can in enumerate([1, 2], 1):"
+    assert loop in text
+    tree = parse_script(text.replace(loop, f"self.paint_count = 0\n        {loop}"), factory()).tree
+    assert tree is not None
+    drawn = tree_to_document(tree, factory(), before)
+    assert compile_document(drawn, factory()).tree == tree
+    steps: Any = drawn["steps"]
+    assert [s["params"]["variable"] for s in steps.values() if s["kind"] == "set"] == ["Paint count"]
+
+
 def test_a_value_that_named_nothing_gets_no_sense_from_a_new_variable() -> None:
     before = migrate(
         {
