@@ -228,6 +228,9 @@ def test_nothing_was_acknowledged_to_the_broker_before_it_was_kept(plant: Plant)
 
 
 def test_a_connection_that_is_cut_is_made_anew(plant: Plant) -> None:
+    plant.describe("Third")
+    plant.say_states(1)
+    plant.wait_kept("Third")
     connection.close()
     with psycopg.connect(plant.postgres.url, autocommit=True) as other:
         others = "FROM pg_stat_activity WHERE datname = 'vipo' AND pid <> pg_backend_pid()"
@@ -292,9 +295,12 @@ def test_live_news_and_hints_come_back_with_redis(plant: Plant) -> None:
     news: list[str] = []
     live = make_live(plant.redis.url)
     live.listen(lambda _slug, message: news.append(json.dumps(message)))
+    plant.describe("Fifth")
+    plant.say_states(1)
+    plant.wait_kept("Fifth")
     plant.redis.kill()
     plant.say_states(20)
-    plant.wait_kept("Fourth")
+    plant.wait_kept("Fifth")
     commands = {name: add_command(name, due_in_s=0) for name in NAMES}
     wait_heard(plant, commands)
     plant.redis.start()
@@ -313,5 +319,10 @@ def test_live_news_and_hints_come_back_with_redis(plant: Plant) -> None:
 
     wait_for("the hint", is_woken)
     live.close()
-    assert plant.log_lines("Redis does not answer") == 1
-    assert plant.log_lines("Redis answers again") == 1
+    # One thread's question from before may fail after another's was answered: that is told as a second time.
+    wait_for("the end of it in the log", lambda: plant.log_lines("Redis answers again") == told_away(plant))
+    assert 1 <= told_away(plant) <= 2
+
+
+def told_away(plant: Plant) -> int:
+    return plant.log_lines("Redis does not answer")
