@@ -139,6 +139,8 @@ class LibraryFunction(models.Model):
     """What it was made from, at which version of that."""
     found_by = models.TextField(blank=True, default="")
     """All words that it is found by, as `editor.library.words` folds them."""
+    demands = models.TextField(default="[]")
+    """What its newest version needs of devices, as `editor.language.signatures.fit` writes it."""
     updated_at = models.DateTimeField(auto_now=True)
 
     class Meta:

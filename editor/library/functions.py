@@ -12,6 +12,7 @@ from django.db import transaction
 from editor.documents.shared_document import empty_document, migrate_document
 from editor.documents.store import get_document
 from editor.errors import BadRequest, NameTaken, NoSuchProgram, NotYours
+from editor.language.signatures.fit import demands_of
 from editor.language.signatures.signature import signature_of
 from editor.language.site.signature import Signature, signature_to_json
 from editor.language.site.surroundings import DeviceFacts
@@ -132,6 +133,7 @@ def _store_version(site_id: int, said: Said, content: _Content) -> LibraryFuncti
         row.description = said.description or row.description
         row.visibility = said.visibility or row.visibility
         row.found_by = words_of(row.name, row.description, content.definition, content.signature, content.devices)
+        row.demands = demands_of(content.signature.needs)
         row.save()
         version = LibraryVersion.objects.create(
             function=row,

@@ -14,7 +14,7 @@ from editor.documents.shared_document import migrate_document
 from editor.errors import NoSuchProgram
 from editor.language.reading.well_formed import well_formed_function
 from editor.language.signatures.compatibility import Reason, find_reasons
-from editor.language.signatures.fit import find_lacks
+from editor.language.signatures.fit import are_met, find_lacks
 from editor.language.site.signature import Need, signature_from_json
 from editor.language.site.surroundings import DeviceFacts
 from editor.library.access import changer, seen_by
@@ -88,12 +88,13 @@ class VersionsCompared:
 
 
 def search_library(
-    *, user: Any, site: str = "", query: str = "", fits: str = "", part: Part = FIRST
+    *, user: Any, site: str = "", query: str = "", fits: str = "", only_fitting: bool = False, part: Part = FIRST
 ) -> Listed[LibraryView]:
     """Return the functions that somebody sees, of one site or all, that have every word of the query, by name.
 
     Words are those of name and description, of the steps in both languages, and of what devices are and do; each fits
-    at the beginning of one. With `fits` each tells what the devices of that site cannot do of it.
+    at the beginning of one. With `fits` each tells what the devices of that site cannot do of it;
+    `only_fitting` leaves out those of which they lack anything.
 
     Raises BadMark.
     """
@@ -103,9 +104,13 @@ def search_library(
         rows = rows.filter(site__slug=site)
     for stem in stems_of(query):
         rows = rows.filter(found_by__contains=f" {stem}")
+    devices = find_devices(site=fits) if fits else None
+    if only_fitting and devices is not None:
+        known = rows.order_by().values_list("demands", flat=True).distinct()
+        rows = rows.filter(demands__in=[demands for demands in known if are_met(demands, devices)])
     rows = rows.prefetch_related(Prefetch("versions", queryset=newest, to_attr="newest"))
     found = registry.take_part(rows=rows, by="name", part=part, view=lambda row: row)
-    reader = _Reader(user, find_devices(site=fits) if fits else None, found)
+    reader = _Reader(user, devices, found)
     shown: Listed[LibraryView] = Listed(reader.view(row, vars(row)["newest"][0]) for row in found)
     shown.rest = found.rest
     return shown

@@ -43,7 +43,12 @@ def search_library(request: HttpRequest, response: HttpResponse, asked: Query[Li
         if site:
             require(request.user, site, "viewer")
     found = queries.search_library(
-        user=signed_in(request), site=asked.site, query=asked.q, fits=asked.fits, part=asked.part()
+        user=signed_in(request),
+        site=asked.site,
+        query=asked.q,
+        fits=asked.fits,
+        only_fitting=asked.only_fitting,
+        part=asked.part(),
     )
     shown: Listed[dict[str, Any]] = Listed(function_to_json(view) for view in found)
     shown.rest = found.rest

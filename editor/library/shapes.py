@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Any, Literal, get_args
+from typing import Any, Literal, Self, get_args
 from uuid import UUID
 
 from ninja import Field, Schema
+from pydantic import model_validator
 
 from editor.language.signatures.compatibility import Code, Reason
 from editor.library.queries import LibraryView, VersionLine, VersionsCompared
@@ -21,12 +22,20 @@ MOST_VERSION = 1_000_000_000
 class LibraryAsked(PartAsked):
     """Which functions are asked for: those that all words of `q` fit, by name or by what they do; of one site if named.
 
-    With `fits`, the name of a site, each tells what the devices there cannot do of it.
+    With `fits`, the name of a site, each tells what the devices there cannot do of it; with `only_fitting` those are
+    left out of which they lack anything.
     """
 
     q: Line = Field("", max_length=200)
     site: Line = Field("", max_length=100)
     fits: Line = Field("", max_length=100)
+    only_fitting: bool = False
+
+    @model_validator(mode="after")
+    def _fits_somewhere(self) -> Self:
+        if self.only_fitting and not self.fits:
+            raise ValueError("Name with fits the site whose devices shall lack nothing.")
+        return self
 
 
 class FitAsked(Asked):

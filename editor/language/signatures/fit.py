@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -36,6 +37,24 @@ def find_lacks(needs: Iterable[Need], devices: Mapping[str, DeviceFacts]) -> tup
         elif matches[0].lacks:
             found[_of_that(need, matches[0].lacks)] = None
     return tuple(found)
+
+
+def demands_of(needs: Iterable[Need]) -> str:
+    """Return what decides whether anybody lacks anything, as one text: the needs without names, sorted."""
+    demands = {(need.of, tuple(sorted(need.abilities))) for need in needs}
+    return json.dumps(sorted(demands), ensure_ascii=False, separators=(",", ":"))
+
+
+def are_met(demands: str, devices: Mapping[str, DeviceFacts]) -> bool:
+    """Tell whether the devices of a site lack nothing of what `demands_of` wrote."""
+    needs = (
+        Need(of, "", "", *(_named(kind, abilities) for kind in ABILITIES)) for of, abilities in json.loads(demands)
+    )
+    return not find_lacks(needs, devices)
+
+
+def _named(kind: str, abilities: Iterable[tuple[str, str]]) -> tuple[str, ...]:
+    return tuple(name for of, name in abilities if of == kind)
 
 
 def _of_that(need: Need, abilities: tuple[tuple[str, str], ...]) -> Need:

@@ -50,7 +50,7 @@ export const keys = {
   alerts: (slug: string) => ["alerts", slug] as const,
   overAlerts: (slug: string) => ["over-alerts", slug] as const,
   runEvents: (id: string) => ["run-events", id] as const,
-  library: (q: string, fits: string) => ["library", q, fits] as const,
+  library: (q: string, fits: string, onlyFitting: boolean) => ["library", q, fits, onlyFitting] as const,
   libraryFunction: (id: string, ...more: readonly (string | number)[]) => ["library-function", id, ...more] as const,
   rehearsal: (id: string) => ["rehearsal", id] as const,
   findings: (slug: string) => ["findings", slug] as const,
@@ -225,10 +225,11 @@ const FUNCTIONS_AT_ONCE = 60;
  * The functions that have the words, by name, part after part. What was found last stays until the next answer is
  * there: a list that goes while people type cannot be pressed.
  */
-export const useLibrary = (q: string, fits = "") => {
-  const asked = `q=${encodeURIComponent(q)}&fits=${encodeURIComponent(fits)}`;
+export const useLibrary = (q: string, fits = "", onlyFitting = false) => {
+  const only = onlyFitting ? "&only_fitting=true" : "";
+  const asked = `q=${encodeURIComponent(q)}&fits=${encodeURIComponent(fits)}${only}`;
   return useInfiniteQuery({
-    queryKey: keys.library(q, fits),
+    queryKey: keys.library(q, fits, onlyFitting),
     queryFn: ({ pageParam }) => api.part<LibraryFunction>(pageParam),
     initialPageParam: `/library?limit=${FUNCTIONS_AT_ONCE}&${asked}`,
     getNextPageParam: (last) => last.next,

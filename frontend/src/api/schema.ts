@@ -4593,7 +4593,8 @@ export interface components {
         /**
          * @description Which functions are asked for: those that all words of `q` fit, by name or by what they do; of one site if named.
          *
-         *     With `fits`, the name of a site, each tells what the devices there cannot do of it.
+         *     With `fits`, the name of a site, each tells what the devices there cannot do of it; with `only_fitting` those are
+         *     left out of which they lack anything.
          */
         LibraryAsked: {
             /** @default  */
@@ -4602,6 +4603,8 @@ export interface components {
             fits: string;
             /** @default 200 */
             limit: number;
+            /** @default false */
+            only_fitting: boolean;
             /** @default  */
             q: string;
             /** @default  */
@@ -6792,6 +6795,7 @@ export interface operations {
                 q?: string;
                 site?: string;
                 fits?: string;
+                only_fitting?: boolean;
             };
             header?: never;
             path?: never;

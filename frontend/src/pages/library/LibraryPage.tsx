@@ -2,7 +2,7 @@
 import { Button, Checkbox, TextInput } from "@mantine/core";
 import { useDebouncedValue } from "@mantine/hooks";
 import { Search, SquareFunction } from "lucide-react";
-import { useEffect, useState } from "react";
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useParams } from "react-router-dom";
 import { useLibrary, useLibraryFunction } from "@/api/queries";
@@ -17,8 +17,6 @@ import styles from "./library.module.css";
 import { NothingFound } from "../NothingFound";
 import pages from "../pages.module.css";
 import { TableSkeleton } from "../TableSkeleton";
-
-const FITTING_AT_ONCE = 30;
 
 function EmptyLibrary({ slug }: { slug: string }) {
   const { t } = useTranslation();
@@ -45,14 +43,9 @@ export function LibraryPage() {
   const [typed, setTyped] = useState("");
   const [query] = useDebouncedValue(typed.trim(), 200);
   const [fitting, setFitting] = useState(false);
-  const found = useLibrary(query, slug);
-  const { hasNextPage, isFetching, isFetchNextPageError, fetchNextPage } = found;
-  const items = (found.data ?? []).filter((item) => !fitting || item.lacks?.length === 0);
-  const needsMore = fitting && items.length < FITTING_AT_ONCE && hasNextPage;
-  useEffect(() => {
-    // Which functions fit is told part by part: those that do may stand far behind.
-    if (needsMore && !isFetching && !isFetchNextPageError) void fetchNextPage();
-  }, [needsMore, isFetching, isFetchNextPageError, fetchNextPage]);
+  const found = useLibrary(query, slug, fitting);
+  const { hasNextPage, isFetchNextPageError, fetchNextPage } = found;
+  const items = found.data ?? [];
   const narrowed = query !== "" || fitting;
   const clear = () => {
     setTyped("");
@@ -88,7 +81,7 @@ export function LibraryPage() {
         </div>
         {found.isPending ? <TableSkeleton /> : null}
         {found.isLoadingError ? <LoadProblem error={found.error} again={() => void found.refetch()} /> : null}
-        {found.data && items.length === 0 && narrowed && !needsMore ? <NothingFound clear={clear} /> : null}
+        {found.data && items.length === 0 && narrowed ? <NothingFound clear={clear} /> : null}
         {found.data && items.length === 0 && !narrowed ? <EmptyLibrary slug={slug} /> : null}
         <ul className={styles.cards}>
           {items.map((item) => (

@@ -118,6 +118,59 @@ def test_a_list_tells_what_the_devices_of_a_site_lack(hall: str) -> None:
     assert signed_in("stranger").get(f"/api/library/{here[0]['id']}?fits=hall").status_code == 404
 
 
+def test_those_that_devices_can_do_are_found_behind_many_that_they_cannot(hall: str) -> None:
+    robot = {"lift": operate("", "lift", F)}
+    robot["lift"]["params"]["device"] = {"role": "robot"}
+    lifting = save(mixing(more=robot), name="liftPaint", visibility="everyone").json()["id"]
+    one = LibraryFunction.objects.get(pk=lifting)
+    version = one.versions.get()
+    for number in range(70):
+        one.pk, one.name = None, f"liftPaint {number:02}"
+        one._state.adding = True
+        one.save()
+        version.pk, version.function = None, one
+        version.save()
+    save(mixing(), name="mixPaint", visibility="everyone")
+    client = signed_in("elsewhere")
+    found = client.get("/api/library?fits=hall&only_fitting=true&limit=5")
+    assert [(each["name"], each["lacks"]) for each in found.json()] == [("mixPaint", [])]
+    assert "Link" not in found.headers
+    assert client.get("/api/library?fits=shed&only_fitting=true").json() == []
+    assert client.get("/api/library?fits=hall&only_fitting=true&q=lift").json() == []
+    Device.objects.update(lifecycle="retired")
+    assert client.get("/api/library?fits=hall&only_fitting=true").json() == []
+
+
+def test_a_next_version_that_needs_something_else_is_found_by_what_it_needs(hall: str) -> None:
+    save(document({"w": step("wait", F, duration=1)}, functions={"f": {"name": "rest", "parameters": []}}), name="rest")
+    client = signed_in("author")
+
+    def fitting() -> list[str]:
+        return [each["name"] for each in client.get("/api/library?fits=hall&only_fitting=true").json()]
+
+    assert fitting() == ["rest"]
+    robot = {"lift": operate("", "lift", F)}
+    robot["lift"]["params"]["device"] = {"role": "robot"}
+    assert save(mixing(more=robot), name="rest").json()["version"] == 2
+    assert fitting() == []
+
+
+def test_only_what_fits_is_asked_with_a_site_that_one_sees(hall: str) -> None:
+    refused = signed_in("author").get("/api/library?only_fitting=true")
+    assert refused.status_code == 422
+    assert "Name with fits the site" in refused.content.decode()
+    assert signed_in("stranger").get("/api/library?fits=hall&only_fitting=true").status_code == 404
+
+
+def test_what_functions_from_before_need_is_noted_when_the_database_is_brought_up_to_date(hall: str) -> None:
+    function = save(mixing(MINUTES)).json()["id"]
+    demands = LibraryFunction.objects.get(pk=function).demands
+    assert "mix" in demands
+    LibraryFunction.objects.update(demands="[]")
+    import_module("editor.migrations.0012_library_demands").note_demands(apps, None)
+    assert LibraryFunction.objects.get(pk=function).demands == demands
+
+
 def test_who_holds_a_function_is_shown_as_far_as_one_sees_their_sites(hall: str) -> None:
     function = save(mixing(), visibility="everyone").json()["id"]
     for site, name, version in (("hall", "Here", 1), ("shed", "There", 1)):

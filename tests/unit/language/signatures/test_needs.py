@@ -6,7 +6,10 @@ import json
 from dataclasses import replace
 from typing import Any
 
-from editor.language.signatures.fit import find_lacks, find_matches
+from hypothesis import given
+from hypothesis import strategies as st
+
+from editor.language.signatures.fit import are_met, demands_of, find_lacks, find_matches
 from editor.language.signatures.needs import find_needs, find_places
 from editor.language.signatures.signature import signature_of
 from editor.language.site.signature import Need, Port
@@ -103,6 +106,18 @@ def test_a_site_that_can_all_lacks_nothing_and_another_what_nobody_there_can() -
         ("machine", "Curing Oven", ("curePaint",)),
     }
     assert {each.name for each in find_lacks(needs, {})} == {need.name for need in needs}
+
+
+WORDS = st.sampled_from(["pick", "drop", "curePaint", "mixPaint", "can", "temperature", "lift", 'say "ß"', ""])
+LISTS = st.lists(WORDS, max_size=3).map(tuple)
+NEEDS = st.builds(Need, st.sampled_from(["robot", "machine", "parameter"]), WORDS, WORDS, LISTS, LISTS, LISTS, LISTS)
+
+
+@given(needs=st.lists(NEEDS, max_size=4), names=st.sets(st.sampled_from(sorted(DEVICES))))
+def test_demands_are_met_where_nothing_is_lacked(needs: list[Need], names: set[str]) -> None:
+    devices = {name: DEVICES[name] for name in names}
+    assert are_met(demands_of(needs), devices) == (find_lacks(needs, devices) == ())
+    assert demands_of(reversed(needs)) == demands_of([*needs, *needs])
 
 
 def test_who_waits_for_approval_or_is_retired_does_not_count() -> None:
