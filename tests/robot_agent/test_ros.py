@@ -9,6 +9,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -21,6 +22,7 @@ from registry.floorplan.plan import Grid
 from tests.kit.files import ROOT
 from tests.kit.mqtt import Ear, ServerSide
 from tests.kit.servers import Mosquitto, answers, free_port, must_be_installed, run_mosquitto, wait_ready
+from tests.kit.waiting import PATIENCE_S
 from tests.robot_agent.bridge_stand_in import BridgeStandIn
 from tests.robot_agent.pretend_robot import HEIGHT, WIDTH, map_cells
 from vipo_device.descriptions.reader import read_description
@@ -245,7 +247,8 @@ def drives(server: ServerSide) -> None:
 def stands_still(server: ServerSide) -> None:
     """Wait until half a second passes in which no state tells of another place."""
     still: Callable[[], bool] = lambda: not server.states()  # noqa: E731 - it is read twice
-    for _ in range(100):
+    late = time.monotonic() + PATIENCE_S
+    while time.monotonic() < late:
         server.ear.forget()
         try:
             server.ear.wait(lambda h: h.topic == server.up("state"), 0.5)
