@@ -52,11 +52,6 @@ def get_content(*, program_id: UUID, number: int | None = None) -> ContentView:
     return ContentView(program_id, program.site, program.name, number, document, digest)
 
 
-def get_digest(*, program_id: UUID) -> str:
-    """Return the digest of a program as it is drawn now. Raises NoSuchProgram, DocumentHole."""
-    return digest_of(get_document(program_id=program_id))
-
-
 def find_numbers(*, program_id: UUID, digests: Iterable[str]) -> dict[int, str]:
     """Return the numbers of a program's versions that hold these contents, each with its digest."""
     rows = Version.objects.filter(program_id=program_id, digest__in=set(digests))

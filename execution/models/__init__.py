@@ -3,7 +3,7 @@
 from execution.models.archives import Archivable, Archive, Keeping
 from execution.models.commands import Command
 from execution.models.mirror import Calibration, Measurement
-from execution.models.program_tests import ProgramTest, TrialResult, TrialRun
+from execution.models.program_tests import MeantChange, ProgramTest, TrialResult, TrialRun
 from execution.models.rehearsals import Rehearsal
 from execution.models.runs import ArmedProgram, Question, Run, RunEvent, RunInput, Timer
 from execution.models.sites import DeadLetter, FloorState, InboxEvent, Lease, SiteLease, SiteStop, StopFollowed
@@ -19,6 +19,7 @@ __all__ = [
     "InboxEvent",
     "Keeping",
     "Lease",
+    "MeantChange",
     "Measurement",
     "ProgramTest",
     "Question",

@@ -76,6 +76,31 @@ class TrialRun(models.Model):
         return f"tests of {self.program_id}"
 
 
+class MeantChange(models.Model):
+    """A change of a program that no test notices, at a step or of a role, and who has said that it is meant so.
+
+    `mark` is a digest of what the step did then.
+    """
+
+    program = models.ForeignKey("editor.Program", on_delete=models.CASCADE, related_name="+")
+    step = models.CharField(max_length=100, blank=True)
+    code = models.CharField(max_length=40)
+    name = models.CharField(max_length=200, blank=True)
+    mark = models.CharField(max_length=32)
+    at = models.DateTimeField()
+    by = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
+
+    class Meta:
+        """Each is said once."""
+
+        constraints = [
+            models.UniqueConstraint(fields=["program", "step", "code", "name"], name="one_meant_change_each")
+        ]
+
+    def __str__(self) -> str:
+        return f"{self.code} at {self.step or self.name} of {self.program_id}"
+
+
 class TrialResult(models.Model):
     """What came of a test in a run of tests; `revision` is that of the test, `detail` what was expected and seen.
 

@@ -10,7 +10,8 @@ from uuid import UUID
 from django.db.models import QuerySet
 
 from editor import services as editor
-from execution.models import ProgramTest, Rehearsal, TrialResult, TrialRun
+from execution.models import MeantChange, ProgramTest, Rehearsal, TrialResult, TrialRun
+from execution.program_tests.meant_changes import ChangeKey, find_meant, mark_of
 from execution.program_tests.site_digests import Digests, digests_of, what_changed
 from execution.program_tests.stored_tests import MOST_TESTS, tag_of
 from execution.reasons import cause_of
@@ -26,8 +27,9 @@ Latest = Mapping[UUID, TrialResult]
 
 def show_tests(*, program: UUID, asker: int) -> dict[str, Any]:
     """Return a program's tests with their last results, as JSON (`ProgramTestsShape`). Raises NoSuchProgram."""
-    digest = editor.get_digest(program_id=program)
-    site = digests_of(editor.get_program(program_id=program).site)
+    content = editor.get_content(program_id=program)
+    digest = content.digest
+    site = digests_of(content.site)
     rows = ProgramTest.objects.filter(program=program).select_related("edited_by").defer("text")
     tests = list(rows.order_by("created_at", "name"))
     known = TrialResult.objects.filter(test__program=program).order_by("-at", "-pk")
@@ -42,7 +44,7 @@ def show_tests(*, program: UUID, asker: int) -> dict[str, Any]:
         "under_way": [run_to_json(run, asker) for run in reversed(under_way)],
         "last": run_to_json(over, asker) if over else None,
         "coverage": _coverage(program, results, digest),
-        "changes": _changes(program, tests, digest),
+        "changes": _changes(program, tests, digest, content.document),
     }
 
 
@@ -110,7 +112,9 @@ def _result_to_json(result: TrialResult, test: ProgramTest, digest: str, site: D
     }
 
 
-def _changes(program: UUID, tests: Sequence[ProgramTest], digest: str) -> dict[str, Any] | None:
+def _changes(
+    program: UUID, tests: Sequence[ProgramTest], digest: str, document: Mapping[str, Any]
+) -> dict[str, Any] | None:
     """Return which changes of the program no test noticed when they were tried last."""
     run = TrialRun.objects.filter(program=program, changes__isnull=False).order_by("-created_at").first()
     if run is None:
@@ -118,7 +122,23 @@ def _changes(program: UUID, tests: Sequence[ProgramTest], digest: str) -> dict[s
     found = dict(run.changes or {})
     tried_with = found.pop("tests")
     is_same = run.digest == digest and tried_with == sorted([str(test.pk), test.revision] for test in tests)
-    return {**found, "stale": not is_same, "number": run.number, "at": run.ended_at}
+    meant = find_meant(program=program)
+    unnoticed = [_unnoticed_to_json(each, meant, document) for each in found["unnoticed"]]
+    return {**found, "unnoticed": unnoticed, "stale": not is_same, "number": run.number, "at": run.ended_at}
+
+
+def _unnoticed_to_json(
+    change: Mapping[str, Any], meant: Mapping[ChangeKey, MeantChange], document: Mapping[str, Any]
+) -> dict[str, Any]:
+    key = ChangeKey(change["step"], change["code"], change["name"])
+    mark, said = mark_of(key, document), meant.get(key)
+    holds = said if said is not None and said.mark == mark else None
+    return {
+        **change,
+        "mark": mark,
+        "meant_at": holds.at if holds else None,
+        "meant_by": holds.by.display_name if holds and holds.by else "",
+    }
 
 
 def _latest(results: Sequence[Key]) -> Latest:

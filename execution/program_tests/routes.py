@@ -15,9 +15,11 @@ from editor import services as editor
 from editor.services import NoSuchProgram
 from execution.program_tests import stored_tests
 from execution.program_tests.first_text import first_text
+from execution.program_tests.meant_changes import ChangeKey, set_meant
 from execution.program_tests.overview import list_version_tests, run_to_json, runs_of, show_tests
 from execution.program_tests.shapes import (
     FirstTextShape,
+    MeantChangeToSay,
     ProgramTestsShape,
     TestLookShape,
     TestRunShape,
@@ -129,6 +131,15 @@ def delete_test(
     """Delete a test with its results, if it is still what was read."""
     _program(request, program, "author")
     stored_tests.delete_test(program=program, test=test, tag=if_match)
+    return Status(204, None)
+
+
+@router.post("/programs/{uuid:program}/tests/meant-changes", response={204: None}, openapi_extra=refuses(409))
+def say_change_is_meant(request: HttpRequest, program: UUID, body: MeantChangeToSay) -> Status[None]:
+    """Say that it is meant so that no test notices a change of a program as it is now, or that it is not."""
+    _program(request, program, "author")
+    change = ChangeKey(body.step, body.code, body.name)
+    set_meant(program=program, change=change, mark=body.mark, meant=body.meant, user=signed_in(request))
     return Status(204, None)
 
 

@@ -11,7 +11,7 @@ from ninja import Field, Schema
 from execution.program_tests.stored_tests import MOST_TESTS, MOST_TEXT
 from execution.program_tests.test_runs import MOST_SEEDS
 from execution.shapes import Cause, OfVersion
-from registry.requests import Asked
+from registry.requests import Asked, Line
 
 MOST_FILE = 1_000_000
 Status = Literal["queued", "running", "done", "failed", "cancelled"]
@@ -155,7 +155,8 @@ class CoverageShape(Schema):
 class UnnoticedChange(Schema):
     """A change of the program that no test notices: at a step (its id, empty for a role) and a line of the script.
 
-    `code` is what was changed, `name` of which role; `reached` tells whether any test comes there at all.
+    `code` is what was changed, `name` of which role; `reached` tells whether any test comes there at all. `mark` stands
+    for what the step does now; `meant_by` is who has said of that step that it is meant so, at `meant_at`.
     """
 
     step: str
@@ -163,6 +164,9 @@ class UnnoticedChange(Schema):
     code: str
     name: str
     reached: bool
+    mark: str
+    meant_at: datetime | None
+    meant_by: str
 
 
 class ChangesShape(Schema):
@@ -237,6 +241,16 @@ class FirstTextShape(Schema):
 
     text: str
     of_rehearsal: bool
+
+
+class MeantChangeToSay(Asked):
+    """That it is meant so that no test notices a change, or that it is not; as the change is listed, with its mark."""
+
+    step: Line = Field("", max_length=100)
+    code: Line = Field(max_length=40)
+    name: Line = Field("", max_length=200)
+    mark: Line = Field("", max_length=32)
+    meant: bool
 
 
 class TestsToRun(Asked):

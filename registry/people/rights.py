@@ -102,7 +102,7 @@ DEEDS = (
         """delete_program rename_program draw_script pin_version name_version copy_version look_at_restoring
         restore_version make_changes save_function fork_function change_function create_program put_document
         put_script look_at_promotion promote_program add_test look_at_test show_first_text import_tests write_test
-        delete_test""",
+        delete_test say_change_is_meant""",
     ),
     _deed(
         "equip",

@@ -54,6 +54,7 @@ BODIES: dict[str, dict[str, Any]] = {
     "add_test": {"text": "name: It is quick\nthen:\n- within_s: 60\n"},
     "look_at_test": {"text": ""},
     "import_tests": {"text": ""},
+    "say_change_is_meant": {"code": "turned", "meant": False},
     "write_test": {"text": "name: It ends\nthen:\n- ends: well\n"},
     "use_robot_map": {"device": "{device}", "version": 1, "replaces": 1},
     "set_review_rule": {"approvals": 0, "least_role": "author"},

@@ -996,6 +996,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/programs/{program}/tests/meant-changes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Say Change Is Meant
+         * @description Say that it is meant so that no test notices a change of a program as it is now, or that it is not.
+         */
+        post: operations["say_change_is_meant"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/programs/{program}/tests/{test}": {
         parameters: {
             query?: never;
@@ -4832,6 +4852,17 @@ export interface components {
             may_create_sites: boolean;
             user: components["schemas"]["Person"] | null;
         };
+        /** @description That it is meant so that no test notices a change, or that it is not; as the change is listed, with its mark. */
+        MeantChangeToSay: {
+            code: string;
+            /** @default  */
+            mark: string;
+            meant: boolean;
+            /** @default  */
+            name: string;
+            /** @default  */
+            step: string;
+        };
         /** @description What the copy took for a command, and what the device took. */
         MeasuredShape: {
             predicted_s: number;
@@ -6194,11 +6225,15 @@ export interface components {
         /**
          * @description A change of the program that no test notices: at a step (its id, empty for a role) and a line of the script.
          *
-         *     `code` is what was changed, `name` of which role; `reached` tells whether any test comes there at all.
+         *     `code` is what was changed, `name` of which role; `reached` tells whether any test comes there at all. `mark` stands
+         *     for what the step does now; `meant_by` is who has said of that step that it is meant so, at `meant_at`.
          */
         UnnoticedChange: {
             code: string;
             line: number;
+            mark: string;
+            meant_at: string | null;
+            meant_by: string;
             name: string;
             reached: boolean;
             step: string;
@@ -9031,6 +9066,51 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["TestLookShape"];
                 };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    say_change_is_meant: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["MeantChangeToSay"];
+            };
+        };
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];

@@ -68,7 +68,7 @@ def test_each_function_of_a_long_library_is_reached(page: Page) -> None:
     page.get_by_role("checkbox", name="Runs on our devices").check()
     expect(page.get_by_text("The first 60 functions", exact=True)).to_be_visible()
     expect(page.get_by_role("link", name=re.compile("Resting 129"))).to_have_count(0)
-    assert len(asked) == 1 and "only_fitting=true" in asked[0], asked
+    assert ["only_fitting=true" in url for url in asked] == [True], asked
     page.goto(base + last)
     expect(page.get_by_role("complementary", name="Resting 129")).to_be_visible()
     page.keyboard.press("Control+k")

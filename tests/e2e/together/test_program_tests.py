@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 import re
+from typing import Any
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.e2e.conftest import SignIn
+from tests.e2e.conftest import SignIn, make_member
 from tests.e2e.screens import ask, draw_task, make_program, program_named, saved, tell, violations
+from tests.kit.demo import Demo
+from tests.kit.programs import document, step
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
@@ -94,3 +97,53 @@ def test_a_test_is_written_mended_and_carried_out_by_keyboard(sign_in: SignIn, f
     assert (last["number"], last["passed"], last["total"]) == (1, 1, 1)
     expect(page.get_by_text("1 of 1 test passes")).to_be_visible()
     shoot(page, "tests-history")
+
+
+def missed(page: Page) -> str:
+    """Make a program with a check that its only test does not look at, try its changes, and return its address."""
+    steps = {
+        "choice": step("if", condition={"op": ">", "args": [2, 1]}),
+        "pause": step("wait", ("choice", "then"), duration=5),
+    }
+    program = tell(page, "/api/sites/painting-factory/programs", {"name": "With a check"})["id"]
+    base = re.sub(r"(https?://[^/]+).*", r"\1", page.url)
+    path = f"/api/programs/{program}"
+    tag = page.request.get(f"{base}{path}/document").headers["etag"]
+    headers = {"X-CSRFToken": ask(page, "/api/me")["csrf"], "If-Match": tag}
+    put = page.request.put(f"{base}{path}/document", data={**document(steps), "format": 2}, headers=headers)
+    assert put.status == 204, put.text()
+    tell(page, f"{path}/tests", {"text": "name: It ends\nthen:\n- ends: well\n"})
+    tell(page, f"{path}/test-runs", {"changes": True})
+    wait_for("what came of the changes", lambda: ask(page, f"{path}/tests")["changes"], 60.0)
+    return f"{base}/programs/{program}"
+
+
+def test_what_is_meant_so_is_set_aside_for_all_until_the_step_is_changed(
+    sign_in: SignIn, demo: Demo, signed_in: dict[str, Any]
+) -> None:
+    signed_in["reader"] = make_member(demo, "viewer", "Rita Reads")
+    page, other, reader = sign_in("author"), sign_in("admin"), sign_in("reader")
+    address = missed(page)
+    panels = []
+    for each in (page, other, reader):
+        each.goto(address)
+        panels.append(open_tests(each))
+    mine, theirs, seen = (panel.get_by_role("region", name="What no test notices") for panel in panels)
+    for region in (mine, theirs, seen):
+        expect(region.get_by_text("0 of 3 noticed")).to_be_visible()
+    expect(seen.get_by_role("button", name=re.compile("meant so"))).to_have_count(0)
+    turned = re.compile("^It is meant so: .* if the condition is turned round$")
+    mine.get_by_role("button", name=turned).press("Enter")
+    for region in (mine, theirs, seen):
+        expect(region.get_by_text("1 is meant so")).to_be_visible()
+    expect(theirs.get_by_role("button", name=turned)).to_have_count(0)
+    shoot(page, "tests-meant")
+    assert violations(page) == []
+    theirs.locator("summary").press("Enter")
+    expect(theirs.get_by_text(re.compile("Said by .*, while the step stays as it is."))).to_be_visible()
+    shoot(other, "tests-meant-open")
+    assert violations(other) == []
+    theirs.get_by_role("button", name=re.compile("^It is not meant so: ")).press("Enter")
+    for region in (mine, theirs, seen):
+        expect(region.get_by_text("1 is meant so")).to_have_count(0)
+    expect(mine.get_by_role("button", name=turned)).to_be_visible()

@@ -73,6 +73,7 @@ def test_every_answer_has_a_shape(described):
         ("put", "/api/programs/{program}/document", "204"),
         ("put", "/api/programs/{program}/script", "204"),
         ("post", "/api/programs/{program}/stored", "204"),
+        ("post", "/api/programs/{program}/tests/meant-changes", "204"),
         ("delete", "/api/programs/{program}/tests/{test}", "204"),
         ("post", "/api/programs/{program}/threads/{thread}/read", "204"),
         ("post", "/api/sign-in/providers/{provider}/logout", "204"),

@@ -1,6 +1,7 @@
 /** Which changes of the program no test notices: what could be taken out of it, and all tests would still pass. */
 import { Button } from "@mantine/core";
 import { CircleCheck, Plus, ShieldQuestion, TriangleAlert } from "lucide-react";
+import type { ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { mayOperate } from "@/api/roles";
 import type { ProgramTests, UnnoticedChange } from "@/api/types";
@@ -8,8 +9,8 @@ import { showSteps } from "../commands/view";
 import { useOpenProgram } from "../state/context";
 import { select } from "../state/ui";
 import classes from "./tests.module.css";
-import { keepDraft, NEW, openTest } from "./tests";
-import { useRun } from "./useRun";
+import { keepDraft, NEW, openTest, useTesting } from "./tests";
+import { tell, useRun } from "./useRun";
 
 export function ChangesList({ tests }: { tests: ProgramTests }) {
   const { t } = useTranslation();
@@ -42,6 +43,8 @@ export function ChangesList({ tests }: { tests: ProgramTests }) {
 function Found({ changes }: { changes: NonNullable<ProgramTests["changes"]> }) {
   const { t } = useTranslation();
   const { noticed, tried, there_are: all } = changes;
+  const open = changes.unnoticed.filter((each) => each.meant_at === null);
+  const meant = changes.unnoticed.filter((each) => each.meant_at !== null);
   if (changes.why === "failing") return <p>{t("tests.changes.failing")}</p>;
   if (all === 0) return <p>{t("tests.changes.no_changes")}</p>;
   const rest = changes.out_of_time
@@ -54,25 +57,40 @@ function Found({ changes }: { changes: NonNullable<ProgramTests["changes"]> }) {
         {tried < all ? `. ${rest}` : ""}
       </p>
       {changes.stale ? <p className={classes.stale}>{t("tests.changes.stale")}</p> : null}
-      {changes.unnoticed.length === 0 && tried > 0 ? (
+      {open.length === 0 && tried > 0 ? (
         <p className={classes.all}>
           <CircleCheck size={16} aria-hidden="true" />
-          {t("tests.changes.none")}
+          {t(meant.length > 0 ? "tests.changes.none_but_meant" : "tests.changes.none")}
         </p>
       ) : null}
       <ul className={classes.missed}>
-        {changes.unnoticed.map((each, index) => (
-          <Unnoticed key={index} change={each} />
+        {open.map((each) => (
+          <Unnoticed key={keyOf(each)} change={each} />
         ))}
       </ul>
+      {meant.length > 0 ? (
+        <details className={classes.meant}>
+          <summary>{t("tests.changes.meant", { count: meant.length })}</summary>
+          <ul className={classes.missed}>
+            {meant.map((each) => (
+              <Unnoticed key={keyOf(each)} change={each} />
+            ))}
+          </ul>
+        </details>
+      ) : null}
     </>
   );
 }
 
+const keyOf = ({ step, code, name }: UnnoticedChange) => `${step} ${code} ${name}`;
+
 function Unnoticed({ change }: { change: UnnoticedChange }) {
   const { t } = useTranslation();
   const open = useOpenProgram();
+  const tests = useTesting(open.program.id);
   const { step } = change;
+  const isMeant = change.meant_at !== null;
+  const what = t(`tests.changes.what.${change.code}`, { name: change.name });
   const kind = open.document.steps[step]?.kind;
   const number = open.compiled?.numbers[step] ?? "";
   const where = kind ? t("tests.where", { number, kind: open.t(`kind.${kind}`) }) : t("tests.the_program");
@@ -87,25 +105,65 @@ function Unnoticed({ change }: { change: UnnoticedChange }) {
   return (
     <li className={classes.unnoticed}>
       <button type="button" disabled={!kind} onClick={go}>
-        <TriangleAlert size={14} aria-hidden="true" />
+        {isMeant ? <CircleCheck size={14} aria-hidden="true" /> : <TriangleAlert size={14} aria-hidden="true" />}
         <span>
-          <strong>{where.trim()}</strong> {t(`tests.changes.what.${change.code}`, { name: change.name })}
+          <strong>{where.trim()}</strong> {what}
           {change.reached ? null : <small> {t("tests.changes.not_reached")}</small>}
+          {isMeant ? (
+            <small> {t("tests.changes.meant_by", { name: change.meant_by || t("tests.changes.somebody") })}</small>
+          ) : null}
         </span>
       </button>
       {open.canEdit ? (
-        <Button
-          size="compact-xs"
-          variant="subtle"
-          className={classes.write}
-          leftSection={<Plus size={12} aria-hidden="true" />}
-          aria-label={`${t("tests.changes.write")}: ${where.trim()}`}
-          onClick={write}
-        >
-          {t("tests.changes.write")}
-        </Button>
+        <div className={classes.answers}>
+          {isMeant ? null : (
+            <Answer
+              icon={<Plus size={12} aria-hidden="true" />}
+              text={t("tests.changes.write")}
+              of={where.trim()}
+              act={write}
+            />
+          )}
+          {change.mark === "" ? null : (
+            <Answer
+              text={t(isMeant ? "tests.changes.not_meant" : "tests.changes.is_meant")}
+              of={`${where.trim()} ${what}`}
+              isBusy={tests.isPending}
+              act={() => void tests.say(change, !isMeant).catch(tell(t))}
+            />
+          )}
+        </div>
       ) : null}
     </li>
+  );
+}
+
+/** What one may do about a change that no test notices. */
+function Answer({
+  icon,
+  text,
+  of,
+  isBusy = false,
+  act,
+}: {
+  icon?: ReactNode;
+  text: string;
+  of: string;
+  isBusy?: boolean;
+  act: () => void;
+}) {
+  return (
+    <Button
+      size="compact-xs"
+      variant="subtle"
+      className={classes.write}
+      leftSection={icon}
+      aria-label={`${text}: ${of}`}
+      disabled={isBusy}
+      onClick={act}
+    >
+      {text}
+    </Button>
   );
 }
 

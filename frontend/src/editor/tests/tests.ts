@@ -4,7 +4,7 @@ import { create } from "zustand";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import { useOnce } from "@/api/once";
-import type { ProgramTest, ProgramTests, Rehearsal, TestRun, TestText } from "@/api/types";
+import type { ProgramTest, ProgramTests, Rehearsal, TestRun, TestText, UnnoticedChange } from "@/api/types";
 
 /** What somebody writes and has not saved; a new test has no `id`, and no `tag` of what was read. */
 export interface Draft {
@@ -106,6 +106,10 @@ export function useTesting(program: string) {
     remove: (id: string, tag: string) => done(() => api.delete(`${path}/tests/${id}`, tag)),
     bringIn: (text: string) => done(() => api.post<TestText[]>(`${path}/tests/import`, { text })),
     run: (asked: Asked) => done(() => begin<TestRun>(`${path}/test-runs`, asked)),
+    say: (change: UnnoticedChange, meant: boolean) => {
+      const { step, code, name, mark } = change;
+      return done(() => api.post(`${path}/tests/meant-changes`, { step, code, name, mark, meant }));
+    },
     cancel: (rehearsal: string) => done(() => api.post(`/rehearsals/${rehearsal}/cancel`)),
   };
 }

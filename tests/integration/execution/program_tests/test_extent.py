@@ -9,13 +9,13 @@ import pytest
 from django.test import Client
 
 from editor import services as editor
-from execution.models import TrialRun
+from execution.models import MeantChange, TrialRun
 from execution.program_tests.site_digests import MOST_NAMED, what_changed
 from execution.rehearsals import worker
 from registry import services as registry
 from tests.integration.execution.program_tests.conftest import FAILS, PASSES, UNUSABLE, add, put
 from tests.kit.programs import SITE, document, step
-from tests.kit.sign_in import post_json, sign_in_member
+from tests.kit.sign_in import add_person, post_json, sign_in_member, signed_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 NOTICES = "name: It waits\nthen:\n  - ends: well\n  - step: {step: pause, times: 1}\n"
@@ -117,3 +117,66 @@ def test_what_nobody_knows_of_a_site_is_no_change() -> None:
     assert what_changed(now, now) is None
     assert what_changed(now, {**now, "zones": "c", "devices": {}}) == {"what": "zones", "devices": []}
     assert len((what_changed(now, {**now, "devices": {}}) or {})["devices"]) == MOST_NAMED
+
+
+def say(client: Client, program: Any, change: dict[str, Any], *, meant: bool = True) -> Any:
+    said = {key: change[key] for key in ("step", "code", "name", "mark")}
+    return post_json(client, f"/api/programs/{program}/tests/meant-changes", {**said, "meant": meant})
+
+
+def change_step(client: Client, program: Any, **said: Any) -> None:
+    """Change the step that decides; without anything said take it out."""
+    path = f"/api/programs/{program}/document"
+    document = client.get(path)
+    changed = document.json()
+    if said:
+        changed["steps"]["choice"] |= said
+    else:
+        del changed["steps"]["choice"]
+    tag = {"If-Match": document.headers["ETag"]}
+    assert client.put(path, changed, content_type="application/json", headers=tag).status_code == 204
+
+
+def test_a_change_is_meant_so_while_its_step_stays_as_it_is(client: Client, program: Any) -> None:
+    add(client, program, "name: It ends\nthen:\n  - ends: well\n")
+    turned, always, _ = carry_out(client, program, changes=True)["changes"]["unnoticed"]
+    assert (turned["code"], turned["meant_at"], turned["meant_by"]) == ("turned", None, "")
+    for _ in range(2):
+        assert say(client, program, turned).status_code == 204
+    assert MeantChange.objects.count() == 1
+    first, second, third = shown(client, program)["changes"]["unnoticed"]
+    assert (first["meant_by"] != "", first["meant_at"] is not None) == (True, True)
+    assert (second["meant_at"], third["meant_at"]) == (None, None)
+    again = carry_out(client, program, changes=True)["changes"]["unnoticed"]
+    assert [each["meant_at"] is not None for each in again] == [True, False, False]
+
+    change_step(client, program, pos=[3, 3])
+    assert shown(client, program)["changes"]["unnoticed"][0]["meant_at"] is not None, "it was only drawn elsewhere"
+    change_step(client, program, params={"condition": {"op": ">", "args": [3, 1]}})
+    first, *_ = shown(client, program)["changes"]["unnoticed"]
+    assert first["meant_at"] is None
+    assert first["mark"] != turned["mark"]
+    late = say(client, program, always)
+    assert (late.status_code, late.json()["code"]) == (409, "not_possible_now")
+    assert say(client, program, first).status_code == 204
+    assert say(client, program, first, meant=False).status_code == 204
+    assert shown(client, program)["changes"]["unnoticed"][0]["meant_at"] is None
+
+
+def test_only_what_tests_have_missed_can_be_meant_so_and_only_authors_say_it(client: Client, program: Any) -> None:
+    add(client, program, "name: It ends\nthen:\n  - ends: well\n")
+    unknown = {"step": "choice", "code": "turned", "name": "", "mark": ""}
+    assert say(client, program, unknown).status_code == 404
+    turned, *_ = carry_out(client, program, changes=True)["changes"]["unnoticed"]
+    for role in ("operator", "viewer"):
+        assert say(sign_in_member(role, SITE), program, turned).status_code == 403
+    add_person("stranger")
+    assert say(signed_in("stranger"), program, turned).status_code == 404
+    assert say(Client(), program, turned).status_code == 401
+    assert say(client, program, {**turned, "step": "elsewhere"}).status_code == 404
+    assert say(client, program, {**turned, "code": "x" * 41}).status_code == 422
+    change_step(client, program)
+    for mark in (turned["mark"], ""):
+        assert say(client, program, {**turned, "mark": mark}).status_code == 409
+    assert shown(client, program)["changes"]["unnoticed"][0]["mark"] == ""
+    assert MeantChange.objects.count() == 0
