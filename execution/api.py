@@ -40,6 +40,7 @@ from execution.shapes import (
     RunSummaryShape,
     StartRun,
 )
+from execution.stand_ins.routes import router as stand_ins_router
 from execution.views import (
     armed_to_json,
     call_to_json,
@@ -61,6 +62,7 @@ router.add_router("", mirror_router)
 router.add_router("", operations_router)
 router.add_router("", program_tests_router)
 router.add_router("", retention_router)
+router.add_router("", stand_ins_router)
 _RECORDINGS = {"json": "application/json", "mcap": "application/octet-stream"}
 _SENDS_RECORDING = {
     "responses": {

@@ -44,6 +44,9 @@ SENTENCES: Mapping[str, str] = {
     "no_door": "{door} is no approved device that can be told to open.",
     "no_way": "There is no way for {robot} to {target}.",
     "zones_shut": "Zones leave no way for {robot} to {target}. Change a zone on the map, or choose another place.",
+    "body_stands": (
+        "The real {body} stands where {robot} has to pass to {target}. Let it be moved, or use the real one again."
+    ),
     "no_standing": "No robot can stand at {place}; there is no free side that it can reach.",
     "no_room": "A robot cannot stand at ({point}); choose a place with more room.",
     "not_reached": "No robot can reach ({point}).",

@@ -48,6 +48,7 @@ from registry.devices.descriptions import DescriptionMessage, find_unchanged, in
 from registry.devices.enrolment import NotOfSite, ReservedDevice, enrol_device, expect_device, reserve_device
 from registry.devices.legacy_topics import TopicNotAsked, TopicTaken, confirm_topic, list_granted_topics, withdraw_topic
 from registry.devices.lifecycle import (
+    IsSimulated,
     NotPending,
     NotRetired,
     approve_device,
@@ -79,6 +80,7 @@ from registry.devices.reads import (
 )
 from registry.devices.rows import BadDevice, NoSuchDevice
 from registry.devices.samples import flush_samples, note_samples, prune_samples
+from registry.devices.stand_ins import StandInView, list_simulated_ids, list_stand_ins, switch_stand_in
 from registry.devices.states import StateMessage, ingest_state, ingest_states
 from registry.devices.views import DeviceView, device_to_json
 from registry.live.fanout import EVERY_SITE, Message, Outage, listen, publish, publish_all, subscribe, wait_wake, wake
@@ -134,7 +136,7 @@ from registry.people.watch import Seat, watch_of_this_loop
 from registry.processes.children import sigint_blocked
 from registry.processes.counters import BOUNDS_S, MEASURES, Measure, count, counters_to_json, time_spent, watch_amount
 from registry.processes.findings import Finding, find_trouble
-from registry.processes.heart import Heart
+from registry.processes.heart import Heart, ProcessKind
 from registry.processes.heartbeats import ProcessView, list_processes, prune_processes, read_time
 from registry.sites.invitations import prune_invitations
 from registry.sites.members import PersonView, list_people, remove_member, set_member
@@ -175,6 +177,7 @@ __all__ = [
     "DeviceView",
     "Finding",
     "Heart",
+    "IsSimulated",
     "Listed",
     "Login",
     "MapChanged",
@@ -201,6 +204,7 @@ __all__ = [
     "PointView",
     "PositionView",
     "Principal",
+    "ProcessKind",
     "ProcessView",
     "QueryAnswer",
     "Raised",
@@ -212,6 +216,7 @@ __all__ = [
     "SeriesView",
     "Session",
     "SiteView",
+    "StandInView",
     "Standing",
     "StateMessage",
     "StopView",
@@ -306,8 +311,10 @@ __all__ = [
     "list_positions",
     "list_processes",
     "list_server_audit",
+    "list_simulated_ids",
     "list_sites",
     "list_slugs",
+    "list_stand_ins",
     "list_tokens",
     "list_with_role",
     "list_zones",
@@ -369,6 +376,7 @@ __all__ = [
     "sigint_blocked",
     "site_to_json",
     "subscribe",
+    "switch_stand_in",
     "take_part",
     "time_spent",
     "update_device",

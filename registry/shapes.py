@@ -221,6 +221,8 @@ class DeviceShape(Schema):
     simulated: bool
     image: str
     description: str
+    stand_in: bool
+    stands_at: PoseShape | None
     has_key: bool
     dropped: int
 

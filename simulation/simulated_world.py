@@ -116,6 +116,10 @@ class SimulatedWorld:
         """Return what each machine holds."""
         return {name: dict(machine.stock) for name, machine in self._by_kind.machines.items()}
 
+    def set_stock(self, machine: str, stock: Mapping[str, int]) -> None:
+        """Say what a machine holds by now, as after a delivery."""
+        self._by_kind.machines[machine].set_stock(self._asked_s, stock)
+
     def remembered(self) -> dict[str, list[Ack]]:
         """Return the final answers that each device would give again, oldest first."""
         now = self._asked_s

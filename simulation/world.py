@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from math import inf
 from typing import Literal, Protocol
 
-from registry.floorplan.plan import Grid
+from registry.floorplan.plan import FREE, Grid
 from simulation.behaviour import Kind
 from vipo_device.protocol.description import Description, Pose, Scalar
 from vipo_device.protocol.messages import AckStatus, is_final
@@ -119,6 +119,12 @@ class FaultBegan:
     fault: Fault
 
 
+def open_floor(around: Pose) -> Grid:
+    """Return a floor without walls: where nobody asks whether a path is free, but how long it takes."""
+    half_m = 5_000.0
+    return Grid(1, 1, 2 * half_m, around.x - half_m, around.y - half_m, bytes([FREE]))
+
+
 WorldEvent = Ack | PropertyChanged | Contact | FaultBegan
 
 
@@ -162,6 +168,9 @@ class World(Protocol):
 
     def stocks(self) -> Mapping[str, Mapping[str, int]]:
         """Return what each machine holds."""
+
+    def set_stock(self, machine: str, stock: Mapping[str, int]) -> None:
+        """Say what a machine holds by now, as after a delivery."""
 
     def remembered(self) -> Mapping[str, Sequence[Ack]]:
         """Return the final answers that each device would give again, oldest first (at most 16)."""

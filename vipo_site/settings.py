@@ -43,13 +43,13 @@ if not SERVED:
     open_state(VIPO_STATE_DIR)
 
 VIPO_PROCESS = os.environ.get("VIPO_PROCESS", "")
-"""What runs here where a process is not to see every secret: web, gateway, worker, ticker, mirror, twin, connector."""
-if VIPO_PROCESS not in {"", "web", "gateway", "worker", "ticker", "mirror", "twin", "connector"}:
-    raise ImproperlyConfigured(
-        f"VIPO_PROCESS is {VIPO_PROCESS!r}; it names web, gateway, worker, ticker, mirror, twin, connector."
-    )
+"""What runs here where a process is not to see every secret: web, gateway, worker, ticker, mirror, stand-ins,
+twin, connector."""
+_PROCESSES = ("web", "gateway", "worker", "ticker", "mirror", "stand-ins", "twin", "connector")
+if VIPO_PROCESS not in {"", *_PROCESSES}:
+    raise ImproperlyConfigured(f"VIPO_PROCESS is {VIPO_PROCESS!r}; it names {', '.join(_PROCESSES)}.")
 _SIGNS = VIPO_PROCESS in {"", "web"}
-_SPEAKS_FOR_VIPO = VIPO_PROCESS in {"", "web", "gateway", "mirror"}
+_SPEAKS_FOR_VIPO = VIPO_PROCESS in {"", "web", "gateway", "mirror", "stand-ins"}
 if SERVED:
     # What signs nothing has a key of its own: what it signed by mistake would be worth nothing elsewhere.
     SECRET_KEY = required_secret("VIPO_SECRET_KEY", 32) if _SIGNS else secrets.token_urlsafe(32)

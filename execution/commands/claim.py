@@ -86,7 +86,7 @@ UPDATE execution_command SET tries = tries + 1, send_after = CASE
     WHEN tries = 0 THEN %(first)s WHEN tries = 1 THEN %(second)s WHEN tries = 2 THEN %(third)s
     ELSE %(last)s END
 FROM taken <hasty> WHERE id = taken_id
-RETURNING site_id, position, id, device, method, arguments, ttl_s, tries,
+RETURNING site_id, position, id, device, method, arguments, ttl_s, tries, stand_in,
     (SELECT fence FROM execution_sitestop AS latch WHERE latch.site_id = execution_command.site_id)
 """  # noqa: S608 - made of this product's own constants only
 _MARK = "UPDATE execution_command SET status = 'sent', sent_at = %s WHERE status = 'pending' AND id = %s"
@@ -191,12 +191,14 @@ class _Claimed(NamedTuple):
     arguments: str
     ttl_s: float
     tries: int
+    stand_in: bool
     fence: int | None
 
 
 def _outgoing(facts: registry.DeliveryFacts | None, late_at_s: float, row: _Claimed) -> OutgoingCommand:
-    legacy_topic = facts.topics.get(row.method) if facts else None
-    command, topic = str(UUID(str(row.id))), legacy_topic or messages.down_topic(row.device, row.method)
+    legacy_topic = facts.topics.get(row.method) if facts and not row.stand_in else None
+    own_topic = messages.down_topic(row.device, row.method, "sim" if row.stand_in else "dev")
+    command, topic = str(UUID(str(row.id))), legacy_topic or own_topic
     payload = messages.command_payload(command, json.loads(row.arguments), row.ttl_s, row.fence or 0)
     return OutgoingCommand(command, row.device, topic, payload, row.ttl_s, row.tries, late_at_s)
 

@@ -57,7 +57,7 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
         _check_free(row, present)
         _check_passage(row, present, method)
         _check_exploring(row, present, method)
-        command = _write(row, _Order(device_id, method, given, by, fence))
+        command = _write(row, _Order(device_id, method, given, by, fence, stand_in=present.stand_in))
         sent = CallSent(str(command.id), device_id, method, given, f"{command.by}, by hand")
         mailbox.post_to_floor(site, [(f"call:{command.id}", sent)])
         transaction.on_commit(lambda: registry.wake("gateway"))
@@ -82,7 +82,15 @@ def _check_free(row: FloorState, device: registry.DeviceView) -> None:
     if is_stopped(site=device.site):
         raise NotPossibleNow("The site is stopped. Reset the stop first.")
     if not device.online:
-        raise NotPossibleNow(f"{device.name} is offline. Switch it on, or look at its connection.")
+        mend = (
+            "Look whether `manage.py stand_ins` runs" if device.stand_in else "Switch it on, or look at its connection"
+        )
+        raise NotPossibleNow(f"{device.name} is offline. {mend}.")
+    check_unused(row, device)
+
+
+def check_unused(row: FloorState, device: registry.DeviceView) -> None:
+    """Raise NotPossibleNow where a run holds the device, or it carries something out; the floor's row is locked."""
     if holder := _holding_run(row, device.id):
         raise NotPossibleNow(f"{device.name} is held by {_run_words(holder)}. Wait until it is over, or cancel it.")
     other = _open_commands(row.site_id, device.id).first()
@@ -145,6 +153,7 @@ class _Order:
     arguments: Mapping[str, Any]
     by: str
     fence: int
+    stand_in: bool
 
 
 def _write(row: FloorState, order: _Order) -> Command:
@@ -161,6 +170,7 @@ def _write(row: FloorState, order: _Order) -> Command:
         by=order.by[:120],
         fence=fence_of(row.site_id),
         site_fence=order.fence,
+        stand_in=order.stand_in,
         ttl_s=EXPIRY_S,
         send_after=now,
         created_at=now,

@@ -146,6 +146,7 @@ def _command_rows(turn: Turn, work: FloorWork, lease: Lease, position: int) -> l
             step=command.step,
             piece=command.piece,
             fence=lease.epoch,
+            stand_in=command.device in turn.site.simulated,
             send_after=turn.now,
             created_at=turn.now,
         )
@@ -164,6 +165,7 @@ def _insert_rows(batch: database.Batch, turn: Turn, lease: Lease, *, is_floor: b
         insert_all(batch, Command, _command_rows(turn, turn.floor, lease, turn.site.floor_row.commands))
     changed = _changed(turn)
     written: list[RunWork | ByHand] = [*changed, *turn.by_hand.values()]
+    _mark_simulated(turn, written)
     insert_all(batch, RunEvent, (line for work in written for line in work.lines))
     inputs = (
         RunInput(run_id=work.row.id, seq=work.row.inputs_kept, at=turn.now, taken=work.inputs)
@@ -172,6 +174,14 @@ def _insert_rows(batch: database.Batch, turn: Turn, lease: Lease, *, is_floor: b
     )
     insert_all(batch, RunInput, inputs)
     insert_all(batch, Timer, _timers(changed, turn.now))
+
+
+def _mark_simulated(turn: Turn, written: Sequence[RunWork | ByHand]) -> None:
+    """Say in the journal where a stand-in was told, or has answered."""
+    for work in written:
+        for line in work.lines:
+            if line.device in turn.site.simulated and line.kind in {"command", "answer"}:
+                line.args = {**line.args, "simulated": True}
 
 
 def _write_states(batch: database.Batch, changed: Sequence[RunWork]) -> list[Guarded]:

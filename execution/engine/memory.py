@@ -50,8 +50,9 @@ _plans: WeakValueDictionary[str, _Known] = WeakValueDictionary()
 class SiteMemory:
     """A site in memory: its open runs, its floor, its layout. `broken` says of runs why they cannot be read.
 
-    `floor` is None where the floor's state cannot be read; `floor_error` says why. `wakes_at` (monotonic seconds) is
-    when something is to be looked at again that was held back. `has_more` says that the last turn has left something.
+    `floor` is None where the floor's state cannot be read; `floor_error` says why. `simulated` are the devices whose
+    stand-ins are told. `wakes_at` (monotonic seconds) is when something is to be looked at again that was held back.
+    `has_more` says that the last turn has left something.
     """
 
     slug: str
@@ -60,6 +61,7 @@ class SiteMemory:
     floor: FloorWork | None
     floor_row: FloorState
     floor_error: str = ""
+    simulated: frozenset[str] = frozenset()
     runs: dict[str, RunWork] = field(default_factory=dict)
     broken: dict[str, tuple[Run, str]] = field(default_factory=dict)
     last_number: int = 0
@@ -177,6 +179,8 @@ class SiteMemory:
         """Read the floor's row; one that cannot be read is none, and `floor_error` says why."""
         row = FloorState.objects.select_related("site").get(site=self.site)
         self.floor_row, self.floor_error = row, ""
+        # After the row: a device is switched together with its epoch, so what is older than that is not written.
+        self.simulated = registry.list_simulated_ids(site_id=row.site_id)
         try:
             state = floor.from_json(row.state) if row.state else floor.start(self.look()[0], str(row.namespace))
             self.floor = FloorWork(self.slug, state)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from math import cos, pi, sin
 from typing import Literal
 
 from editor import services as editor
@@ -13,7 +15,9 @@ from registry import services as registry
 from registry.floorplan.plan import Grid
 from vipo_device.protocol.description import Description, Pose
 
-_MadeOf = tuple[int, tuple[Description, ...], tuple[PlaceFacts, ...], tuple[FloorZone, ...]]
+_MadeOf = tuple[int, tuple[Description, ...], tuple[PlaceFacts, ...], tuple[FloorZone, ...], tuple[FloorZone, ...]]
+STILL_M = 0.05
+"""Within a grid of this a real robot that is simulated for a while counts as standing where it stood."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,13 +43,14 @@ def look_at_site(slug: str) -> tuple[Layout, tuple[registry.PositionView, ...]]:
     places = tuple(place_facts(place) for place in registry.list_places(site=slug))
     zones = site_zones(editor.find_zones(site=slug))
     site_map = registry.get_map(site=slug)
-    known, stamp = _layouts.get(slug), _stamp(site_map.version, positions, places, zones)
+    stamp = _stamp(site_map.version, positions, places, zones)
+    known = _layouts.get(slug)
     if known is not None and stamp is not None and known.stamp == stamp:
         return known.layout, positions
     placed = registry.list_placed(site=slug, lifecycle="approved")
     positions = tuple(position for position, _ in placed)
     at_home = tuple(replace(d, pose=Pose(0, 0)) if d.kind == "robot" else d for _, d in placed)
-    made_of = (site_map.version, at_home, places, zones)
+    made_of = (site_map.version, at_home, places, zones, _bodies(placed))
     layout = _layout_of(known, made_of, site_map.grid)
     _layouts[slug] = _Known(_stamp(site_map.version, positions, places, zones), made_of, layout)
     return layout, positions
@@ -53,10 +58,30 @@ def look_at_site(slug: str) -> tuple[Layout, tuple[registry.PositionView, ...]]:
 
 def _layout_of(known: _Known | None, made_of: _MadeOf, grid: Grid) -> Layout:
     """Return the layout; what is known already is taken as far as it is the same: a zone changes no lattice."""
-    _, at_home, places, zones = made_of
+    _, at_home, places, zones, bodies = made_of
     if known is None or known.made_of[:3] != made_of[:3]:
-        return make_layout(grid, at_home, places, zones)
-    return known.layout if known.made_of == made_of else replace(known.layout, zones=zones)
+        return replace(make_layout(grid, at_home, places, zones), bodies=bodies)
+    return known.layout if known.made_of == made_of else replace(known.layout, zones=zones, bodies=bodies)
+
+
+def _bodies(placed: Iterable[tuple[registry.PositionView, Description]]) -> tuple[FloorZone, ...]:
+    """Return where real robots stand that are simulated for a while: all others keep out."""
+    return tuple(
+        FloorZone(f"body/{robot.id}", described.name, "keep_out", _outline(at, described.radius_m))
+        for robot, described in placed
+        if (at := _standing(robot)) is not None
+    )
+
+
+def _standing(robot: registry.PositionView) -> tuple[float, float] | None:
+    """Return where the real one of a simulated robot stands, metres; small movements of it do not count."""
+    pose = robot.stands_at
+    return None if pose is None else (round(pose.x / STILL_M) * STILL_M, round(pose.y / STILL_M) * STILL_M)
+
+
+def _outline(at: tuple[float, float], radius_m: float) -> tuple[tuple[float, float], ...]:
+    """Return eight corners around a round body, metres."""
+    return tuple((at[0] + radius_m * cos(k * pi / 4), at[1] + radius_m * sin(k * pi / 4)) for k in range(8))
 
 
 def _stamp(
@@ -68,7 +93,8 @@ def _stamp(
     """Return what differs whenever a layout would; robots are at home wherever they are."""
     if not all(position.version for position in positions):
         return None
-    return (version, tuple((p.id, p.version, None if p.kind == "robot" else p.pose) for p in positions), places, zones)
+    made_of = tuple((p.id, p.version, _standing(p) if p.kind == "robot" else p.pose) for p in positions)
+    return (version, made_of, places, zones)
 
 
 def place_facts(place: registry.PlaceView) -> PlaceFacts:

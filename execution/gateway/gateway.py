@@ -37,6 +37,7 @@ log = logging.getLogger(__name__)
 FLOOD = fault("flood")
 
 EVERYTHING = "$share/gateway/vipo/v1/dev/+/up/#"
+STAND_INS = "$share/gateway/vipo/v1/sim/+/up/+"
 ENROLMENTS = "$share/gateway/vipo/v1/join/+/+"
 SERVER_STATUS = "vipo/v1/srv/status"
 WAKE_CHANNEL, STOPS_CHANNEL = "gateway", "stops"
@@ -75,6 +76,7 @@ class Gateway:
         """Serve until `stopping` is set."""
         registry.watch_amount(name="gateway_inbox", read=self._inbox.__len__)
         self._client.subscribe_handled(EVERYTHING, 1, self._arrived)
+        self._client.subscribe_handled(STAND_INS, 1, self._arrived)
         self._client.subscribe_handled(ENROLMENTS, 1, self._arrived)
         self._stops.listen()
         self._client.on_connected(self._greeting_due.set)
@@ -116,7 +118,8 @@ class Gateway:
 
     def _arrived(self, message: Message) -> None:
         """Sort a message into the inbox; runs on the network thread and must not wait."""
-        found = messages.read_up_topic(message.topic)
+        said = messages.read_stand_in_topic(message.topic)
+        found = said or messages.read_up_topic(message.topic)
         _count("mqtt_messages_in", found[1] if found else ENROLMENT, KINDS)
         enrolment = messages.read_join_topic(message.topic)
         if found is None and enrolment is None:
@@ -125,11 +128,12 @@ class Gateway:
             message.acknowledge()
             return
         device, kind = found or (enrolment[1] if enrolment else "", ENROLMENT)
-        sender = f"join:{enrolment[0]}" if enrolment else device  # whoever asks there may name any device
+        # whoever asks to be enrolled may name any device
+        sender = f"join:{enrolment[0]}" if enrolment else f"sim:{device}" if said else device
         if not self._bucket(sender).take(time.monotonic()):
             self._note(sender, FLOOD.text, facts_of([FLOOD]))
             message.acknowledge()
-        elif not self._inbox.put(Entry(message, device, kind)):
+        elif not self._inbox.put(Entry(message, device, kind, stand_in=said is not None)):
             self.complaints.counts["inbox full"] += 1
             _count("mqtt_messages_refused", TOO_MANY, REASONS)
 

@@ -21,7 +21,6 @@ from registry.services import Outage
 from vipo_device.kit.log_ids import add_ids, bind_ids
 from vipo_device.protocol import messages
 from vipo_device.protocol.errors import VipoError
-from vipo_device.protocol.mqtt_client import Message
 
 log = logging.getLogger(__name__)
 ENROLMENT = "knock/"
@@ -116,7 +115,7 @@ class Ingester:
     def _take_states(self, entries: list[Entry]) -> bool:
         """Take in states of different devices with one question and one write; False when that did not work."""
         at = database.now()
-        said = [registry.StateMessage(e.device, e.message.payload, at, e.message.retained) for e in entries]
+        said = [registry.StateMessage(e.device, e.message.payload, at, e.message.retained, e.stand_in) for e in entries]
         return self._take_together(entries, "state", lambda: registry.ingest_states(states=said), at)
 
     def _take_descriptions(self, entries: list[Entry]) -> bool:
@@ -158,7 +157,7 @@ class Ingester:
         tries = 0
         while not entry.outdated and not stopping.is_set():
             try:
-                self._ingest_one(entry.device, entry.kind, entry.message)
+                self._ingest_one(entry)
                 self._outage.end()
                 break
             except registry.NotOfSite as error:  # the id may be another site's, which hears nothing of it
@@ -184,8 +183,8 @@ class Ingester:
                 return
         entry.message.acknowledge()
 
-    def _ingest_one(self, device: str, kind: str, message: Message) -> None:
-        at = database.now()
+    def _ingest_one(self, entry: Entry) -> None:
+        at, device, kind, message = database.now(), entry.device, entry.kind, entry.message
         if kind == ENROLMENT:
             site, _ = messages.read_join_topic(message.topic) or ("", "")
             registry.enrol_device(site=site, device_id=device, payload=message.payload, at=at)
@@ -198,22 +197,25 @@ class Ingester:
         elif kind == "map" and message.payload:
             registry.ingest_map_part(device_id=device, payload=message.payload, at=at)
         elif message.payload:  # an empty one only takes a retained message away
-            view = self._ingest(device, kind, message, at)
+            view = self._ingest(entry, at)
             if view is not None:
                 if kind == "presence" and view.online and not view.only_done_flag:
                     outbox.resend_commands(device=device)
                 self._pass_on(view, at)
 
-    def _ingest(self, device: str, kind: str, message: Message, at: datetime) -> registry.DeviceView | None:
-        payload = message.payload
+    def _ingest(self, entry: Entry, at: datetime) -> registry.DeviceView | None:
+        device, kind, message = entry.device, entry.kind, entry.message
+        payload, stand_in = message.payload, entry.stand_in
         if kind == "desc":
             view = registry.ingest_description(device_id=device, payload=payload, at=at)
             registry.note_mended(devices=[device], code="description_refused")
             return view
         if kind == "presence":
-            return registry.ingest_presence(device_id=device, payload=payload, at=at)
+            return registry.ingest_presence(device_id=device, payload=payload, at=at, stand_in=stand_in)
         if kind == "state":
-            return registry.ingest_state(device_id=device, payload=payload, at=at, retained=message.retained)
+            return registry.ingest_state(
+                device_id=device, payload=payload, at=at, retained=message.retained, stand_in=stand_in
+            )
         self._counts[f"topic up/{kind}"] += 1
         return None
 

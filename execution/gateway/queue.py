@@ -55,6 +55,8 @@ class Entry:
     device: str
     kind: str
     outdated: bool = False
+    stand_in: bool = False
+    """The device's stand-in says it."""
 
 
 class Inbox:
@@ -62,7 +64,7 @@ class Inbox:
 
     def __init__(self, limit: int = INBOX_LIMIT) -> None:
         self._entries: deque[Entry] = deque()
-        self._states: dict[str, Entry] = {}
+        self._states: dict[tuple[str, bool], Entry] = {}
         self._limit = limit
         self._changed = threading.Condition()
 
@@ -75,10 +77,10 @@ class Inbox:
             if len(self._entries) >= self._limit:
                 return False
             if entry.kind == "state":
-                older = self._states.get(entry.device)
+                older = self._states.get((entry.device, entry.stand_in))
                 if older is not None:
                     older.outdated = True
-                self._states[entry.device] = entry
+                self._states[entry.device, entry.stand_in] = entry
             self._entries.append(entry)
             self._changed.notify()
             return True
@@ -92,8 +94,8 @@ class Inbox:
 
     def _take_first(self) -> Entry:
         entry = self._entries.popleft()
-        if self._states.get(entry.device) is entry:
-            del self._states[entry.device]
+        if self._states.get((entry.device, entry.stand_in)) is entry:
+            del self._states[entry.device, entry.stand_in]
         return entry
 
 

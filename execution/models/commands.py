@@ -8,7 +8,8 @@ from django.db import models
 class Command(models.Model):
     """A command to a device: written with the state that decided it, sent until it is answered.
 
-    `site_fence` is the site's when a person gave it by hand, None otherwise.
+    `site_fence` is the site's when a person gave it by hand, None otherwise. With `stand_in` it is told to the device's
+    stand-in, not to the device itself.
     """
 
     class Status(models.TextChoices):
@@ -41,6 +42,7 @@ class Command(models.Model):
     by = models.CharField(max_length=120, blank=True)
     fence = models.PositiveIntegerField(default=0)
     site_fence = models.BigIntegerField(null=True)
+    stand_in = models.BooleanField(default=False, db_default=False)
     tries = models.PositiveIntegerField(default=0)
     ttl_s = models.FloatField(default=60.0)
     send_after = models.DateTimeField()

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from ninja import Schema
 
 from registry.requests import Unchecked
+from registry.services import ProcessKind
 
 
 class FindingShape(Schema):
@@ -55,7 +56,7 @@ class ProcessShape(Schema):
     """A process of VIPO as its last heartbeat told, `age_s` seconds ago; `clock_apart_s` is its clock's distance."""
 
     id: str
-    kind: Literal["web", "gateway", "worker", "ticker", "mirror", "twin"]
+    kind: ProcessKind
     name: str
     machine: str
     process: int

@@ -25,6 +25,7 @@ from execution.traffic.precedence import Waiting, in_groups, note_behind
 from execution.traffic.route_points import leads_along, path_along, points_ahead, set_points
 from execution.traffic.routes import plan_path
 from execution.traffic.turn import Turn
+from execution.traffic.zones import path_outside
 from vipo_device.protocol.description import Description
 from vipo_device.protocol.messages import EXPLORE
 
@@ -256,19 +257,25 @@ def _go(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:
     if path is None:
         point = task.order.target.point
         where = turn.name(task.order.target.id) if point is None else f"({point[0]:.2f}, {point[1]:.2f})"
-        why = f"There is no way for {turn.name(robot.id)} to {where}."
-        if _is_open_without_zones(turn, robot, spot):
-            why = (
-                f"Zones leave no way for {turn.name(robot.id)} to {where}. Change a zone on the map, or choose another "
-            )
-            why += "place."
-        turn.finish(task, "blocked", why)
+        turn.finish(task, "blocked", _why_no_way(turn, robot, spot, where))
         return
     set_points(turn, set_path(turn, robot, path[0]), task, path[1])
 
 
-def _is_open_without_zones(turn: Turn, robot: Robot, spot: Spot) -> bool:
-    return plan_path(replace(turn.layout, zones=()), turn.node(robot), spot.id) is not None
+def _why_no_way(turn: Turn, robot: Robot, spot: Spot, where: str) -> str:
+    """Say what is in the way: the body of a real robot that is simulated, zones, or the place itself."""
+    name, layout = turn.name(robot.id), turn.layout
+    bodies = [body for body in layout.bodies if body.key != f"body/{robot.id}"]
+    for body in bodies:
+        others = tuple(each for each in (*layout.zones, *bodies) if each is not body)
+        if path_outside(layout, others, (turn.node(robot), spot.id)) is not None:
+            return (
+                f"The real {body.name} stands where {name} has to pass to {where}. Let it be moved, or use the real "
+                "one again."
+            )
+    if plan_path(replace(layout, zones=()), turn.node(robot), spot.id) is not None:
+        return f"Zones leave no way for {name} to {where}. Change a zone on the map, or choose another place."
+    return f"There is no way for {name} to {where}."
 
 
 def _act(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:

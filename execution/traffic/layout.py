@@ -55,6 +55,8 @@ class Layout:
     names: Mapping[str, str]
     zones: tuple[FloorZone, ...] = ()
     """What holds on this floor for every robot, besides the zones of its run's program."""
+    bodies: tuple[FloorZone, ...] = ()
+    """Where real robots stand that are simulated for a while, with the key `body/<id>`: all other robots keep out."""
     points: dict[str, Spot] = field(default_factory=dict)
     zone_cells: dict[tuple[tuple[Point, ...], bool], frozenset[int]] = field(default_factory=dict)
 

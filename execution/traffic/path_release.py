@@ -233,7 +233,7 @@ def heed_zones(turn: Turn) -> None:
     A path that leads into a keep-out, or against a one-way zone, is cut before it; what of it was released already is
     called off, and the robot plans anew from where it comes to stand. So is what was released with too high a speed.
     """
-    before, now = turn.zones.get(SITE, ()), turn.layout.zones
+    before, now = turn.zones.get(SITE, ()), (*turn.layout.zones, *turn.layout.bodies)
     if before == now:
         return
     slow = [zone for zone in now if zone.rule == "slow" and zone not in before]

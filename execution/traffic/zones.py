@@ -56,7 +56,8 @@ def _half_ways(layout: Layout, cell: int) -> Iterator[tuple[Point, Point]]:
 
 def _zones(turn: Turn, robot: Robot, rule: str) -> Iterator[FloorZone]:
     of_run = turn.zones.get(robot.run, ()) if robot.run else ()
-    return (zone for zone in chain(turn.layout.zones, of_run) if zone.rule == rule)
+    bodies = (body for body in turn.layout.bodies if body.key != f"body/{robot.id}")
+    return (zone for zone in chain(turn.layout.zones, bodies, of_run) if zone.rule == rule)
 
 
 def is_in(layout: Layout, node: Node, zone: FloorZone) -> bool:

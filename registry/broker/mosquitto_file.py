@@ -9,7 +9,17 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from vipo_device.protocol.topics import MIRROR, MIRROR_FILTERS, READER, is_reader, stop_topic, things_prefix
+from vipo_device.protocol.topics import (
+    MIRROR,
+    MIRROR_FILTERS,
+    READER,
+    STAND_IN_FILTERS,
+    STAND_IN_KINDS,
+    STAND_INS,
+    is_reader,
+    stop_topic,
+    things_prefix,
+)
 
 Acl = dict[str, object]
 Role = dict[str, Any]
@@ -42,6 +52,12 @@ def mirror_role() -> Role:
     """Return what VIPO's mirror may do: hear what devices are told and say, but no new key; say nothing."""
     no_key = _deny("publishClientReceive", "vipo/v1/dev/+/down/credential")
     return {"rolename": "mirror", "acls": [*_hears(MIRROR_FILTERS), no_key]}
+
+
+def stand_ins_role() -> Role:
+    """Return what the process of stand-ins may do: speak for these alone, hear what they and real robots are told."""
+    says = [_allow("publishClientSend", f"vipo/v1/sim/+/up/{kind}") for kind in STAND_IN_KINDS]
+    return {"rolename": "stand-ins", "acls": [*says, *_hears(STAND_IN_FILTERS)]}
 
 
 def _hears(topics: Sequence[str]) -> list[Acl]:
@@ -105,9 +121,11 @@ def account_file(
 
 
 def role_of(name: str, site: str = "", topics: Sequence[str] = ()) -> Role:
-    """Return the role of a device's account, a token's, the mirror's, or a site's for enrolment, by its name."""
+    """Return the role of an account by its name: a device's, a token's, one of VIPO's own, a site's for enrolment."""
     if name == MIRROR:
         return mirror_role()
+    if name == STAND_INS:
+        return stand_ins_role()
     if is_reader(name):
         return reader_role(name, site)
     return enrolment_role(name) if name.startswith(ENROLMENT) else device_role(name, site, topics)

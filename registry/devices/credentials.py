@@ -28,10 +28,10 @@ from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
 from registry.models import Device, User
 from registry.sites.sites import find_site, get_enrolment_key, has_enrolment_key, replace_enrolment_key
-from vipo_device.protocol.credentials import broker_hash, make_credential, mirror_key, secret_hash
+from vipo_device.protocol.credentials import broker_hash, make_credential, mirror_key, secret_hash, stand_ins_key
 from vipo_device.protocol.messages import BadMessage, down_topic, parse_ack, up_topic
 from vipo_device.protocol.mqtt_client import MqttClient, MqttError
-from vipo_device.protocol.topics import MIRROR
+from vipo_device.protocol.topics import MIRROR, STAND_INS
 
 log = logging.getLogger(__name__)
 CONNECT_LIMIT_S = 10.0
@@ -108,7 +108,7 @@ def rotate_credential(*, site: str, device_id: str, by: User | None, at: datetim
         require_approved(device)
         _begin_delivery(device, at)
     credential = make_credential()
-    taken = device.online and deliver_key(device_id=device_id, credential=credential)
+    taken = device.is_connected and deliver_key(device_id=device_id, credential=credential)
     return Decided(replace_key(site, device_id, credential, by, at, device.credential_hash), credential, taken)
 
 
@@ -119,7 +119,7 @@ def revoke_credential(*, site: str, device_id: str, by: User | None, at: datetim
         require_approved(device)
         before = view_of(device, site)
         lock_out(device, at)
-        device.save(update_fields=["credential_hash", "broker_hash", "ends_before", "online"])
+        device.save(update_fields=["credential_hash", "broker_hash", "ends_before", "online", "aside"])
         write_event(device, at, "revoked", history_text("revoked"), by)
         note_decision(device, "device_key_revoked")
         after = view_of(device, site)
@@ -157,9 +157,10 @@ def reconcile_accounts() -> tuple[frozenset[str], frozenset[str]]:
     if there is None:
         return frozenset(), frozenset()
     _allow_anew(accounts().find_outdated())
-    if MIRROR not in there:  # the broker's file is older than the mirror
-        accounts().put(Account(MIRROR, mirror_key(str(settings.VIPO_MQTT["password"]))))
-    own = {str(settings.VIPO_MQTT["username"]), MIRROR}
+    for name, key_of in ((MIRROR, mirror_key), (STAND_INS, stand_ins_key)):
+        if name not in there:  # the broker's file is older than this process
+            accounts().put(Account(name, key_of(str(settings.VIPO_MQTT["password"]))))
+    own = {str(settings.VIPO_MQTT["username"]), MIRROR, STAND_INS}
     removed = {name for name in there - own if _remove_unknown(name)}
     return frozenset(removed), frozenset(list_broker_hashes()) - there
 
@@ -208,9 +209,9 @@ def replace_key(site: str, device_id: str, credential: str, by: User | None, at:
         before = view_of(device, site)
         give_key(device, credential)
         device.ends_before, device.key_told_at = at, None
-        if not device.online:
+        if not device.is_connected:
             forget_starts(device)
-        device.save(update_fields=["credential_hash", "broker_hash", "ends_before", "key_told_at", *STARTS])
+        device.save(update_fields=["credential_hash", "broker_hash", "ends_before", "key_told_at", "aside", *STARTS])
         write_event(device, at, "credential", history_text("credential"), by)
         note_decision(device, "device_key_given")
         after = view_of(device, site)
@@ -227,7 +228,11 @@ def give_key(device: Device, credential: str) -> None:
 def lock_out(device: Device, at: datetime) -> None:
     """Take the key out of a locked row and the account from the broker; the caller saves the row. Raises BrokerAway."""
     device.credential_hash = device.broker_hash = ""
-    device.ends_before, device.online = at, False
+    device.ends_before = at
+    if device.stand_in:
+        device.aside = {**(device.aside or {}), "online": False}
+    else:
+        device.online = False
     accounts().remove(device.id)
 
 

@@ -41,6 +41,8 @@ SENTENCES: Mapping[str, str] = {
     "error": "Reports an error: {text}",
     "recovered": "Reports no error any more",
     "described_often": "Describes itself anew all the time; not every time is written down",
+    "simulated": "Simulated from now on; the device itself is told nothing",
+    "real_again": "Not simulated any more",
     "problem": "{text}",
     "mended": "{text}",
     "renamed": "Renamed from {before} to {after}",

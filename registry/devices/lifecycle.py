@@ -50,6 +50,13 @@ class NotRetired(RegistryError):
     status = 409
 
 
+class IsSimulated(RegistryError):
+    """A decision about a device for which a stand-in speaks."""
+
+    code = "is_simulated"
+    status = 409
+
+
 def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) -> Decided:
     """Let a pending device take part, with a key of its own. Raises NoSuchDevice, NotPending, BrokerAway.
 
@@ -85,7 +92,7 @@ def reject_device(*, site: str, device_id: str, by: User | None, at: datetime) -
 
 
 def retire_device(*, site: str, device_id: str, by: User | None, at: datetime) -> DeviceView:
-    """Take an approved device out; its history stays. Raises NoSuchDevice, NotApproved, BrokerAway."""
+    """Take an approved device out; its history stays. Raises NoSuchDevice, NotApproved, IsSimulated, BrokerAway."""
     return _take_out(site, device_id, "retired", by, at, require_approved)
 
 
@@ -112,6 +119,8 @@ def _take_out(
     with transaction.atomic():
         device = lock_device(site, device_id)
         allowed(device)
+        if device.stand_in:
+            raise IsSimulated(f"{device_id} is simulated at the moment. Use the real device again first.")
         before = view_of(device, site)
         device.lifecycle = Lifecycle.RETIRED
         lock_out(device, at)

@@ -18,9 +18,10 @@ from django.utils import timezone
 from registry.alerts.buffer import note_alert
 from registry.devices.history import history_text, write_event
 from registry.devices.rows import BadDevice, announce, check_id
+from registry.devices.stand_ins import keep_aside, real_of
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, DeviceEvent, Site
-from vipo_device.protocol.messages import parse_presence
+from vipo_device.protocol.messages import Presence, parse_presence
 
 STALE_AFTER = timedelta(seconds=45)
 """A device speaks at least every 30 s (docs/protocol.md); its last will usually tells long before this."""
@@ -45,11 +46,19 @@ def _default_site() -> Site:
     return site
 
 
-def ingest_presence(*, device_id: str, payload: bytes, at: datetime) -> DeviceView | None:
-    """Take in that a device came or went; None when it changed nothing (a stale will) or nobody described it yet."""
+def ingest_presence(*, device_id: str, payload: bytes, at: datetime, stand_in: bool = False) -> DeviceView | None:
+    """Take in that a device, or its stand-in, came or went.
+
+    None when it changed nothing (a stale will), nobody described the device yet, or it is only kept aside.
+    """
     said = parse_presence(payload)
     with transaction.atomic():
+        if stand_in and not Device.objects.filter(pk=device_id, stand_in=True).exists():
+            return None
         device = _lock_or_make(device_id, at)
+        if stand_in != device.stand_in:
+            _keep_aside(device, said, at, stand_in=stand_in)
+            return None
         if said.boot < device.presence_boot or (said.online and device.is_locked_out):
             return None
         before = view_of(device, device.site.slug) if device.description else None
@@ -63,6 +72,16 @@ def ingest_presence(*, device_id: str, payload: bytes, at: datetime) -> DeviceVi
         after = view_of(device, device.site.slug)
         announce(before, after)
     return after
+
+
+def _keep_aside(device: Device, said: Presence, at: datetime, *, stand_in: bool) -> None:
+    """Keep whether a real device is there while its stand-in speaks."""
+    if stand_in:  # the device was switched back just now
+        return
+    real = real_of(device)
+    if said.boot >= real.presence_boot and not (said.online and real.is_locked_out):
+        real.online, real.presence_boot, real.last_seen_at = said.online, said.boot, at
+        keep_aside(device, real)
 
 
 def _tell_coming_and_going(device: Device, online: bool, at: datetime) -> None:

@@ -18,7 +18,7 @@ from vipo_device.descriptions.changes import Change
 from vipo_device.descriptions.forms import CONTENT_TYPES
 from vipo_device.protocol.messages import is_device_id
 
-_DELIVERY = "SELECT id, lifecycle, source_type, granted FROM registry_device WHERE id IN ({})"
+_DELIVERY = "SELECT id, lifecycle, source_type, granted, stand_in FROM registry_device WHERE id IN ({})"
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,8 +106,8 @@ def list_delivery_facts(*, devices: Collection[str]) -> dict[str, DeliveryFacts]
     return {
         pk: DeliveryFacts(
             lifecycle == Device.Lifecycle.APPROVED,
-            form == CONTENT_TYPES["paper"],
+            form == CONTENT_TYPES["paper"] and not stand_in,
             json.loads(granted) if isinstance(granted, str) else granted,
         )
-        for pk, lifecycle, form, granted in rows
+        for pk, lifecycle, form, granted, stand_in in rows
     }

@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from datetime import datetime
+from typing import Any, NamedTuple
 
 from django.db.models import QuerySet
 
-from registry.devices.views import pose_that_holds, view_of
+from registry.devices.views import place_of_real, pose_that_holds, view_of
 from registry.models import Device
 from vipo_device.protocol.description import Description, Pose, Scalar
 
@@ -30,6 +31,7 @@ class PositionView:
     """Where a device is and whether it is there; `version` stands for its name, description and methods.
 
     Two of the same id and version differ in nothing but place and state. It is empty where none can be told.
+    `stands_at` is where a real robot is whose stand-in speaks.
     """
 
     id: str
@@ -37,6 +39,7 @@ class PositionView:
     pose: Pose
     online: bool
     version: str
+    stands_at: Pose | None = None
 
 
 def get_device_names(*, site: str, ids: Collection[str]) -> Mapping[str, str]:
@@ -61,7 +64,7 @@ def list_positions(
 ) -> tuple[PositionView, ...]:
     """Return where these devices (None: all of the site) are, by id."""
     rows = _rows(site, ids, lifecycle).values_list(*_POSITION)
-    return tuple(_position(*row) for row in rows)
+    return tuple(_position(_Row(*row)) for row in rows)
 
 
 def list_placed(*, site: str, lifecycle: str | None = None) -> tuple[tuple[PositionView, Description], ...]:
@@ -77,25 +80,38 @@ def _rows(site: str, ids: Collection[str] | None, lifecycle: str | None = None) 
 
 
 _POSITION = (
-    "id", "description__kind", "description__pose", "pose", "pose_override", "online",
+    "id", "description__kind", "description__pose", "pose", "pose_override", "online", "aside",
     "description_hash", "name_override", "granted",
 )  # fmt: skip
 
 
-def _position(
-    device: str,
-    kind: str,
-    own: Mapping[str, float],
-    measured: Mapping[str, float] | None,
-    placed: Mapping[str, float] | None,
-    online: bool,
-    *version: object,
-) -> PositionView:
-    pose = pose_that_holds(kind, measured, placed)
-    return PositionView(device, kind, Pose(**(pose or own)), online, repr(version) if version[0] else "")
+class _Row(NamedTuple):
+    """What `_POSITION` asks of a row."""
+
+    device: str
+    kind: str
+    own: Mapping[str, float]
+    measured: Mapping[str, float] | None
+    placed: Mapping[str, float] | None
+    online: bool
+    aside: Mapping[str, Any] | None
+    description_hash: str
+    name_override: str
+    granted: Mapping[str, str]
+
+
+def _position(row: _Row) -> PositionView:
+    pose = Pose(**(pose_that_holds(row.kind, row.measured, row.placed) or row.own))
+    version = (row.description_hash, row.name_override, row.granted)
+    stands_at = place_of_real(row.kind, row.aside)
+    return PositionView(
+        row.device, row.kind, pose, row.online, repr(version) if row.description_hash else "", stands_at
+    )
 
 
 def _position_of(row: Device) -> PositionView:
     said = row.description or {}
-    own = (row.id, said["kind"], said["pose"], row.pose, row.pose_override, row.online)
-    return _position(*own, row.description_hash, row.name_override, row.granted)
+    state = (row.pose, row.pose_override, row.online, row.aside)
+    return _position(
+        _Row(row.id, said["kind"], said["pose"], *state, row.description_hash, row.name_override, row.granted)
+    )

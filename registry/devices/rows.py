@@ -50,7 +50,10 @@ def lock_device(site: str, device_id: str) -> Device:
 
 def forget_starts(device: Device) -> None:
     """Let a device count its starts anew, in the fields STARTS: another board may come in by its id from now on."""
-    device.boot = device.seq = device.presence_boot = -1
+    if device.stand_in:
+        device.aside = {**(device.aside or {}), **dict.fromkeys(STARTS, -1)}
+    else:
+        device.boot = device.seq = device.presence_boot = -1
     RobotMapDraft.objects.filter(pk=device.pk).update(boot=-1, number=-1)
 
 

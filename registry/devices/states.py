@@ -15,6 +15,7 @@ from typing import Any
 from django.db import connection, transaction
 
 from registry.devices.history import history_text, write_event
+from registry.devices.stand_ins import keep_aside, real_of
 from registry.devices.views import DeviceView, changed_state, view_of
 from registry.live.fanout import publish_all
 from registry.models import Device
@@ -31,12 +32,16 @@ WRITE_STATE = """
 
 @dataclass(frozen=True, slots=True)
 class StateMessage:
-    """A state that came in; a retained one tells how the device was, not that it is there now."""
+    """A state that came in; a retained one tells how the device was, not that it is there now.
+
+    `stand_in` tells that the device's stand-in says it.
+    """
 
     device_id: str
     payload: bytes
     at: datetime
     retained: bool = False
+    stand_in: bool = False
 
 
 Outcome = DeviceView | VipoError | None
@@ -58,12 +63,14 @@ def ingest_states(*, states: Sequence[StateMessage]) -> tuple[Outcome, ...]:
     return tuple(outcomes.get(message.device_id) for message in states)
 
 
-def ingest_state(*, device_id: str, payload: bytes, at: datetime, retained: bool = False) -> DeviceView | None:
-    """Take in a device's state; None when it is old, a replay, or of a device that nobody knows.
+def ingest_state(
+    *, device_id: str, payload: bytes, at: datetime, retained: bool = False, stand_in: bool = False
+) -> DeviceView | None:
+    """Take in a device's state; None when it is old, a replay, of a device that nobody knows, or only kept aside.
 
     A retained message tells how the device was, not that it is there now.
     """
-    (outcome,) = ingest_states(states=[StateMessage(device_id, payload, at, retained)])
+    (outcome,) = ingest_states(states=[StateMessage(device_id, payload, at, retained, stand_in)])
     if isinstance(outcome, VipoError):
         raise outcome
     return outcome
@@ -75,6 +82,11 @@ def _take_all(said: Mapping[str, tuple[DeviceState, StateMessage]]) -> dict[str,
     news: list[tuple[str, dict[str, Any]]] = []
     for device in _lock_rows(list(said)):
         state, message = said[device.pk]
+        if message.stand_in and not device.stand_in:  # it was on its way when the device was switched back
+            continue
+        if device.stand_in and not message.stand_in:
+            _keep_aside(device, state, message)
+            continue
         if (state.boot, state.seq) <= (device.boot, device.seq):
             continue
         before = view_of(device, device.site.slug) if device.description_hash else None
@@ -87,6 +99,13 @@ def _take_all(said: Mapping[str, tuple[DeviceState, StateMessage]]) -> dict[str,
     _write(written)
     transaction.on_commit(lambda: publish_all([(slug, {"type": "device", "device": told}) for slug, told in news]))
     return views
+
+
+def _keep_aside(device: Device, state: DeviceState, message: StateMessage) -> None:
+    real = real_of(device)
+    if (state.boot, state.seq) > (real.boot, real.seq):
+        _change(real, state, message)
+        keep_aside(device, real)
 
 
 def _lock_rows(ids: list[str]) -> list[Device]:

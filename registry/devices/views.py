@@ -27,6 +27,7 @@ class DeviceView:
 
     `has_key` tells whether it can come in with a key of its own, `dropped` how many of its messages were not taken,
     `only_done_flag` that it describes itself by the paper's message and so may answer no command but by `done`;
+    `stand_in` tells that it is simulated in place of the real one, and `stands_at` where a real robot is meanwhile;
     `asks` are the methods that nobody may call before an admin has confirmed their topics.
     """
 
@@ -46,6 +47,8 @@ class DeviceView:
     has_key: bool = False
     dropped: int = 0
     only_done_flag: bool = False
+    stand_in: bool = False
+    stands_at: Pose | None = None
     asks: tuple[MethodSpec, ...] = ()
 
     @property
@@ -89,7 +92,9 @@ def view_of(device: Device, site: str) -> DeviceView:
         last_seen_at=device.last_seen_at,
         has_key=bool(device.credential_hash),
         dropped=device.dropped,
-        only_done_flag=device.source_type == CONTENT_TYPES["paper"],
+        only_done_flag=device.source_type == CONTENT_TYPES["paper"] and not device.stand_in,
+        stand_in=device.stand_in,
+        stands_at=place_of_real(canonical.kind, device.aside),
         asks=asks,
     )
     return replace(view, status=status_of(view), activity=_activity(view))
@@ -100,6 +105,12 @@ def effective_description(device: Device) -> Description:
     said = _read_description(device)
     pose = pose_that_holds(said.kind, device.pose, device.pose_override)
     return replace(said, name=device.name_override or said.name, pose=Pose(**pose) if pose else said.pose)
+
+
+def place_of_real(kind: str, aside: Mapping[str, Any] | None) -> Pose | None:
+    """Return where a real robot is whose stand-in speaks, as far as anybody knows."""
+    pose = aside.get("pose") if aside and kind == "robot" else None
+    return Pose(**pose) if pose else None
 
 
 def pose_that_holds(
@@ -174,6 +185,8 @@ def device_to_json(view: DeviceView) -> dict[str, Any]:
         "simulated": said.simulated,
         "image": said.image if said.image.startswith(("https://", "http://")) else "",
         "description": said.description,
+        "stand_in": view.stand_in,
+        "stands_at": asdict(view.stands_at) if view.stands_at else None,
         "has_key": view.has_key,
         "dropped": view.dropped,
     }

@@ -48,11 +48,17 @@ class Device(models.Model):
     properties = models.JSONField(default=dict)
     first_seen_at = models.DateTimeField(null=True)
     last_seen_at = models.DateTimeField(null=True)
+    stand_in = models.BooleanField(default=False)
+    aside = models.JSONField(null=True)
 
     class Meta:
-        """Listed by site; looked through for the ones that fell silent."""
+        """Listed by site; looked through for the ones that fell silent, and for those that are simulated."""
 
-        indexes = [models.Index(fields=["site", "lifecycle"]), models.Index(fields=["online", "last_seen_at"])]
+        indexes = [
+            models.Index(fields=["site", "lifecycle"]),
+            models.Index(fields=["online", "last_seen_at"]),
+            models.Index(fields=["site"], condition=models.Q(stand_in=True), name="simulated_devices"),
+        ]
 
     def __str__(self) -> str:
         return self.id
@@ -60,7 +66,12 @@ class Device(models.Model):
     @property
     def is_locked_out(self) -> bool:
         """Tell whether its key was taken away; what was on its way still then does not bring it back."""
-        return self.ends_before is not None and not self.credential_hash
+        return not self.stand_in and self.ends_before is not None and not self.credential_hash
+
+    @property
+    def is_connected(self) -> bool:
+        """Tell whether the device itself is there, whoever speaks for it."""
+        return bool((self.aside or {}).get("online")) if self.stand_in else self.online
 
 
 class DeviceEvent(models.Model):

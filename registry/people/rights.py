@@ -91,7 +91,7 @@ DEEDS = (
         "operator",
         "run",
         """start_rehearsal cancel_rehearsal start_run pause_run resume_run cancel_run answer_question arm_program
-        run_tests take_pace drop_pace""",
+        run_tests take_pace drop_pace begin_stand_in end_stand_in""",
     ),
     _deed("ask_review", "operator", "run", "ask_for_review"),
     _deed("review", "operator", "session", "give_verdict"),

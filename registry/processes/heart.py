@@ -34,7 +34,7 @@ UNSURE_S = 1.0
 GOODBYE_S = 3.0
 _telling = threading.Lock()
 """Held by the heart that tells what this process has counted: nothing is told twice."""
-ProcessKind = Literal["web", "gateway", "worker", "ticker", "mirror", "twin"]
+ProcessKind = Literal["web", "gateway", "worker", "ticker", "mirror", "stand-ins", "twin"]
 
 
 def installed_version() -> str:

@@ -90,7 +90,8 @@ def _site_view(site: Site, role: str, held_role: str = "") -> SiteView:
         pending=len(shown) - len(approved),
         has_map=SiteMap.objects.filter(site=site).exists(),
         stop=StopView(site.stop_active, site.stop_by, site.stop_at),
-        simulated=bool(approved) and all(d.description and d.description["simulated"] for d in approved),
+        simulated=bool(approved)
+        and all(d.stand_in or (d.description and d.description["simulated"]) for d in approved),
         held_role=held_role,
     )
 

@@ -49,10 +49,7 @@ class Machine(Actor):
     @property
     def slots(self) -> int:
         """How many objects fit in."""
-        declared = self.description.property("freeSlots")
-        if declared is not None and declared.maximum:
-            return int(declared.maximum)
-        return self.description.capacity or self.behaviour.slots
+        return _declared_slots(self.description) or self.behaviour.slots
 
     def advance(self, t_s: float, dt_s: float) -> None:
         """Let time pass, up to `t_s`."""
@@ -218,11 +215,25 @@ def first_stock(description: Description, behaviour: Behaviour) -> dict[str, int
     return dict.fromkeys(description.gives, most)
 
 
-def _stock_at(initial: InitialState, description: Description, slots: int) -> dict[str, int]:
-    """Return what a machine holds at the beginning, from what it shows if it shows it."""
-    stock, free = initial.readings.get("stock"), initial.readings.get("freeSlots")
+def shown_stock(
+    description: Description, readings: Mapping[str, Scalar], slots: int | None = None
+) -> dict[str, int] | None:
+    """Return what a machine holds as far as its readings show it; None where they do not."""
+    stock, free = readings.get("stock"), readings.get("freeSlots")
     if isinstance(stock, int | float) and len(description.gives) == 1:
         return {description.gives[0]: int(stock)}
-    if isinstance(free, int | float) and len(description.takes) == 1:
-        return {description.takes[0]: max(0, slots - int(free))}
-    return first_stock(description, initial.behaviour)
+    places = slots or _declared_slots(description)
+    if isinstance(free, int | float) and len(description.takes) == 1 and places:
+        return {description.takes[0]: max(0, places - int(free))}
+    return None
+
+
+def _declared_slots(description: Description) -> int:
+    declared = description.property("freeSlots")
+    return int(declared.maximum) if declared is not None and declared.maximum else description.capacity
+
+
+def _stock_at(initial: InitialState, description: Description, slots: int) -> dict[str, int]:
+    """Return what a machine holds at the beginning, from what it shows if it shows it."""
+    shown = shown_stock(description, initial.readings, slots)
+    return first_stock(description, initial.behaviour) if shown is None else shown

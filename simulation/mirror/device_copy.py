@@ -11,8 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot
 
-from registry.floorplan.plan import FREE, Grid
-from simulation.world import Ack, Scene, World
+from simulation.world import Ack, Scene, World, open_floor
 from vipo_device.protocol.description import Description, DeviceState, Pose, Scalar
 from vipo_device.protocol.loads import read_load
 from vipo_device.protocol.messages import CONTROLS, AckMessage, DeviceCommand, is_final
@@ -205,7 +204,7 @@ class DeviceCopy:
         name, state = self.description.id, self._state
         pose = self.description.pose if state is None or state.pose is None else state.pose
         scene = Scene(
-            grid=_open_floor(pose),
+            grid=open_floor(pose),
             devices=[self.description, *self._machines],
             poses={name: pose} if self.description.kind == "robot" else {},
             readings={} if state is None else {name: state.properties},
@@ -244,9 +243,3 @@ class DeviceCopy:
         elif ack.is_final:
             order.copy_ended = at
             order.void = order.void or ack.status != "DONE" or order.copy_began is None
-
-
-def _open_floor(around: Pose) -> Grid:
-    """Return a floor without walls: a copy is not asked whether a path is free, but how long it takes."""
-    half_m = 5_000.0
-    return Grid(1, 1, 2 * half_m, around.x - half_m, around.y - half_m, bytes([FREE]))

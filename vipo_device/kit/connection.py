@@ -6,7 +6,7 @@ import logging
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Protocol
 
 from vipo_device.kit.fence import Fence
 from vipo_device.protocol.description import DeviceState
@@ -14,6 +14,7 @@ from vipo_device.protocol.messages import (
     AckMessage,
     DeviceCommand,
     Presence,
+    Voice,
     ack_payload,
     down_topic,
     presence_payload,
@@ -29,7 +30,33 @@ SERVER_STATUS = "vipo/v1/srv/status"
 SILENT_S = 25.0
 MOVING_S = 0.1
 CHANGING_S = 0.5
-ConnectionMaker = Callable[[str, Will], MqttClient]
+Handler = Callable[[str, bytes, bool], None]
+
+
+class Client(Protocol):
+    """What a device's connection needs of an MQTT client (`MqttClient`)."""
+
+    @property
+    def connected(self) -> bool:
+        """Tell whether the connection stands."""
+
+    def subscribe(self, topic: str, qos: int, callback: Handler, /) -> None:
+        """Hear a filter from the next connection on."""
+
+    def on_connected(self, callback: Callable[[], None]) -> None:
+        """Call back each time that the connection stands."""
+
+    def publish(self, topic: str, payload: bytes, *, qos: int = 1, retain: bool = False) -> None:
+        """Send a message."""
+
+    def start(self) -> None:
+        """Begin to connect."""
+
+    def stop(self) -> None:
+        """End the connection; what was said is sent before."""
+
+
+ConnectionMaker = Callable[[str, Will], Client]
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,12 +99,17 @@ def broker_client(broker: Mapping[str, Any], name: str, key: str, will: Will | N
 
 
 class DeviceConnection:
-    """What a device says to VIPO. What it hears it passes on at once, on the network's thread."""
+    """What a device says to VIPO. What it hears it passes on at once, on the network's thread.
 
-    def __init__(self, device: str, site: str, boot: int, hear: Callable[[ConnectionEvent], None]) -> None:
-        self.id = device
+    With the voice `sim` it is the device's stand-in that speaks and is told.
+    """
+
+    def __init__(
+        self, device: str, site: str, boot: int, hear: Callable[[ConnectionEvent], None], voice: Voice = "dev"
+    ) -> None:
+        self.id, self._voice = device, voice
         self._site, self._boot, self._hear = site, boot, hear
-        self._client: MqttClient | None = None
+        self._client: Client | None = None
         self._server = b""
         self._fence = Fence()
         self._seq = 0
@@ -86,9 +118,9 @@ class DeviceConnection:
 
     def connect(self, make: ConnectionMaker) -> None:
         """Begin to connect; the will says offline with this start's number."""
-        will: Will = (up_topic(self.id, "presence"), self._presence(online=False), 1, True)
+        will: Will = (up_topic(self.id, "presence", self._voice), self._presence(online=False), 1, True)
         self._client = make(self.id, will)
-        self._client.subscribe(down_topic(self.id, "#"), 1, self._hear_command)
+        self._client.subscribe(down_topic(self.id, "#", self._voice), 1, self._hear_command)
         self._client.subscribe(f"vipo/v1/site/{self._site}/stop", 1, self._hear_stop)
         self._client.subscribe(SERVER_STATUS, 1, self._hear_server)
         self._client.on_connected(lambda: self._hear(IntroductionDue(self.id)))
@@ -146,10 +178,10 @@ class DeviceConnection:
 
     def _say(self, kind: str, payload: bytes, *, retain: bool = False) -> None:
         if self._client is not None:
-            self._client.publish(up_topic(self.id, kind), payload, qos=1, retain=retain)
+            self._client.publish(up_topic(self.id, kind, self._voice), payload, qos=1, retain=retain)
 
     def _hear_command(self, topic: str, payload: bytes, retained: bool) -> None:
-        command = read_command(topic.removeprefix(down_topic(self.id, "")), payload)
+        command = read_command(topic.removeprefix(down_topic(self.id, "", self._voice)), payload)
         if retained or command is None:
             log.warning("%s: a message on %s is not a command; it was ignored.", self.id, topic)
             return

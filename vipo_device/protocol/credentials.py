@@ -42,6 +42,11 @@ def mirror_key(server_password: str) -> str:
     return hmac.new(server_password.encode(), b"vipo mirror", hashlib.sha256).hexdigest()
 
 
+def stand_ins_key(server_password: str) -> str:
+    """Return the key of what plays stand-ins at the broker, made as `mirror_key` is."""
+    return hmac.new(server_password.encode(), b"vipo stand-ins", hashlib.sha256).hexdigest()
+
+
 def is_strong(secret: str) -> bool:
     """Tell whether a key that somebody brings has 20 to 128 printable ASCII characters."""
     return LEAST_CHARACTERS <= len(secret) <= MOST_CHARACTERS and secret.isascii() and secret.isprintable()

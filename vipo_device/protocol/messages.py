@@ -15,6 +15,7 @@ from vipo_device.protocol.description import DeviceState, Pose, Scalar
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.faults import JSON_SYNTAX, Fault, bare, facts_of, fault
 from vipo_device.protocol.texts import normal_json, unfit_texts
+from vipo_device.protocol.topics import STAND_IN_KINDS
 
 AckStatus = Literal["ACCEPTED", "RUNNING", "DONE", "FAILED", "REJECTED", "CANCELED"]
 CONTROLS = frozenset({"pause", "resume", "cancel"})
@@ -34,6 +35,9 @@ _JOIN = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]{1,64})/([A-Za-z0-9_.-]{1,64})")
 _TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[\[{]|[\]}]|[^\s,:"\[\]{}]+', re.DOTALL)
 _COLON = re.compile(r"\s*:")
 _UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]+)")
+_STAND_IN_UP = re.compile(rf"vipo/v1/sim/([A-Za-z0-9_.-]{{1,64}})/up/({'|'.join(STAND_IN_KINDS)})")
+Voice = Literal["dev", "sim"]
+"""Who speaks and is told as a device: the device itself, or its stand-in (docs/protocol.md)."""
 
 
 class BadMessage(VipoError):
@@ -88,19 +92,25 @@ def fit_device_id(plain: str, source: str, *, is_unambiguous: bool = True) -> st
     return f"{fit[:57]}-{hashlib.sha256(source.encode()).hexdigest()[:6]}"
 
 
-def up_topic(device_id: str, kind: str) -> str:
+def up_topic(device_id: str, kind: str, voice: Voice = "dev") -> str:
     """Return the topic on which a device speaks: `desc`, `presence`, `state`, `ack` or `map`."""
-    return f"vipo/v1/dev/{device_id}/up/{kind}"
+    return f"vipo/v1/{voice}/{device_id}/up/{kind}"
 
 
-def down_topic(device_id: str, method: str) -> str:
-    """Return the topic on which a device is told to do something."""
-    return f"vipo/v1/dev/{device_id}/down/{method}"
+def down_topic(device_id: str, method: str, voice: Voice = "dev") -> str:
+    """Return the topic on which a device, or its stand-in, is told to do something."""
+    return f"vipo/v1/{voice}/{device_id}/down/{method}"
 
 
 def read_up_topic(topic: str) -> tuple[str, str] | None:
     """Return (device id, kind) of an `up` topic, or None for any other."""
     found = _UP.fullmatch(topic)
+    return (found.group(1), found.group(2)) if found else None
+
+
+def read_stand_in_topic(topic: str) -> tuple[str, str] | None:
+    """Return (device id, kind) of what a stand-in says, or None for any other topic."""
+    found = _STAND_IN_UP.fullmatch(topic)
     return (found.group(1), found.group(2)) if found else None
 
 

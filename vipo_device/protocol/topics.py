@@ -42,6 +42,15 @@ MIRROR = "mirror:"
 has a colon)."""
 MIRROR_FILTERS = ("vipo/v1/dev/+/down/+", "vipo/v1/dev/+/up/ack", "vipo/v1/dev/+/up/state", "vipo/v1/site/+/stop")
 
+STAND_INS = "stand-ins:"
+"""The user name of VIPO's own process that plays devices which are simulated for a while; it speaks for their stand-ins
+alone, and hears what these are told."""
+HAND_OVER_FILTERS = ("vipo/v1/dev/+/down/pick", "vipo/v1/dev/+/down/drop", "vipo/v1/dev/+/up/ack")
+"""By these a stand-in of a machine hears what real robots fetch from it and bring to it."""
+STAND_IN_FILTERS = ("vipo/v1/sim/+/down/+", "vipo/v1/site/+/stop", "vipo/v1/srv/status", *HAND_OVER_FILTERS)
+STAND_IN_KINDS = ("presence", "state", "ack")
+"""What a stand-in says, of the kinds of `up` topics; it describes nothing and maps nothing."""
+
 
 def stop_topic(site: str) -> str:
     """Return where a site's devices and programs hear its stop."""

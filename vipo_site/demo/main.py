@@ -108,7 +108,7 @@ def reset_state(folder: Path) -> None:
     """Forget everything; the database of a demo that still runs is not touched, for its port is in use."""
     for name in ("vipo.sqlite3", "vipo.sqlite3-wal", "vipo.sqlite3-shm", "demo-accounts.json"):
         (folder / name).unlink(missing_ok=True)
-    for name in ("twin", "secrets", "broker", "firmware"):
+    for name in ("twin", "stand-ins", "secrets", "broker", "firmware"):
         shutil.rmtree(folder / name, ignore_errors=True)
 
 
@@ -225,15 +225,18 @@ def start_parts(options: argparse.Namespace, state: Path) -> list[Part]:
     from execution.gateway.gateway import Gateway
     from execution.mirror.mirror import Mirror
     from execution.services import run_ticker
+    from execution.stand_ins.stand_ins import StandIns
     from registry.services import Heart
 
     parts = [start_broker(), *start_workers()]
     gateway, ticker, mirror = Heart("gateway", settings.VIPO_GATEWAY), Heart("ticker"), Heart("mirror")
-    hearts = (("gateway", gateway), ("ticker", ticker), ("mirror", mirror))
+    stand_ins = Heart("stand-ins")
+    hearts = (("gateway", gateway), ("ticker", ticker), ("mirror", mirror), ("stand-ins", stand_ins))
     parts += [Part(name, heart.start().stop) for name, heart in hearts]
     parts.append(start_loop("gateway", lambda stopping: Gateway(settings, gateway).run_forever(stopping)))
     parts.append(start_loop("ticker", lambda stopping: run_ticker(stopping=stopping, heart=ticker)))
     parts.append(start_loop("mirror", Mirror(settings, mirror, speed=options.speed).run_forever))
+    parts.append(start_loop("stand-ins", StandIns(settings, stand_ins, speed=options.speed).run_forever))
     return parts + start_children(state, options.speed, options.pace)
 
 

@@ -12,7 +12,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from django.db import close_old_connections
 
-from vipo_device.protocol.topics import MIRROR, MIRROR_FILTERS, is_reader, stop_topic, things_prefix
+from vipo_device.protocol.messages import read_stand_in_topic
+from vipo_device.protocol.topics import (
+    MIRROR,
+    MIRROR_FILTERS,
+    STAND_IN_FILTERS,
+    STAND_INS,
+    is_reader,
+    stop_topic,
+    things_prefix,
+)
 
 if TYPE_CHECKING:
     from registry.services import Login
@@ -122,6 +131,8 @@ def may_publish(username: str, topic: str) -> bool:
     """Say whether somebody may write to a topic: a device under its own `up/`, who enrols at its site, nobody else."""
     if is_reader(username) or username == MIRROR:
         return False
+    if username == STAND_INS:
+        return read_stand_in_topic(topic) is not None
     if username.startswith(ENROLMENT):
         enrolment = _ENROL.fullmatch(topic)
         return enrolment is not None and enrolment[1] == username.removeprefix(ENROLMENT)
@@ -136,6 +147,8 @@ def may_subscribe(username: str, topic_filter: str, site: str, topics: Collectio
     """
     if username == MIRROR:
         return topic_filter in MIRROR_FILTERS
+    if username == STAND_INS:
+        return topic_filter in STAND_IN_FILTERS
     if is_reader(username):
         return topic_filter.startswith(things_prefix(site)) or topic_filter == stop_topic(site)
     if username.startswith(ENROLMENT):

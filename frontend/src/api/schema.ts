@@ -1817,6 +1817,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site}/devices/{device_id}/stand-in": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Begin Stand In
+         * @description Simulate a device in place of the real one, which is told nothing until that ends.
+         */
+        put: operations["begin_stand_in"];
+        post?: never;
+        /**
+         * End Stand In
+         * @description Use the real device again.
+         */
+        delete: operations["end_stand_in"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site}/findings": {
         parameters: {
             query?: never;
@@ -3839,6 +3863,8 @@ export interface components {
             radius_m: number;
             simulated: boolean;
             size: components["schemas"]["SizeShape"];
+            stand_in: boolean;
+            stands_at: components["schemas"]["PoseShape"] | null;
             /** @enum {string} */
             status: "idle" | "busy" | "done" | "waiting" | "warning" | "error" | "offline" | "pending";
             taken: boolean;
@@ -4285,6 +4311,8 @@ export interface components {
             radius_m: number;
             simulated: boolean;
             size: components["schemas"]["SizeShape"];
+            stand_in: boolean;
+            stands_at: components["schemas"]["PoseShape"] | null;
             /** @enum {string} */
             status: "idle" | "busy" | "done" | "waiting" | "warning" | "error" | "offline" | "pending";
             takes: string[];
@@ -5299,7 +5327,7 @@ export interface components {
             clock_apart_s: number | null;
             id: string;
             /** @enum {string} */
-            kind: "web" | "gateway" | "worker" | "ticker" | "mirror" | "twin";
+            kind: "web" | "gateway" | "worker" | "ticker" | "mirror" | "stand-ins" | "twin";
             machine: string;
             name: string;
             process: number;
@@ -11113,6 +11141,94 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["MethodPaceShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    begin_stand_in: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                site: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeviceShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    end_stand_in: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                site: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeviceShape"];
                 };
             };
             400: components["responses"]["Refused400"];

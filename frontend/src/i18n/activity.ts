@@ -6,6 +6,8 @@ interface Doer {
   readonly doing: string;
   /** What it is doing, by a code; null where it says so only in its own words. */
   readonly activity?: { readonly code: string; readonly args: Readonly<Record<string, unknown>> } | null;
+  /** It is simulated in place of the real one. */
+  readonly stand_in?: boolean;
 }
 
 /** `2 boxes`; in other languages `2 × box`, for objects are called as the site calls them. */
@@ -15,8 +17,16 @@ export function countedWords(count: number, name: string): string {
   return `${formatNumber(count)} ${name}${/(x|s|ch|sh)$/.test(name) ? "es" : "s"}`;
 }
 
-/** Empty where there is nothing to tell; the server's own words where the screens do not know the code. */
-export function activityWords({ doing, activity }: Doer): string {
+/** Empty where there is nothing to tell; of what is simulated in place of a real one it says so. */
+export function activityWords(doer: Doer): string {
+  const words = doingWords(doer);
+  if (!doer.stand_in) return words;
+  const isIdle = !words || doer.activity?.code === "ready";
+  return isIdle ? i18next.t("device.standIn.mark") : i18next.t("device.standIn.doing", { doing: words });
+}
+
+/** The server's own words where the screens do not know the code. */
+function doingWords({ doing, activity }: Doer): string {
   if (!activity || !i18next.exists(`device.doing.${activity.code}`)) return doing;
   const { args } = activity;
   const load = Object.entries(args).map(([name, count]) => countedWords(Number(count), name));

@@ -25,6 +25,7 @@ export const liveRobots: RobotSource = (now) => {
       y: pose.y,
       theta: pose.theta,
       copy: copies[device.id],
+      real: device.stands_at,
       route: path?.route,
       reserved: path?.reserved,
       wait: waitWords(path?.why, (id) => deviceById[id]?.name ?? id) ?? path?.wait ?? null,

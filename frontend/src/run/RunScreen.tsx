@@ -23,6 +23,7 @@ import { Crumb, TopBar } from "@/shell/TopBar";
 import { Chip } from "@/design/Chip";
 import { ProgramMap } from "@/program/ProgramMap";
 import { byStep } from "@/device/paces/paces";
+import { StandInMark } from "@/device/standIn/StandInMark";
 import { formatMoment } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
 import { liveRobots } from "@/live/robots";
@@ -36,7 +37,7 @@ import { RunPlace } from "./scene/RunPlace";
 import { isPlanned } from "./terms";
 import { ScriptLines } from "./ScriptLines";
 import { currentStep, stepLines } from "./stepList";
-import { Journal, RunSteps } from "./RunSteps";
+import { isSimulated, Journal, RunSteps } from "./RunSteps";
 import { Timeline, TimelineLegend } from "./Timeline";
 import { useStepWords } from "./useStepWords";
 import { DEFAULT_ROLE, roleOfStep } from "@/program/operation";
@@ -154,11 +155,27 @@ function useRunView({ run, site }: LoadedProps) {
   const over = OVER.includes(run.status);
   const now = useNow(!over);
   const [selected, setSelected] = useState<string | null>(null);
+  const simulated = useMemo(() => new Set(events.filter(isSimulated).map((event) => event.device)), [events]);
   const lines = useMemo(() => stepLines(run.compiled, run.steps), [run.compiled, run.steps]);
   const numberOf = (step: string) => run.compiled.numbers[step] ?? "";
   const nameOf = (id: string) => devices.find((device) => device.id === id)?.name ?? id;
   const allowed = site !== undefined && mayOperate(site.role);
-  return { run, site, devices, map, events, over, now, selected, setSelected, lines, numberOf, nameOf, allowed };
+  return {
+    run,
+    site,
+    devices,
+    map,
+    events,
+    over,
+    now,
+    selected,
+    setSelected,
+    lines,
+    numberOf,
+    nameOf,
+    simulated,
+    allowed,
+  };
 }
 
 type RunView = ReturnType<typeof useRunView>;
@@ -226,6 +243,7 @@ function RunTop({ view, onProblem }: { view: RunView; onProblem: (problem: strin
           {run.version !== null && <Chip mono>v{run.version}</Chip>}
           {run.archived && <Chip>{t("run.archived")}</Chip>}
           {site?.simulated && <Chip>{t("run.simulated")}</Chip>}
+          {view.simulated.size > 0 && <Simulated view={view} />}
           <RunTerms run={run} now={view.now} />
         </span>
       }
@@ -241,6 +259,13 @@ function RunTop({ view, onProblem }: { view: RunView; onProblem: (problem: strin
       <RunPill run={run} elapsed_s={elapsedSeconds(run, view.now)} now={view.now} />
     </TopBar>
   );
+}
+
+/** Which devices were simulated in the run. */
+function Simulated({ view }: { view: RunView }) {
+  const { t } = useTranslation();
+  const devices = [...view.simulated].map(view.nameOf).join(", ");
+  return <StandInMark title={t("device.standIn.inRun", { devices })}>{devices}</StandInMark>;
 }
 
 /** The steps and the journal. */

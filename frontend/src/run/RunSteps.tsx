@@ -5,6 +5,7 @@ import { StatusGlyph, type StatusName } from "@/design/StatusGlyph";
 import { VipoIcon } from "@/design/VipoIcon";
 import { clock } from "@/design/clock";
 import { paceOf, percentOver } from "@/device/paces/paces";
+import { StandInMark } from "@/device/standIn/StandInMark";
 import { formatNumber } from "@/i18n/format";
 import { waitWords } from "@/i18n/waits";
 import styles from "./RunScreen.module.css";
@@ -145,6 +146,9 @@ function eventGlyph(event: RunEvent): StatusName {
   return KINDS[event.kind] ?? "idle";
 }
 
+/** A line about a device for which a simulated one was told or has answered. */
+export const isSimulated = (event: RunEvent): boolean => event.args.simulated === true;
+
 interface JournalProps {
   events: readonly RunEvent[];
   numberOf: (step: string) => string;
@@ -186,7 +190,7 @@ export function Journal({ events, numberOf, nameOf, label, full = false }: Journ
             <StatusGlyph status={eventGlyph(event)} size={13} />
             <span>
               {event.step && numberOf(event.step) ? <b>{numberOf(event.step)} </b> : null}
-              {eventWords(event, nameOf)}
+              {eventWords(event, nameOf)} {isSimulated(event) ? <StandInMark /> : null}
             </span>
           </li>
         ))}

@@ -1,4 +1,4 @@
-"""Write Mosquitto's accounts from the registry: the server's, the mirror's, the sites' for enrolment, the devices'."""
+"""Write Mosquitto's accounts from the registry: those of VIPO's processes, the sites' for enrolment, the devices'."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from django.conf import settings
 from django.core.management.base import BaseCommand
 
 from registry import services
-from vipo_device.protocol.credentials import broker_hash, mirror_key
-from vipo_device.protocol.topics import MIRROR
+from vipo_device.protocol.credentials import broker_hash, mirror_key, stand_ins_key
+from vipo_device.protocol.topics import MIRROR, STAND_INS
 
 
 class Command(BaseCommand):
@@ -28,6 +28,7 @@ class Command(BaseCommand):
         """Write the file whole or not at all, readable for its owner only."""
         server, password = str(settings.VIPO_MQTT["username"]), str(settings.VIPO_MQTT["password"])
         own = {server: broker_hash(password), MIRROR: broker_hash(mirror_key(password))}
+        own[STAND_INS] = broker_hash(stand_ins_key(password))
         hashes = {**services.list_broker_hashes(), **own}
         path: Path = options["file"]
         part = path.with_name(path.name + ".part")

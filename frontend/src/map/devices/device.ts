@@ -12,6 +12,7 @@ export interface MapDevice {
   readonly status: string;
   readonly doing: string;
   readonly activity?: Activity | null;
+  readonly stand_in?: boolean;
   readonly location: { readonly x: number; readonly y: number; readonly theta: number };
   readonly size: { readonly x: number; readonly y: number } | null;
   readonly properties: readonly { readonly name: string; readonly value: unknown }[];

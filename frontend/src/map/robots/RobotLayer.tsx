@@ -98,7 +98,7 @@ function fingerprint(
   const parts = robots.map((robot) => {
     const path = `${robot.route?.length ?? 0},${robot.reserved?.[0]?.join() ?? ""}`;
     const pose = `${robot.x.toFixed(3)},${robot.y.toFixed(3)},${robot.theta.toFixed(2)}`;
-    const copy = robot.copy ? `${robot.copy.x.toFixed(2)},${robot.copy.y.toFixed(2)}` : "";
+    const copy = [robot.copy, robot.real].map((at) => (at ? `${at.x.toFixed(2)},${at.y.toFixed(2)}` : "")).join();
     return `${robot.id},${copy},${pose},${robot.status},${robot.note ?? ""},${robot.wait ?? ""},${robot.carrying},${path}`;
   });
   const time = moving ? now : fading ? Math.floor(now / 500) : 0;

@@ -1,7 +1,8 @@
 /** Paints live robots: reserved path, trail, body, ring, what they carry and why they wait. */
+import i18next from "i18next";
 import type { Palette } from "../plane/palette";
 import { toPixels, type Box, type Point, type Viewport } from "../plane/projection";
-import { apartOf, type RobotView, type TrailPoint, type Trails } from "./robots";
+import { apartOf, type Pose, type RobotView, type TrailPoint, type Trails } from "./robots";
 
 type Canvas = CanvasRenderingContext2D;
 
@@ -23,6 +24,7 @@ export function paintWays(canvas: Canvas, palette: Palette, moment: Moment, trai
   canvas.scale(viewport.zoom, viewport.zoom);
   for (const robot of robots) paintWay(canvas, palette, robot);
   for (const robot of robots) paintCopy(canvas, palette, robot);
+  for (const robot of robots) if (robot.real) paintReal(canvas, palette, robot.real, robot);
   if (trails) for (const robot of robots) paintTrail(canvas, palette, trails.of(robot.id, now));
   canvas.restore();
 }
@@ -86,6 +88,29 @@ function paintCopy(canvas: Canvas, palette: Palette, { copy, x, y }: RobotView):
   canvas.arc(to.x, to.y, RADIUS - 4, 0, Math.PI * 2);
   canvas.stroke();
   canvas.setLineDash([]);
+}
+
+/** Where the real robot stands while a simulated one drives; nothing where one covers the other. */
+function paintReal(canvas: Canvas, palette: Palette, real: Pose, robot: RobotView): void {
+  if (apartOf(real, robot) === null) return;
+  const at = toPixels([real.x, real.y]);
+  canvas.save();
+  canvas.translate(at.x, at.y);
+  canvas.globalAlpha = 0.55;
+  paintBody(canvas, palette, real.theta);
+  canvas.globalAlpha = 1;
+  canvas.strokeStyle = palette["text-3"];
+  canvas.lineWidth = 1.6;
+  canvas.setLineDash([3, 4]);
+  canvas.beginPath();
+  canvas.arc(0, 0, RADIUS, 0, Math.PI * 2);
+  canvas.stroke();
+  canvas.setLineDash([]);
+  canvas.font = NOTE;
+  canvas.textAlign = "center";
+  canvas.fillStyle = palette["text-2"];
+  canvas.fillText(i18next.t("device.standIn.body"), 0, RADIUS + 15);
+  canvas.restore();
 }
 
 function paintTrail(canvas: Canvas, palette: Palette, trail: readonly TrailPoint[]): void {

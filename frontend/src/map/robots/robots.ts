@@ -27,6 +27,8 @@ export interface RobotView extends Pose {
   readonly reserved?: readonly Point[];
   /** Where its copy in the mirror is, while it is at work. */
   readonly copy?: Pose;
+  /** Where the real robot stands that is simulated for a while. */
+  readonly real?: Pose | null;
   /** Why it waits. */
   readonly wait?: string | null;
 }

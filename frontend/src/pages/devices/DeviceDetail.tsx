@@ -20,6 +20,8 @@ import { jobOf } from "./filter";
 import { useFocusInList } from "./focus";
 import { AskKeyDecision, KeyMenuItems, KeyTrouble, type KeyDecision } from "./keys/KeyActions";
 import { OpenCall } from "@/device/methods/OpenCall";
+import { StandInCard } from "@/device/standIn/StandInCard";
+import { StandInMark } from "@/device/standIn/StandInMark";
 import { MeasuredTimes } from "@/device/paces/MeasuredTimes";
 import { LiveProperties } from "@/device/readings/LiveProperties";
 import { Methods } from "./methods/Methods";
@@ -74,6 +76,7 @@ function Heading({ device }: { device: Device }) {
         <StatusBadge status={device.status}>
           {doing && device.status !== "pending" ? `${word}: ${doing}` : word}
         </StatusBadge>
+        {device.stand_in ? <StandInMark /> : null}
         {device.last_seen_at ? (
           <span>{t("pages.devices.seen", { age: formatAge(device.last_seen_at, now) })}</span>
         ) : null}
@@ -88,6 +91,7 @@ function Overview({ site, device }: { site: Site; device: Device }) {
       <DeviceAlerts slug={site.slug} devices={[device.id]} />
       {device.description ? <p>{device.description}</p> : null}
       <KeyTrouble device={device} />
+      <StandInCard site={site} device={device} />
       <OpenCall site={site} device={device} />
       <LiveProperties site={site} device={device} />
       {device.kind === "robot" && device.lifecycle === "approved" ? <RobotMapCard site={site} device={device} /> : null}

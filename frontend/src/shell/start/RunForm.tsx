@@ -5,7 +5,7 @@ import { type ReactNode, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
 import { useOnce } from "@/api/once";
-import { keys } from "@/api/queries";
+import { keys, useDevices } from "@/api/queries";
 import type { Run } from "@/api/types";
 import { type Fact, FactList } from "@/design/FactList";
 import { ReviewBeforeRun, useRunReview } from "../review/ReviewBeforeRun";
@@ -111,7 +111,9 @@ function useStartRun(
 /** Who will do it, and what speaks against it. */
 function Facts({ about, errors, warnings, facts = [] }: RunFormProps) {
   const { t } = useTranslation();
-  const { stop } = about.site;
+  const { stop, slug } = about.site;
+  const standIns = (useDevices(slug).data ?? []).filter((device) => device.stand_in);
+  const simulated = standIns.map((device) => device.name).join(", ");
   const robots = robotsOf(about).map(({ role, robot }): Fact => ({
     tone: "robot",
     text: `${role ?? t("editor.role.default")}: ${robot ?? t("editor.role.any")}`,
@@ -121,6 +123,7 @@ function Facts({ about, errors, warnings, facts = [] }: RunFormProps) {
       facts={[
         ...facts,
         ...robots,
+        ...(simulated ? [{ tone: "warn", text: t("start.run.standIns", { devices: simulated }) } as const] : []),
         errors > 0
           ? { tone: "error", text: t("start.run.errors", { count: errors }) }
           : { tone: "done", text: t("start.run.checked") },

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import threading
 import time
 from collections.abc import Iterator
 from datetime import UTC, datetime
-from uuid import UUID, uuid4
 
 import pytest
 from django.conf import LazySettings
@@ -15,20 +13,15 @@ from django.conf import LazySettings
 from execution.commands.outbox import record_ack
 from execution.gateway.gateway import Gateway
 from execution.mirror.mirror import Mirror
-from execution.models import Command, Measurement
-from registry import services
+from execution.models import Measurement
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
-from tests.kit.files import MIXER_TEXT
+from tests.integration.wire.virtual.mixer import A_MINUTE_S, MIXER, Mixer, is_over, tell
 from tests.kit.waiting import wait_for
-from vipo_device.kit.enrolment import take_new_keys
 from vipo_device.protocol.credentials import mirror_key
 from vipo_device.protocol.mqtt_client import MqttClient
 from vipo_device.protocol.topics import MIRROR, MIRROR_FILTERS
 
 pytestmark = pytest.mark.servers
-KEY = "the-key-of-the-mixer-0001"
-MIXER = "paintMixer03"
-A_MINUTE_S = 1.0
 
 
 def hears(mirror: Mirror) -> bool:
@@ -47,60 +40,6 @@ def mirror(bus: Bus, gateway: Gateway, settings: LazySettings) -> Iterator[Mirro
     yield made
     stopping.set()
     thread.join(20)
-
-
-class Mixer:
-    """Takes `pace` times as long as it should; answers as docs/protocol.md says."""
-
-    def __init__(self, bus: Bus) -> None:
-        self.client: MqttClient = bus.client(MIXER, KEY)
-        self.pace, self.heard = 1.0, 0
-        take_new_keys(MIXER, self.client, lambda key: None)
-        self.client.subscribe(f"vipo/v1/dev/{MIXER}/down/mixPaint", 1, self._told)
-
-    def _say(self, kind: str, body: object) -> None:
-        self.client.publish(f"vipo/v1/dev/{MIXER}/up/{kind}", json.dumps(body).encode())
-
-    def _told(self, _topic: str, payload: bytes, _retained: bool) -> None:
-        told = json.loads(payload)
-        self.heard += 1
-        threading.Thread(target=self._mix, args=(told["id"], told["v"]["time"])).start()
-
-    def _mix(self, command: str, minutes: float) -> None:
-        for status in ("ACCEPTED", "RUNNING"):
-            self._say("ack", {"id": command, "st": status})
-        time.sleep(self.pace * minutes * A_MINUTE_S)
-        self._say("ack", {"id": command, "st": "DONE"})
-
-
-@pytest.fixture
-def mixer(bus: Bus, gateway: Gateway) -> Iterator[Mixer]:
-    at = datetime.now(UTC)
-    services.enrol_device(site=SITE, device_id=MIXER, payload=json.dumps({"key": KEY}).encode(), at=at)
-    made = Mixer(bus)
-    made.client.publish(f"vipo/v1/dev/{MIXER}/up/desc", MIXER_TEXT.encode(), retain=True)
-    made.client.publish(f"vipo/v1/dev/{MIXER}/up/presence", b'{"s": "online", "boot": 1}', retain=True)
-    made.client.start()
-    wait_for("its description", lambda: services.find_device(device_id=MIXER))
-    services.approve_device(site=SITE, device_id=MIXER, by=None, at=datetime.now(UTC))
-    wait_for("the approved mixer", lambda: made.client.connected)
-    yield made
-    made.client.stop()
-
-
-def tell(method: str = "mixPaint", **arguments: object) -> UUID:
-    """Put a command into the outbox; the gateway sends it."""
-    at = datetime.now(UTC)
-    command = Command.objects.create(
-        id=uuid4(), site_id=services.get_site_id(site=SITE), position=Command.objects.count() + 1, device=MIXER,
-        method=method, arguments=arguments, run=uuid4(), step="mix", send_after=at, created_at=at,
-    )  # fmt: skip
-    services.wake("gateway")
-    return command.pk
-
-
-def is_over(command: UUID) -> bool:
-    return Command.objects.get(pk=command).status == "done"
 
 
 def test_what_the_device_takes_is_kept_beside_what_its_copy_takes(mixer: Mixer, mirror: Mirror) -> None:

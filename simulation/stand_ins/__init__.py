@@ -1,0 +1,1 @@
+"""Stand-ins: simulated devices that take the place of real ones for a while."""
