@@ -6,7 +6,7 @@ import { floorShapes, paintFloor, type FloorDetail } from "./floorPainter";
 import classes from "../map.module.css";
 import type { Palette } from "../plane/palette";
 import { zoneSign } from "./zonePainter";
-import { ruleWords, zoneWords } from "./zoneWords";
+import { signWords } from "./zoneWords";
 import { useCanvas } from "../plane/useCanvas";
 import type { ViewportSource } from "../plane/viewport";
 
@@ -23,10 +23,7 @@ export function FloorCanvas({
 }) {
   const { t } = useTranslation();
   const zones = plan?.zones;
-  const signs = useMemo(
-    () => (zones ?? []).map((zone) => zoneSign(zone, [zoneWords(zone, t), ruleWords(zone, t)])),
-    [zones, t],
-  );
+  const signs = useMemo(() => (zones ?? []).map((zone) => zoneSign(zone, signWords(zone, t))), [zones, t]);
   const shapes = useMemo(() => (plan ? floorShapes(plan, signs) : null), [plan, signs]);
   const paint = useCallback(
     (canvas: CanvasRenderingContext2D, size: { width: number; height: number }, palette: Palette) =>

@@ -3,14 +3,21 @@ import type { TFunction } from "i18next";
 import { formatNumber, withUnit } from "@/i18n/format";
 import type { MapZone } from "./floor";
 
+type Rule = Omit<MapZone, "id" | "name" | "points">;
+
 /** Its rule: "Keep out", "At most 0.3 m/s", "2 robots". */
-export function ruleWords(zone: Omit<MapZone, "id" | "name" | "points">, t: TFunction): string {
-  const { rule, speed_m_s, robots, heading_deg } = zone;
-  return t(`zone.short.${rule}`, {
-    speed: speedWords(speed_m_s ?? 0),
-    count: robots ?? 1,
-    arrow: arrowOf(heading_deg ?? 0),
-  });
+export function ruleWords(zone: Rule, t: TFunction): string {
+  return shortWords(zone, t, arrowOf(zone.heading_deg ?? 0));
+}
+
+/** What its sign on the map says, long and short; the sign has an arrow of its own. */
+export function signWords(zone: MapZone, t: TFunction): [string, string] {
+  const rule = shortWords(zone, t, "");
+  return [t("zone.says", { rule, name: zone.name }), rule];
+}
+
+function shortWords({ rule, speed_m_s, robots }: Rule, t: TFunction, arrow: string): string {
+  return t(`zone.short.${rule}`, { speed: speedWords(speed_m_s ?? 0), count: robots ?? 1, arrow }).trim();
 }
 
 const ARROWS = ["→", "↗", "↑", "↖", "←", "↙", "↓", "↘"] as const;
