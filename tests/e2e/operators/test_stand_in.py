@@ -44,6 +44,7 @@ def test_a_robot_is_simulated_in_a_run(sign_in: SignIn, faults: list[str]) -> No
     expect(card).to_contain_text("The real device is told nothing")
     expect(other.get_by_role("complementary").get_by_role("button", name="Use the real one again")).to_be_visible()
     expect(detail.get_by_text("Ready", exact=False).first).to_be_visible()
+    expect(detail.get_by_text("Simulated from now on; the device itself is told nothing").first).to_be_visible()
     shoot(page, "stand-in")
     shoot(other, "stand-in-narrow")
     assert violations(page) == []

@@ -274,7 +274,7 @@ def test_a_device_is_shown_as_the_contract_says(hall: str) -> None:
     contract = {
         *("id", "name", "kind", "device_class", "icon", "lifecycle", "status", "doing", "location", "size", "radius_m"),
         *("properties", "methods", "gives", "takes", "capacity", "carrying", "last_seen_at", "done", "simulated"),
-        *("image", "description", "has_key", "dropped", "activity", "asks"),
+        *("image", "description", "stand_in", "stands_at", "has_key", "dropped", "activity", "asks"),
     }
     assert set(body) == contract
 

@@ -22,7 +22,11 @@ function useSwitch({ site, device }: OfDevice) {
   const path = `/sites/${site.slug}/devices/${device.id}/stand-in`;
   return useMutation({
     mutationFn: () => (device.stand_in ? api.delete(path) : api.put(path, undefined)),
-    onSettled: () => client.invalidateQueries({ queryKey: keys.devices(site.slug) }),
+    onSettled: () =>
+      Promise.all([
+        client.invalidateQueries({ queryKey: keys.devices(site.slug) }),
+        client.invalidateQueries({ queryKey: keys.deviceEvents(site.slug, device.id) }),
+      ]),
   });
 }
 

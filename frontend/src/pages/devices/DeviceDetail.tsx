@@ -68,7 +68,7 @@ function Ring({ device }: { device: Device }) {
 function Heading({ device }: { device: Device }) {
   const { t } = useTranslation();
   const now = useNow(1000);
-  const [word, doing] = [t(`shell.status.${device.status}`), activityWords(device)];
+  const [word, doing] = [t(`shell.status.${device.status}`), activityWords({ ...device, stand_in: false })];
   return (
     <div className={styles.heading}>
       <h2>{device.name}</h2>
