@@ -36,6 +36,7 @@ from vipo_device.protocol.topics import STAND_IN_FILTERS, STAND_INS
 
 log = logging.getLogger(__name__)
 LOOK_EVERY_S = 1.0
+LEASE_EVERY_S = 0.5
 SITE_EVERY_S = 5.0
 REST_S, TICK_S = 0.2, 0.05
 MOST_AT_ONCE = 500
@@ -60,7 +61,7 @@ class StandIns:
         self._playing: dict[str, tuple[StandIn, Line]] = {}
         self._orders: OrderedDict[str, tuple[str, HandOver]] = OrderedDict()
         self._held: dict[str, bytes] = {}
-        self._looked_at = self._sites_at = float("-inf")
+        self._looked_at = self._sites_at = self._asked_at = float("-inf")
         self._machines: dict[str, dict[str, registry.DeviceView]] = {}
         self._outage = Outage("The database", "Devices that are simulated begin and end nothing new.")
 
@@ -94,11 +95,13 @@ class StandIns:
             self._inbox.put((topic, payload, retained))
 
     def _turn(self, stopping: threading.Event) -> None:
-        if not self._lease.hold(database.now()):
-            self._give_way()
-            stopping.wait(LOOK_EVERY_S)
-            return
         now = time.monotonic()
+        if now - self._asked_at >= LEASE_EVERY_S:  # a process that was frozen asks first, before it says anything
+            if not self._lease.hold(database.now()):
+                self._give_way()
+                stopping.wait(LOOK_EVERY_S)
+                return
+            self._asked_at = now
         if now - self._looked_at >= LOOK_EVERY_S:
             self._looked_at = now
             self._look(now)
@@ -124,9 +127,10 @@ class StandIns:
     def _take_in(self) -> list[tuple[str, bytes, bool]]:
         """Wait for a message for a moment, and return all that have come."""
         is_busy = any(stand_in.is_busy for stand_in, _ in self._playing.values())
+        rest_s = REST_S if self._playing else LOOK_EVERY_S
         messages: list[tuple[str, bytes, bool]] = []
         try:
-            messages.append(self._inbox.get(timeout=TICK_S if is_busy else REST_S))
+            messages.append(self._inbox.get(timeout=TICK_S if is_busy else rest_s))
             while len(messages) < MOST_AT_ONCE:
                 messages.append(self._inbox.get_nowait())
         except Empty:
@@ -136,7 +140,8 @@ class StandIns:
     def _hear(self, topic: str, payload: bytes, retained: bool) -> None:
         parts = topic.split("/")
         if parts[2:3] == ["dev"]:
-            self._hear_real(parts[3], parts[5], payload)
+            if self._playing:
+                self._hear_real(parts[3], parts[5], payload)
             return
         if parts[2:3] == ["site"]:
             self._held[topic] = payload  # a stand-in that begins later hears it, too

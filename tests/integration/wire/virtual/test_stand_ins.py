@@ -12,7 +12,7 @@ from django.conf import LazySettings
 
 from execution.commands.manual_calls import call_method
 from execution.errors import NotPossibleNow
-from execution.models import Command
+from execution.models import Command, Lease
 from execution.stand_ins.stand_ins import StandIns
 from execution.stand_ins.switching import simulate_device
 from registry import services
@@ -96,8 +96,8 @@ def test_another_process_takes_over_from_one_that_is_gone(
     with playing(settings) as second:
         time.sleep(1.5)
         assert not second._playing, "one plays"
-        stand_ins._lease.hold = lambda now: False  # as after it was frozen for longer than the lease
-        wait_for("the second", lambda: second._playing, 20)
+        Lease.objects.filter(name="stand-ins").update(holder=second._lease._holder)  # as after the first was frozen
+        wait_for("the second", lambda: second._playing and not stand_ins._playing, 20)
         wait_for("its first word", lambda: Device.objects.get(pk=MIXER).boot > first)
         assert (call().status, mixer.heard) == ("done", 0)
 
