@@ -45,7 +45,7 @@ def test_measured_times_grow_and_are_taken_over_by_keyboard_while_another_looks_
     assert taken == 200
     operator.reload()
     expect(times[0]).to_contain_text("Rehearsals and tests take")
-    times[0].get_by_role("button", name=re.compile("^Use the model.s time of blink in rehearsals")).press("Enter")
+    times[0].get_by_role("button", name=re.compile("^Use the model.s time: blink")).press("Enter")
     expect(times[0]).not_to_contain_text("Rehearsals and tests take")
     faults[:] = [line for line in faults if "/robot03/map" not in line]  # it may have sent no map yet
 
