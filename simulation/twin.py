@@ -9,7 +9,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from queue import Empty, SimpleQueue
 
@@ -18,7 +18,7 @@ from simulation.laser import Mapper
 from simulation.services import DriverName, make_world
 from simulation.site_facts import NothingToSimulate, SiteFacts
 from simulation.twin_memory import TwinMemory, read_memory, snapshot, write_memory
-from simulation.virtual_device import Appearance, VirtualDevice
+from simulation.virtual_device import Appearance, VirtualDevice, look_at
 from simulation.world import Ack, Scene, World
 from vipo_device.kit.connection import (
     CommandReceived,
@@ -28,7 +28,6 @@ from vipo_device.kit.connection import (
     StopChanged,
     leave,
 )
-from vipo_device.protocol.description import Pose
 
 log = logging.getLogger(__name__)
 TICK_S = 0.05
@@ -191,14 +190,8 @@ class Twin:
         return {name: Mapper(floor, self._boots[name], sent.get(name, 0)) for name in robots}
 
     def _appearances(self) -> dict[str, Appearance]:
-        robots, readings, busy = self._world.robots(), self._world.readings(), self._world.busy()
-        seen = {}
-        for device in self._facts.devices:
-            name, pose = device.description.id, device.description.pose
-            if name in self._devices:
-                at = _rounded(robots[name].pose) if name in robots else pose
-                seen[name] = Appearance(not busy[name], at, readings[name])
-        return seen
+        speaking = [d.description for d in self._facts.devices if d.description.id in self._devices]
+        return look_at(self._world, speaking)
 
     def _refresh(self) -> None:
         """Take over a new map or machines that people moved, as soon as nobody is busy."""
@@ -233,7 +226,3 @@ def make_scene(plan: TwinPlan, facts: SiteFacts) -> Scene:
     devices = [d.description for d in facts.devices]
     here = [d for d in devices if d.kind == "machine" or d.id in plan.speaking]
     return Scene(facts.grid, here, delivery_s=DELIVERY_S, bodiless=plan.pending, paces=plan.paces)
-
-
-def _rounded(pose: Pose) -> Pose:
-    return replace(pose, x=round(pose.x, 3), y=round(pose.y, 3), theta=round(pose.theta, 3))

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from simulation.site_facts import DescribedDevice
-from simulation.world import Ack
+from simulation.world import Ack, World
 from vipo_device.kit.connection import ConnectionEvent, ConnectionMaker, DeviceConnection
-from vipo_device.protocol.description import DeviceState, Pose, Scalar
-from vipo_device.protocol.messages import AckMessage
+from vipo_device.protocol.description import Description, DeviceState, Pose, Scalar
+from vipo_device.protocol.messages import AckMessage, Voice
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,12 +21,36 @@ class Appearance:
     readings: Mapping[str, Scalar]
 
 
+def look_at(world: World, devices: Iterable[Description]) -> dict[str, Appearance]:
+    """Return how these devices of a world are, by id; a machine stands where it is described."""
+    robots, readings, busy = world.robots(), world.readings(), world.busy()
+    return {
+        device.id: Appearance(
+            not busy[device.id],
+            _rounded(robots[device.id].pose) if device.id in robots else device.pose,
+            readings[device.id],
+        )
+        for device in devices
+    }
+
+
+def _rounded(pose: Pose) -> Pose:
+    return replace(pose, x=round(pose.x, 3), y=round(pose.y, 3), theta=round(pose.theta, 3))
+
+
 class VirtualDevice:
     """A device's connection. What it hears it passes on at once, on the network's thread."""
 
-    def __init__(self, device: DescribedDevice, site: str, boot: int, hear: Callable[[ConnectionEvent], None]) -> None:
+    def __init__(
+        self,
+        device: DescribedDevice,
+        site: str,
+        boot: int,
+        hear: Callable[[ConnectionEvent], None],
+        voice: Voice = "dev",
+    ) -> None:
         self._device = device
-        self.connection = DeviceConnection(device.description.id, site, boot, hear)
+        self.connection = DeviceConnection(device.description.id, site, boot, hear, voice)
         self._command = ""
 
     def connect(self, make: ConnectionMaker) -> None:

@@ -7,30 +7,23 @@ measures into the database. Several may run; what two measure is kept once.
 from __future__ import annotations
 
 import logging
-import secrets
 import threading
 import time
 from collections import defaultdict
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from queue import Empty, SimpleQueue
 from typing import Any
 
-from django.db import DatabaseError, InterfaceError, close_old_connections
-
 from execution import database
+from execution.listener import Arrival, Listener
 from execution.mirror.attention import Attention
 from execution.mirror.measurements import Kept, keep_job
 from execution.mirror.paces import Change
 from registry import services as registry
-from registry.services import Outage
 from simulation.mirror.device_copy import DeviceCopy
 from simulation.services import make_world
 from simulation.world import Scene, World
-from vipo_device.protocol.credentials import mirror_key
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import BadMessage, parse_ack, parse_state, read_command, read_stop
-from vipo_device.protocol.mqtt_client import MqttClient
 from vipo_device.protocol.topics import MIRROR, MIRROR_FILTERS
 
 log = logging.getLogger(__name__)
@@ -39,10 +32,7 @@ SHOW_EVERY_S = 0.25
 TELL_EVERY_S = 2.0
 """Pages read measured times anew upon it: in a crowd not at each command."""
 KNOWN_FOR_S = 10.0
-MOST_WAITING = 20_000
-MOST_AT_ONCE = 500
 MOST_COPIES = 500
-GIVEN_UP = "The copy of %s is given up; the device itself knows nothing of it."
 
 
 @dataclass(slots=True)
@@ -54,103 +44,69 @@ class _Known:
     copy: DeviceCopy
 
 
-class Mirror:
+class Mirror(Listener):
     """One mirror; the embedded mode runs it in a thread, `manage.py mirror` in a process."""
 
+    account, filters = MIRROR, MIRROR_FILTERS
+    without_database = "What devices take is not measured."
+
     def __init__(self, settings: Any, heart: registry.Heart | None = None, *, speed: float = 1.0) -> None:
-        broker: Mapping[str, Any] = settings.VIPO_MQTT
-        own = {**broker, "username": MIRROR, "password": mirror_key(str(broker["password"]))}
-        self._client = MqttClient.from_settings(own, client_id=f"mirror-{secrets.token_hex(6)}")
-        self._heart, self._speed = heart, speed
-        self._inbox: SimpleQueue[tuple[float, str, bytes]] = SimpleQueue()
-        self._attention, self._new_line = Attention(), threading.Event()
+        super().__init__(settings, heart, speed=speed)
+        self._attention = Attention()
         self._known: dict[str, _Known] = {}
         self._stopped: dict[str, bool] = {}
         self._changed: dict[tuple[str, str], set[str]] = {}
         self._shown: set[str] = set()
         self._shown_at = self._told_at = 0.0
         self._measured: dict[str, set[str]] = {}
-        self._outage = Outage("The database", "What devices take is not measured.")
 
-    def run_forever(self, stopping: threading.Event) -> None:
-        """Serve until `stopping` is set."""
-        for topic in MIRROR_FILTERS:
-            self._client.subscribe(topic, 1, self._arrived)
-        self._client.on_connected(self._new_line.set)
-        self._client.start()
-        try:
-            while not stopping.is_set():
-                if self._heart is not None:
-                    self._heart.beat("works" if self._client.connected else "broker_away")
-                try:
-                    self._turn()
-                    self._outage.end()
-                except (DatabaseError, InterfaceError) as error:
-                    self._outage.begin(error)
-                    close_old_connections()
-                    stopping.wait(1.0)
-        finally:
-            self._client.stop()
-            close_old_connections()
-
-    def _arrived(self, topic: str, payload: bytes, retained: bool) -> None:
-        """Keep a message with the moment of its arrival; on the network's thread."""
-        is_command = not retained or topic.endswith(("/up/state", "/stop"))
-        if is_command and self._inbox.qsize() < MOST_WAITING:
-            self._inbox.put((time.monotonic(), topic, payload))
-
-    def _turn(self) -> None:
+    def _turn(self, _stopping: threading.Event) -> None:
         is_new_line = self._new_line.is_set()
         self._new_line.clear()
         if not self._attention.turn(time.monotonic(), is_new_line=is_new_line):
             for known in self._known.values():
                 known.copy.forget()
         at_work = [known for known in self._known.values() if known.copy.is_at_work]
-        try:
-            self._hear(*self._inbox.get(timeout=TICK_S if at_work else REST_S))
-            for _ in range(MOST_AT_ONCE):
-                self._hear(*self._inbox.get_nowait())
-        except Empty:
-            pass
+        for arrival in self._heard(TICK_S if at_work else REST_S):
+            self._hear(arrival)
         now = time.monotonic()
         for device, known in list(self._known.items()):
             if known.copy.is_at_work:
-                try:
+                with self._alone(device):
                     known.copy.advance(now)
                     self._keep(known)
-                except (DatabaseError, InterfaceError):
-                    raise
-                except Exception:  # one device's copy must not end the copies of all others
-                    log.exception(GIVEN_UP, device)
-                    self._known.pop(device, None)
         if now - self._shown_at >= SHOW_EVERY_S:
             self._shown_at = now
             self._show()
 
-    def _hear(self, at: float, topic: str, payload: bytes) -> None:
+    def _give_up(self, device: str) -> None:
+        self._known.pop(device, None)
+
+    def _hear(self, arrival: Arrival) -> None:
+        at, topic, payload, retained = arrival
+        if retained and not topic.endswith(("/up/state", "/stop")):
+            return
         parts = topic.split("/")
         if parts[2:3] == ["site"] and parts[4:] == ["stop"]:
             self._hold(at, parts[3], active=read_stop(payload).active)
-            return
-        if len(parts) != 6 or parts[2] != "dev":
-            return
-        device, way, kind = parts[3:]
-        try:
-            if way == "down":
-                self._hear_command(at, device, kind, payload)
-            elif device in self._known:
-                copy = self._known[device].copy
-                if kind == "ack":
-                    copy.hear_answer(at, parse_ack(payload))
-                elif payload:
-                    copy.hear_state(at, parse_state(payload))
-        except (BadMessage, VipoError) as error:
-            log.debug("The mirror does not understand %s: %s", topic, error.detail)
-        except (DatabaseError, InterfaceError):
-            raise
-        except Exception:  # one device's message must not end the copies of all others
-            log.exception(GIVEN_UP, device)
-            self._known.pop(device, None)
+        elif len(parts) == 6 and parts[2] == "dev":
+            device, way, kind = parts[3:]
+            with self._alone(device):
+                try:
+                    self._hear_of(at, (device, way, kind), payload)
+                except (BadMessage, VipoError) as error:
+                    log.debug("The mirror does not understand %s: %s", topic, error.detail)
+
+    def _hear_of(self, at: float, said: tuple[str, str, str], payload: bytes) -> None:
+        device, way, kind = said
+        if way == "down":
+            self._hear_command(at, device, kind, payload)
+        elif device in self._known:
+            copy = self._known[device].copy
+            if kind == "ack":
+                copy.hear_answer(at, parse_ack(payload))
+            elif payload:
+                copy.hear_state(at, parse_state(payload))
 
     def _hear_command(self, at: float, device: str, method: str, payload: bytes) -> None:
         command = read_command(method, payload)

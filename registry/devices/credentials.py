@@ -28,10 +28,10 @@ from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
 from registry.models import Device, User
 from registry.sites.sites import find_site, get_enrolment_key, has_enrolment_key, replace_enrolment_key
-from vipo_device.protocol.credentials import broker_hash, make_credential, mirror_key, secret_hash, stand_ins_key
+from vipo_device.protocol.credentials import broker_hash, make_credential, own_key, secret_hash
 from vipo_device.protocol.messages import BadMessage, down_topic, parse_ack, up_topic
 from vipo_device.protocol.mqtt_client import MqttClient, MqttError
-from vipo_device.protocol.topics import MIRROR, STAND_INS
+from vipo_device.protocol.topics import OWN_ACCOUNTS
 
 log = logging.getLogger(__name__)
 CONNECT_LIMIT_S = 10.0
@@ -157,10 +157,9 @@ def reconcile_accounts() -> tuple[frozenset[str], frozenset[str]]:
     if there is None:
         return frozenset(), frozenset()
     _allow_anew(accounts().find_outdated())
-    for name, key_of in ((MIRROR, mirror_key), (STAND_INS, stand_ins_key)):
-        if name not in there:  # the broker's file is older than this process
-            accounts().put(Account(name, key_of(str(settings.VIPO_MQTT["password"]))))
-    own = {str(settings.VIPO_MQTT["username"]), MIRROR, STAND_INS}
+    for name in set(OWN_ACCOUNTS) - there:  # the broker's file is older than this process
+        accounts().put(Account(name, own_key(name, str(settings.VIPO_MQTT["password"]))))
+    own = {str(settings.VIPO_MQTT["username"]), *OWN_ACCOUNTS}
     removed = {name for name in there - own if _remove_unknown(name)}
     return frozenset(removed), frozenset(list_broker_hashes()) - there
 

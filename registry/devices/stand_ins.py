@@ -21,10 +21,11 @@ STATE = ("online", "presence_boot", "boot", "seq", "done", "command", "pose", "p
 
 @dataclass(frozen=True, slots=True)
 class StandInView:
-    """A device that is simulated at the moment; `boot` is the highest start that its row knows of."""
+    """A device that is simulated at the moment, since a switch; `boot` is the highest start that its row knows of."""
 
     device: DeviceView
     boot: int
+    since: str
 
 
 def switch_stand_in(*, site: str, device_id: str, simulated: bool, by: User | None, at: datetime) -> DeviceView:
@@ -37,7 +38,7 @@ def switch_stand_in(*, site: str, device_id: str, simulated: bool, by: User | No
     if device.stand_in == simulated:
         return before
     if simulated:
-        device.aside = _state_to_json(device)
+        device.aside = {**_state_to_json(device), "since": at.isoformat()}
         device.online, device.done, device.command = False, True, ""
         device.presence_boot = device.boot = device.seq = -1
     else:
@@ -57,7 +58,10 @@ def list_stand_ins() -> tuple[StandInView, ...]:
     """Return the devices of all sites that are simulated now, by id."""
     rows = Device.objects.filter(stand_in=True, lifecycle=Device.Lifecycle.APPROVED, description__isnull=False)
     found = rows.select_related("site").defer("source").order_by("pk")
-    return tuple(StandInView(view_of(row, row.site.slug), max(row.boot, row.presence_boot)) for row in found)
+    return tuple(
+        StandInView(view_of(row, row.site.slug), max(row.boot, row.presence_boot), (row.aside or {}).get("since", ""))
+        for row in found
+    )
 
 
 def list_simulated_ids(*, site_id: int) -> frozenset[str]:
@@ -76,7 +80,7 @@ def real_of(device: Device) -> Device:
 def keep_aside(device: Device, real: Device) -> None:
     """Keep what a real device has said while its stand-in speaks; the row is locked."""
     before = view_of(device, device.site.slug) if device.description_hash else None
-    device.aside = _state_to_json(real)
+    device.aside = {**(device.aside or {}), **_state_to_json(real)}
     device.save(update_fields=["aside"])
     if before is not None:
         announce(before, view_of(device, device.site.slug))

@@ -10,13 +10,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from simulation.actors.machine import shown_stock
+from simulation.site_facts import DescribedDevice
+from simulation.stand_ins.hand_overs import HandOver, HandOvers
 from simulation.stand_ins.line import Line
 from simulation.twin_memory import TwinMemory, read_memory, snapshot, write_memory
+from simulation.virtual_device import VirtualDevice, look_at
 from simulation.world import Ack, Scene, World, open_floor
-from vipo_device.kit.arguments import counted_object
-from vipo_device.kit.connection import CommandReceived, ConnectionEvent, DeviceConnection, IntroductionDue, StopChanged
-from vipo_device.protocol.description import Description, DeviceState, Pose, Scalar
+from vipo_device.kit.connection import CommandReceived, ConnectionEvent, IntroductionDue, StopChanged
+from vipo_device.protocol.description import Description, Pose, Scalar
 from vipo_device.protocol.loads import read_load
 from vipo_device.protocol.messages import AckMessage
 
@@ -50,31 +51,15 @@ class StandInFacts:
         return (replace(own, pose=Pose(0, 0)) if own.kind == "robot" else own), self.machines
 
 
-@dataclass(frozen=True, slots=True)
-class HandOver:
-    """Something that a robot has fetched from a machine (`count` below 0) or brought to it."""
-
-    machine: str
-    object: str
-    count: int
-
-
-def hand_over_of(method: str, arguments: Mapping[str, object]) -> HandOver | None:
-    """Return what changes hands where a robot carries this out; None for anything else."""
-    machine, goods = arguments.get("device"), counted_object(arguments)
-    if method not in {"pick", "drop"} or not isinstance(machine, str) or isinstance(goods, str):
-        return None
-    return HandOver(machine, goods[0], goods[1] if method == "drop" else -goods[1])
-
-
 class StandIn:
     """Plays one device over a line that it may share with others."""
 
     def __init__(self, facts: StandInFacts, line: Line, make_world: MakeWorld, memory: Path, speed: float) -> None:
         self.facts, self._line, self._make_world, self._memory, self._speed = facts, line, make_world, memory, speed
-        self._connection = DeviceConnection(self.id, facts.site, facts.begins, self._take, "sim")
-        self._command, self._lag_s, self._now = "", 0.0, 0.0
-        self._orders: dict[str, HandOver] = {}
+        described = DescribedDevice(facts.description, b"")  # it describes nothing: its device has
+        self._device = VirtualDevice(described, facts.site, facts.begins, self._take, "sim")
+        self._lag_s, self._now = 0.0, 0.0
+        self._hand_overs = HandOvers()
         self._held = False
         self._world = self._begin()
 
@@ -96,11 +81,11 @@ class StandIn:
     def connect(self, now: float) -> None:
         """Begin to speak."""
         self._now = now
-        self._connection.connect(lambda _device, _will: self._line)
+        self._device.connect(lambda _device, _will: self._line)
 
     def leave(self) -> None:
         """Say that it goes, which the device's row no longer hears where it was switched back, and end its world."""
-        self._connection.say_presence(online=False)
+        self._device.connection.say_presence(online=False)
         self.close()
 
     def close(self) -> None:
@@ -126,6 +111,7 @@ class StandIn:
         held = dict(self.stock or {})
         held[goods.object] = max(0, held.get(goods.object, 0) + goods.count)
         self._world.set_stock(self.id, {name: count for name, count in held.items() if count})
+        write_memory(self._memory, self._snapshot())
 
     def advance(self, now: float) -> list[HandOver]:
         """Let time pass, say what came of it, and return what has changed hands; `now` in seconds that only rise."""
@@ -139,11 +125,10 @@ class StandIn:
     def _take(self, event: ConnectionEvent) -> None:
         match event:
             case CommandReceived(command=command):
-                if goods := hand_over_of(command.method, command.arguments):
-                    self._orders[command.id] = goods
+                self._hand_overs.note(self.id, command)
                 self._world.command(self.id, command.method, command.arguments, command.id)
             case IntroductionDue():
-                self._connection.say_presence(online=True)
+                self._device.connection.say_presence(online=True)
             case StopChanged(active=active):
                 self._held = active
                 self._world.hold(active=active)
@@ -155,23 +140,13 @@ class StandIn:
             write_memory(self._memory, self._snapshot())  # what was answered is never done again after a crash
         for ack in acks:
             if not ack.is_final:
-                self._answer(ack)
-        self._connection.report(self._state, self._now, at_once=bool(over))
+                self._device.answer(ack)
+        seen = look_at(self._world, [self.facts.description])[self.id]
+        self._device.report(seen, self._now, at_once=bool(over))
         for ack in over:
-            self._answer(ack)
-        handed = [(ack, self._orders.pop(ack.command, None)) for ack in over]
-        return [goods for ack, goods in handed if goods is not None and ack.status == "DONE"]
-
-    def _answer(self, ack: Ack) -> None:
-        if ack.status == "RUNNING":
-            self._command = ack.command
-        self._connection.answer(AckMessage(ack.command, ack.status, ack.why[:256], ack.result))
-
-    def _state(self, boot: int, seq: int) -> DeviceState:
-        robot = self._world.robots().get(self.id)
-        pose = self.facts.description.pose if robot is None else robot.pose
-        at = replace(pose, x=round(pose.x, 3), y=round(pose.y, 3), theta=round(pose.theta, 3))
-        return DeviceState(boot, seq, not self.is_busy, at, self._command, self._world.readings()[self.id])
+            self._device.answer(ack)
+        handed = [self._hand_overs.take(self.id, AckMessage(ack.command, ack.status)) for ack in over]
+        return [goods for goods in handed if goods is not None]
 
     def _begin(self) -> World:
         """Return the world as this stand-in left it, or as the device's row says it is."""
@@ -194,11 +169,3 @@ class StandIn:
 
     def _snapshot(self) -> TwinMemory:
         return snapshot(self._world, {self.id: self.facts.begins})
-
-
-def stock_for(description: Description, readings: Mapping[str, Scalar], order: HandOver) -> Mapping[str, int]:
-    """Return what a real machine holds as far as it shows it; where it does not, it is taken to do as it is asked."""
-    shown = shown_stock(description, readings)
-    if shown is not None:
-        return shown
-    return {order.object: -order.count} if order.count < 0 else {}

@@ -37,14 +37,10 @@ def broker_hash(secret: str, salt: bytes | None = None) -> str:
     return f"$7${ROUNDS}${base64.b64encode(salt).decode()}${base64.b64encode(digest).decode()}"
 
 
-def mirror_key(server_password: str) -> str:
-    """Return the key of VIPO's mirror at the broker: it follows from the server's, which does not follow from it."""
-    return hmac.new(server_password.encode(), b"vipo mirror", hashlib.sha256).hexdigest()
-
-
-def stand_ins_key(server_password: str) -> str:
-    """Return the key of what plays stand-ins at the broker, made as `mirror_key` is."""
-    return hmac.new(server_password.encode(), b"vipo stand-ins", hashlib.sha256).hexdigest()
+def own_key(account: str, server_password: str) -> str:
+    """Return the key of one of `OWN_ACCOUNTS`: it follows from the server's, which does not follow from it."""
+    named = f"vipo {account.removesuffix(':')}"
+    return hmac.new(server_password.encode(), named.encode(), hashlib.sha256).hexdigest()
 
 
 def is_strong(secret: str) -> bool:

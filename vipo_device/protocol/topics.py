@@ -45,6 +45,8 @@ MIRROR_FILTERS = ("vipo/v1/dev/+/down/+", "vipo/v1/dev/+/up/ack", "vipo/v1/dev/+
 STAND_INS = "stand-ins:"
 """The user name of VIPO's own process that plays devices which are simulated for a while; it speaks for their stand-ins
 alone, and hears what these are told."""
+OWN_ACCOUNTS = (MIRROR, STAND_INS)
+"""VIPO's own processes that may do less at the broker than the server."""
 HAND_OVER_FILTERS = ("vipo/v1/dev/+/down/pick", "vipo/v1/dev/+/down/drop", "vipo/v1/dev/+/up/ack")
 """By these a stand-in of a machine hears what real robots fetch from it and bring to it."""
 STAND_IN_FILTERS = ("vipo/v1/sim/+/down/+", "vipo/v1/site/+/stop", "vipo/v1/srv/status", *HAND_OVER_FILTERS)

@@ -24,9 +24,9 @@ from amqtt.errors import MQTTError
 from amqtt.mqtt.connack import NOT_AUTHORIZED, SERVER_UNAVAILABLE, UNACCEPTABLE_PROTOCOL_VERSION
 from django.db import DatabaseError
 
-from vipo_device.protocol.credentials import mirror_key, stand_ins_key
+from vipo_device.protocol.credentials import own_key
 from vipo_device.protocol.faults import printable
-from vipo_device.protocol.topics import MIRROR, STAND_INS, is_reader
+from vipo_device.protocol.topics import OWN_ACCOUNTS, is_reader
 from vipo_site.embedded_broker.access_control import AccessControl, Admitted, may_publish
 from vipo_site.embedded_broker.arrivals import Arrivals
 from vipo_site.embedded_broker.client_queue import DEVICE_ROOM, READER_ROOM, SERVER_ROOM, Outbox, Room
@@ -49,8 +49,6 @@ log = logging.getLogger(__name__)
 
 CONNECT_TIMEOUT_S = 10.0
 END_TIMEOUT_S = 2.0
-_OWN_KEYS = {MIRROR: mirror_key, STAND_INS: stand_ins_key}
-"""VIPO's own processes that may do less than the server: how their keys follow from its password."""
 COMPLAINT_EVERY_S = 60.0
 MOST_COMPLAINTS = 1000
 MOST_SHOWN = 80
@@ -172,8 +170,8 @@ class VipoBroker(SpreadingBroker):
         if username == SERVER:
             right = hmac.compare_digest(password.encode(), self._server_password.encode())
             return "" if right else "wrong password"
-        if username in _OWN_KEYS:
-            right = hmac.compare_digest(password.encode(), _OWN_KEYS[username](self._server_password).encode())
+        if username in OWN_ACCOUNTS:
+            right = hmac.compare_digest(password.encode(), own_key(username, self._server_password).encode())
             if right and session.will_flag and not may_publish(username, session.will_topic or ""):
                 return "its last will is not on a topic of its own"
             return "" if right else "wrong password"
@@ -266,7 +264,7 @@ class VipoBroker(SpreadingBroker):
 
 
 def _room_of(username: str) -> Room:
-    if username == SERVER or username in _OWN_KEYS:
+    if username in {SERVER, *OWN_ACCOUNTS}:
         return SERVER_ROOM
     return READER_ROOM if is_reader(username) else DEVICE_ROOM
 

@@ -25,8 +25,8 @@ export function activityWords(doer: Doer): string {
   return isIdle ? i18next.t("device.standIn.mark") : i18next.t("device.standIn.doing", { doing: words });
 }
 
-/** The server's own words where the screens do not know the code. */
-function doingWords({ doing, activity }: Doer): string {
+/** What it does, without that; the server's own words where the screens do not know the code. */
+export function doingWords({ doing, activity }: Doer): string {
   if (!activity || !i18next.exists(`device.doing.${activity.code}`)) return doing;
   const { args } = activity;
   const load = Object.entries(args).map(([name, count]) => countedWords(Number(count), name));

@@ -11,8 +11,8 @@ from django.conf import settings
 from django.core.management.base import BaseCommand
 
 from registry import services
-from vipo_device.protocol.credentials import broker_hash, mirror_key, stand_ins_key
-from vipo_device.protocol.topics import MIRROR, STAND_INS
+from vipo_device.protocol.credentials import broker_hash, own_key
+from vipo_device.protocol.topics import OWN_ACCOUNTS
 
 
 class Command(BaseCommand):
@@ -27,9 +27,8 @@ class Command(BaseCommand):
     def handle(self, *_args: Any, **options: Any) -> None:
         """Write the file whole or not at all, readable for its owner only."""
         server, password = str(settings.VIPO_MQTT["username"]), str(settings.VIPO_MQTT["password"])
-        own = {server: broker_hash(password), MIRROR: broker_hash(mirror_key(password))}
-        own[STAND_INS] = broker_hash(stand_ins_key(password))
-        hashes = {**services.list_broker_hashes(), **own}
+        own = {name: broker_hash(own_key(name, password)) for name in OWN_ACCOUNTS}
+        hashes = {**services.list_broker_hashes(), **own, server: broker_hash(password)}
         path: Path = options["file"]
         part = path.with_name(path.name + ".part")
         part.unlink(missing_ok=True)

@@ -10,7 +10,7 @@ import { Chip } from "@/design/Chip";
 import { IconButton } from "@/design/IconButton";
 import { StatusBadge } from "@/design/StatusBadge";
 import { statusColour } from "@/design/StatusGlyph";
-import { activityWords } from "@/i18n/activity";
+import { doingWords } from "@/i18n/activity";
 import { formatAge, formatNumber } from "@/i18n/format";
 import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import { useNow } from "@/design/useNow";
@@ -68,7 +68,7 @@ function Ring({ device }: { device: Device }) {
 function Heading({ device }: { device: Device }) {
   const { t } = useTranslation();
   const now = useNow(1000);
-  const [word, doing] = [t(`shell.status.${device.status}`), activityWords({ ...device, stand_in: false })];
+  const [word, doing] = [t(`shell.status.${device.status}`), doingWords(device)];
   return (
     <div className={styles.heading}>
       <h2>{device.name}</h2>

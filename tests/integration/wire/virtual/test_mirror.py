@@ -17,7 +17,7 @@ from execution.models import Measurement
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
 from tests.integration.wire.virtual.mixer import A_MINUTE_S, MIXER, Mixer, is_over, tell
 from tests.kit.waiting import wait_for
-from vipo_device.protocol.credentials import mirror_key
+from vipo_device.protocol.credentials import own_key
 from vipo_device.protocol.mqtt_client import MqttClient
 from vipo_device.protocol.topics import MIRROR, MIRROR_FILTERS
 
@@ -32,7 +32,7 @@ def hears(mirror: Mirror) -> bool:
 @pytest.fixture
 def mirror(bus: Bus, gateway: Gateway, settings: LazySettings) -> Iterator[Mirror]:
     """A mirror that lets a minute pass in a second, as the mixer of these tests does."""
-    wait_for("the mirror's account", lambda: bus.lets_in(MIRROR, mirror_key(SERVER_WORD)))
+    wait_for("the mirror's account", lambda: bus.lets_in(MIRROR, own_key(MIRROR, SERVER_WORD)))
     made, stopping = Mirror(settings, speed=60 / A_MINUTE_S), threading.Event()
     thread = threading.Thread(target=made.run_forever, args=(stopping,))
     thread.start()
@@ -96,7 +96,7 @@ def test_what_is_not_its_business_or_not_a_message_leaves_the_mirror_working(
 
 def test_the_mirrors_account_hears_and_says_nothing(bus: Bus, mixer: Mixer, mirror: Mirror) -> None:
     heard: list[str] = []
-    account = bus.client(MIRROR, mirror_key(SERVER_WORD))
+    account = bus.client(MIRROR, own_key(MIRROR, SERVER_WORD))
     for topic in (*MIRROR_FILTERS, "vipo/v1/dev/+/up/map", "vipo/v1/join/+/+", "$CONTROL/#"):
         account.subscribe(topic, 1, lambda topic, *_: heard.append(topic))
     account.start()
@@ -114,4 +114,4 @@ def test_the_mirrors_account_hears_and_says_nothing(bus: Bus, mixer: Mixer, mirr
     assert any(topic.endswith("/down/mixPaint") for topic in heard)
     assert not record_ack(device=MIXER, command_id="forged", status="DONE", why="", result={}, at=datetime.now(UTC))
     assert not bus.lets_in(MIRROR, SERVER_WORD)
-    assert not bus.lets_in(MIRROR, mirror_key("another word"))
+    assert not bus.lets_in(MIRROR, own_key(MIRROR, "another word"))

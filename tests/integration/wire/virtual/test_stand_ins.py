@@ -21,7 +21,7 @@ from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
 from tests.integration.wire.virtual.mixer import A_MINUTE_S, MIXER, Mixer
 from tests.kit.mqtt import Ear
 from tests.kit.waiting import wait_for
-from vipo_device.protocol.credentials import stand_ins_key
+from vipo_device.protocol.credentials import own_key
 from vipo_device.protocol.topics import STAND_IN_FILTERS, STAND_INS
 
 pytestmark = pytest.mark.servers
@@ -42,7 +42,7 @@ def playing(settings: LazySettings) -> Iterator[StandIns]:
 
 @pytest.fixture
 def stand_ins(bus: Bus, mixer: Mixer, settings: LazySettings) -> Iterator[StandIns]:
-    wait_for("the account", lambda: bus.lets_in(STAND_INS, stand_ins_key(SERVER_WORD)))
+    wait_for("the account", lambda: bus.lets_in(STAND_INS, own_key(STAND_INS, SERVER_WORD)))
     with playing(settings) as made:
         yield made
 
@@ -104,7 +104,7 @@ def test_another_process_takes_over_from_one_that_is_gone(
 
 def test_the_account_speaks_for_stand_ins_alone(bus: Bus, mixer: Mixer, stand_ins: StandIns) -> None:
     switch(simulated=True)
-    account, heard = bus.client(STAND_INS, stand_ins_key(SERVER_WORD)), []
+    account, heard = bus.client(STAND_INS, own_key(STAND_INS, SERVER_WORD)), []
     for topic in (
         *STAND_IN_FILTERS,
         "vipo/v1/dev/+/up/state",

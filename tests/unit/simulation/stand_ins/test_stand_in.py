@@ -10,11 +10,13 @@ from typing import Any
 import pytest
 
 from simulation.services import make_world
+from simulation.stand_ins.hand_overs import HandOver, HandOvers, hand_over_of, stock_for
 from simulation.stand_ins.line import Line
-from simulation.stand_ins.stand_in import HandOver, StandIn, StandInFacts, hand_over_of, stock_for
+from simulation.stand_ins.stand_in import StandIn, StandInFacts
 from simulation.world import Scene, World
 from tests.unit.simulation.stage_set import scene
 from vipo_device.protocol.description import Description, Pose
+from vipo_device.protocol.messages import AckMessage, DeviceCommand
 
 TICK_S = 0.05
 ROBOT, STORE, OVEN = "robot", "shelf", "oven"
@@ -147,7 +149,7 @@ def test_a_simulated_machine_learns_what_robots_take_and_bring(tmp_path: Path) -
     ],
 )
 def test_what_changes_hands(method: str, arguments: dict[str, object], handed: HandOver | None) -> None:
-    assert hand_over_of(method, arguments) == handed
+    assert hand_over_of(DeviceCommand("c", method, arguments)) == handed
 
 
 def test_a_real_machine_that_shows_nothing_is_taken_to_have_what_is_asked_for() -> None:
@@ -156,3 +158,23 @@ def test_a_real_machine_that_shows_nothing_is_taken_to_have_what_is_asked_for() 
     assert stock_for(store, {"stock": 5}, HandOver(STORE, "box", -1)) == {"box": 5}
     assert stock_for(store, {}, HandOver(STORE, "box", -2)) == {"box": 2}
     assert stock_for(store, {}, HandOver(STORE, "box", 2)) == {}
+
+
+def test_an_order_that_is_asked_for_again_changes_hands_once() -> None:
+    orders, told = HandOvers(), DeviceCommand("c1", "pick", {"device": STORE, "object": "box", "value": 1})
+    assert orders.note(ROBOT, told) == HandOver(STORE, "box", -1)
+    assert orders.take(ROBOT, AckMessage("c1", "RUNNING")) is None
+    assert orders.take("another", AckMessage("c1", "DONE")) is None
+    assert orders.take(ROBOT, AckMessage("c1", "DONE")) == HandOver(STORE, "box", -1)
+    orders.note(ROBOT, told)
+    assert orders.take(ROBOT, AckMessage("c1", "DONE")) is None
+    orders.note(ROBOT, DeviceCommand("c2", "pick", told.arguments))
+    assert orders.take(ROBOT, AckMessage("c2", "FAILED")) is None
+
+
+def test_what_robots_have_taken_outlives_a_restart(tmp_path: Path) -> None:
+    first = Stage(STORE, tmp_path, readings={"stock": 3})
+    first.pass_time(0.2)
+    first.stand_in.take_over(HandOver(STORE, "box", -2))
+    again = Stage(STORE, tmp_path, boot=first.facts.begins, readings={"stock": 3})
+    assert again.stand_in.stock == {"box": 1}
