@@ -43,12 +43,12 @@ class Mixer:
         self._say("ack", {"id": command, "st": "DONE"})
 
 
-def tell(method: str = "mixPaint", **arguments: object) -> UUID:
+def tell(method: str = "mixPaint", *, to: str = MIXER, stand_in: bool = False, **arguments: object) -> UUID:
     """Put a command into the outbox; the gateway sends it."""
     at = datetime.now(UTC)
     command = Command.objects.create(
-        id=uuid4(), site_id=services.get_site_id(site=SITE), position=Command.objects.count() + 1, device=MIXER,
-        method=method, arguments=arguments, run=uuid4(), step="mix", send_after=at, created_at=at,
+        id=uuid4(), site_id=services.get_site_id(site=SITE), position=Command.objects.count() + 1, device=to,
+        method=method, arguments=arguments, run=uuid4(), step="mix", send_after=at, created_at=at, stand_in=stand_in,
     )  # fmt: skip
     services.wake("gateway")
     return command.pk

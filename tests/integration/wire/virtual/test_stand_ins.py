@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
 
 import pytest
 from django.conf import LazySettings
@@ -16,9 +21,11 @@ from execution.models import Command, Lease
 from execution.stand_ins.stand_ins import StandIns
 from execution.stand_ins.switching import simulate_device
 from registry import services
+from registry.demo.devices import DEVICES
 from registry.models import Device
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
-from tests.integration.wire.virtual.mixer import A_MINUTE_S, MIXER, Mixer
+from tests.integration.wire.virtual.mixer import A_MINUTE_S, MIXER, Mixer, is_over, tell
+from tests.kit.files import describe_mixer
 from tests.kit.mqtt import Ear
 from tests.kit.waiting import wait_for
 from vipo_device.protocol.credentials import own_key
@@ -41,7 +48,8 @@ def playing(settings: LazySettings) -> Iterator[StandIns]:
 
 
 @pytest.fixture
-def stand_ins(bus: Bus, mixer: Mixer, settings: LazySettings) -> Iterator[StandIns]:
+def stand_ins(bus: Bus, mixer: Mixer, settings: LazySettings, tmp_path: Path) -> Iterator[StandIns]:
+    settings.VIPO_STATE_DIR = tmp_path
     wait_for("the account", lambda: bus.lets_in(STAND_INS, own_key(STAND_INS, SERVER_WORD)))
     with playing(settings) as made:
         yield made
@@ -136,3 +144,62 @@ def test_no_device_speaks_for_a_stand_in(bus: Bus, mixer: Mixer, stand_ins: Stan
     mixer.client.subscribe(f"vipo/v1/sim/{MIXER}/down/mixPaint", 1, mixer._told)
     assert call().status == "done"
     assert (mixer.heard, Device.objects.get(pk=MIXER).boot < 9999999999) == (0, True)
+
+
+def test_one_that_is_switched_back_and_on_within_a_moment_begins_anew(mixer: Mixer, stand_ins: StandIns) -> None:
+    switch(simulated=True)
+    first = Device.objects.get(pk=MIXER).boot
+    simulate_device(site=SITE, device_id=MIXER, simulated=False, by=None)
+    simulate_device(site=SITE, device_id=MIXER, simulated=True, by=None)
+    wait_for("the new one", lambda: Device.objects.get(pk=MIXER).online)
+    assert Device.objects.get(pk=MIXER).boot >= first
+    assert (call().status, mixer.heard) == ("done", 0)
+
+
+def test_what_goes_wrong_with_one_ends_no_other(mixer: Mixer, stand_ins: StandIns) -> None:
+    """Where its file belongs is a folder: it can keep no answer, and so gives none."""
+    join("paintMixer09", describe_mixer("paintMixer09"))
+    (stand_ins._folder / "paintMixer09.json").mkdir()
+    switch(simulated=True)
+    simulate_device(site=SITE, device_id="paintMixer09", simulated=True, by=None)
+    wait_for("both", lambda: services.get_device(site=SITE, device_id="paintMixer09").online)
+    broken = tell(to="paintMixer09", stand_in=True, time=1)
+    wait_for("the one that is given up", lambda: "paintMixer09" in stand_ins._given_up)
+    assert call().status == "done"
+    assert not is_over(broken)
+
+
+def test_a_simulated_store_learns_what_a_real_robot_takes(bus: Bus, mixer: Mixer, stand_ins: StandIns) -> None:
+    """The robot speaks by Mosquitto's own clients: it hears one command, and answers it."""
+    join("itemInventory01", (DEVICES / "itemInventory01.ttl").read_bytes())
+    join("robot01", (DEVICES / "robot01.ttl").read_bytes(), key="the-key-of-the-robot-0001")
+    simulate_device(site=SITE, device_id="itemInventory01", simulated=True, by=None)
+    wait_for("the store", lambda: services.get_device(site=SITE, device_id="itemInventory01").readings.get("stock"))
+    before = stock()
+    who = ("-h", "127.0.0.1", "-p", str(bus.device_port), "-u", "robot01", "-i", "robot01")
+    who = (*who, "-P", "the-key-of-the-robot-0001", "-V", "mqttv311", "-q", "1")
+    command = tell("pick", to="robot01", device="itemInventory01", object="box", value=2)
+    heard = subprocess.run(
+        ["mosquitto_sub", *who, "-t", "vipo/v1/dev/robot01/down/pick", "-C", "1", "-W", "30"],
+        capture_output=True, check=True, timeout=40,
+    )  # fmt: skip
+    assert json.loads(heard.stdout)["id"] == str(command)
+    for _ in range(2):  # it says so twice
+        answer = json.dumps({"id": str(command), "st": "DONE"})
+        said = ["mosquitto_pub", *who, "-t", "vipo/v1/dev/robot01/up/ack", "-m", answer]
+        subprocess.run(said, check=True, timeout=20)
+    wait_for("what is left", lambda: stock() == before - 2)
+    time.sleep(1)
+    assert stock() == before - 2
+
+
+def stock() -> Any:
+    return services.get_device(site=SITE, device_id="itemInventory01").readings["stock"]
+
+
+def join(device: str, text: bytes, key: str = "the-key-of-a-device-00001") -> None:
+    """Let a device take part that has described itself once."""
+    at = datetime.now(UTC)
+    services.enrol_device(site=SITE, device_id=device, payload=json.dumps({"key": key}).encode(), at=at)
+    services.ingest_description(device_id=device, payload=text, at=at)
+    services.approve_device(site=SITE, device_id=device, by=None, at=at)
