@@ -34,9 +34,10 @@ class StepEncoder:
         """Return the step that some nodes are."""
         loads = [node for node in nodes if isinstance(node, n.Pick | n.Drop)]
         if len(loads) == 2:
-            return _pick_and_drop(self, tuple(node for node in nodes if not isinstance(node, n.Event)))
-        node = loads[0] if loads else nodes[0]
-        drawn = ENCODERS[type(node)](self, node)
+            drawn = _pick_and_drop(self, tuple(node for node in nodes if not isinstance(node, n.Event)))
+        else:
+            node = loads[0] if loads else nodes[0]
+            drawn = ENCODERS[type(node)](self, node)
         return drawn[0], dict(mapping(with_role_ids(drawn[1], self.role_ids))), drawn[2]
 
 

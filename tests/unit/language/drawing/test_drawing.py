@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from editor.language import compile_document, parse_script, tree_to_document
 from editor.language.document.format_migrations import migrate
-from editor.language.document.fractional_index import keep_orders, order_between
 from editor.language.drawing.alignment import common_row
 from editor.language.drawing.merge import with_named_zones
 from tests.kit.demo_site import factory
@@ -61,11 +60,11 @@ def order_of_paint() -> dict[str, Any]:
     }
 
 
-def redraw(document: dict[str, Any], *changes: tuple[str, str]) -> dict[str, Any]:
-    """Print the document, change its text, and draw it again."""
+def redraw(document: dict[str, Any], *changes: tuple[str, str], times: int = 1) -> dict[str, Any]:
+    """Print the document, change its text, and draw it again; what changes stands in it so many times."""
     text = compile_document(document, factory()).script
     for old, new in changes:
-        assert text.count(old) == 1, f"{old!r} is {text.count(old)} times in\n{text}"
+        assert text.count(old) == times, f"{old!r} is {text.count(old)} times in\n{text}"
         text = text.replace(old, new)
     parsed = parse_script(text, factory())
     assert parsed.tree is not None, parsed.diagnostics
@@ -206,6 +205,15 @@ def test_a_role_that_is_renamed_is_one_value_of_each_step() -> None:
     assert differences(before, tree_to_document(tree, factory(), before)) == ["roles.carrier.name"]
 
 
+def test_a_pick_and_drop_that_counts_by_a_robots_reading_names_its_role_by_its_id() -> None:
+    before = order_of_paint()
+    before["roles"]["carrier"] = {"name": "box carrier", "can": ["pick", "drop"]}
+    counted = {"role": "carrier", "quantity": {"property": [{"role": "carrier"}, "battery"]}}
+    before["steps"]["task"]["params"].update(counted)
+    after = redraw(before, ("box_carrier.battery", "box_carrier.battery + 1"), times=2)
+    assert after["steps"]["task"]["params"]["quantity"] == {"op": "+", "args": [counted["quantity"], 1]}
+
+
 def test_variables_keep_the_names_that_the_document_has_for_them() -> None:
     before = order_of_paint()
     before["steps"]["set"] = step("set", "program", "A", {"variable": "My count", "value": 1})
@@ -291,13 +299,6 @@ def test_a_longest_common_row(first: str, second: str, row: list[tuple[int, int]
     assert common_row(first, second) == row
 
 
-def test_orders_change_as_little_as_can_be() -> None:
-    assert keep_orders([("a", "1"), ("new", None), ("b", "2"), ("c", "0"), ("d", "3")]) == ["1", "1V", "2", "2V", "3"]
-    assert keep_orders([("new", None), ("a", "V")]) == ["F", "V"]
-    assert keep_orders([("a", "V"), ("new", None), ("b", "V")]) == ["0V", "1V", "2V"]
-    assert order_between("V", "V0") is None
-
-
 def test_what_a_wait_is_for_gets_no_sense_from_a_name_that_is_new() -> None:
     def waiting(until: object, parameter: str) -> dict[str, Any]:
         step = {"kind": "wait", "place": ["program", "body", "1"], "pos": [0, 0], "params": {"until": until}}
@@ -308,17 +309,6 @@ def test_what_a_wait_is_for_gets_no_sense_from_a_name_that_is_new() -> None:
     tree = parse_script(compile_document(waiting({}, "minutes"), factory()).script, factory()).tree
     assert tree is not None
     assert compile_document(tree_to_document(tree, factory(), waiting(unknown, "n")), factory()).tree == tree
-
-
-@given(st.lists(st.integers(0, 30), max_size=40))
-def test_there_is_always_an_order_between_two(places: list[int]) -> None:
-    orders: list[str] = []
-    for place in places:
-        at = min(place, len(orders))
-        made = order_between(orders[at - 1] if at else "", orders[at] if at < len(orders) else None)
-        assert made is not None
-        orders.insert(at, made)
-    assert orders == sorted(set(orders))
 
 
 quick = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
