@@ -11,7 +11,7 @@ command -v redis-server >/dev/null || missing="$missing redis-server"
 command -v mosquitto >/dev/null || [ -x /usr/sbin/mosquitto ] || missing="$missing mosquitto"
 command -v mosquitto_pub >/dev/null || missing="$missing mosquitto-clients"
 command -v nginx >/dev/null || [ -x /usr/sbin/nginx ] || missing="$missing nginx-light"
-command -v chromium >/dev/null || missing="$missing chromium"
+command -v chromium-headless-shell >/dev/null || missing="$missing chromium-headless-shell"
 ros=""
 if ! /usr/bin/python3 -c "import rospy, rosmaster, actionlib, move_base_msgs, nav_msgs, sensor_msgs, paho" 2>/dev/null; then
     ros="python3-rosmaster python3-rospy python3-actionlib python3-move-base-msgs python3-nav-msgs"

@@ -84,7 +84,7 @@ MIDDLEWARE = [
     "vipo_site.http.middleware.TellUnchanged",
     "vipo_site.http.middleware.TellMethods",
     "vipo_site.http.middleware.FitTexts",
-    "django.contrib.sessions.middleware.SessionMiddleware",
+    "vipo_site.http.sessions.Sessions",
     "django.middleware.common.CommonMiddleware",
     "django.middleware.csrf.CsrfViewMiddleware",
     "django.contrib.auth.middleware.AuthenticationMiddleware",

@@ -20,7 +20,7 @@ from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, W
 from tests.kit.demo import Demo, running_demo
 from tests.kit.files import ROOT
 
-CHROMIUM = "/usr/bin/chromium"
+CHROMIUM = "/usr/bin/chromium-headless-shell"
 FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -53,11 +53,26 @@ print(json.dumps({"name": settings.SESSION_COOKIE_NAME, "value": session.session
 """
 
 
+NOWHERE = "/health"
+"""An address that shows no screen, for who goes on to another at once: a first screen takes a second of a processor."""
+
+
 class SignIn(Protocol):
-    """Opens a browser of its own for a person of a role, signed in."""
+    """Opens a browser of its own for a person of a role, signed in, and in it a screen, if one is named.
+
+    It keeps nothing for times without a server unless the test is of that.
+    """
 
     def __call__(
-        self, role: str, at: str = "/", *, width: int = 1600, height: int = 1000, dark: bool = False, language: str = ""
+        self,
+        role: str,
+        at: str = NOWHERE,
+        *,
+        width: int = 1600,
+        height: int = 1000,
+        dark: bool = False,
+        language: str = "",
+        offline: bool = False,
     ) -> Page: ...
 
 
@@ -71,7 +86,7 @@ def demo(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Demo]:
 
 @pytest.fixture(scope="package")
 def chromium() -> Iterator[Browser]:
-    assert Path(CHROMIUM).exists(), "Chromium is missing: run `make servers` (it installs Debian's chromium)."
+    assert Path(CHROMIUM).exists(), "Chromium is missing: run `make servers`, which installs Debian's."
     expect.set_options(timeout=PATIENCE_MS)
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
@@ -88,7 +103,7 @@ def signed_in(demo: Demo, chromium: Browser) -> dict[str, Any]:
 
 
 def sign_in_by_form(chromium: Browser, demo: Demo, role: str) -> Any:
-    context = chromium.new_context(locale="en-GB")
+    context = chromium.new_context(locale="en-GB", service_workers="block")
     page = context.new_page()
     account = demo.account(role)
     page.goto(f"{demo.url}/sign-in")
@@ -115,7 +130,7 @@ def make_member(demo: Demo, role: str, name: str) -> Any:
 
 def wait_for_devices(chromium: Browser, demo: Demo, state: Any) -> None:
     """Wait until the factory is complete: the machines and robots join by themselves, one after the other."""
-    context = chromium.new_context(locale="en-GB", storage_state=state)
+    context = chromium.new_context(locale="en-GB", storage_state=state, service_workers="block")
     page = context.new_page()
     page.goto(f"{demo.url}/sites/painting-factory/devices")
     expect(page.locator("tbody tr")).to_have_count(DEVICES, timeout=90_000)
@@ -135,7 +150,14 @@ def sign_in(demo: Demo, chromium: Browser, signed_in: dict[str, Any], faults: li
     contexts: list[BrowserContext] = []
 
     def open_for(
-        role: str, at: str = "/", *, width: int = 1600, height: int = 1000, dark: bool = False, language: str = ""
+        role: str,
+        at: str = NOWHERE,
+        *,
+        width: int = 1600,
+        height: int = 1000,
+        dark: bool = False,
+        language: str = "",
+        offline: bool = False,
     ) -> Page:
         context = chromium.new_context(
             viewport={"width": width, "height": height},
@@ -143,6 +165,7 @@ def sign_in(demo: Demo, chromium: Browser, signed_in: dict[str, Any], faults: li
             locale="de-DE" if language == "de" else "en-GB",
             storage_state=signed_in.get(role),
             permissions=["clipboard-read", "clipboard-write"],
+            service_workers="allow" if offline else "block",
         )
         contexts.append(context)
         listen(context, faults)

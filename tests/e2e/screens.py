@@ -18,28 +18,38 @@ TASK = "Pick-and-Drop, 1 \u00d7 box from Item Inventory to Painting Machine"
 
 def ask(page: Page, path: str) -> Any:
     """Read from the interface with the page's own session."""
-    origin = re.match(r"https?://[^/]+", page.url)
-    assert origin is not None
-    answer = page.request.get(origin[0] + path)
+    answer = page.request.get(address_of(page, path))
     assert answer.ok, f"{path}: {answer.status} {answer.text()}"
     return answer.json()
 
 
 def make_program(page: Page, name: str) -> str:
-    """Make a program by the form of the programs page; return its path."""
+    """Make a program in the painting factory and open it; return its path."""
+    path = f"/programs/{tell(page, f'{SITE}/programs', {'name': name})['id']}"
+    page.goto(address_of(page, path))
+    expect(page.get_by_label("Name of the program")).to_have_value(name)
+    return path
+
+
+def make_program_by_form(page: Page, name: str) -> None:
+    """Make a program by the form of the programs page."""
     show_programs(page)
     page.get_by_role("banner").get_by_role("button", name="New program").click()
     page.get_by_role("dialog").get_by_label("Name").fill(name)
     page.keyboard.press("Enter")
     expect(page.get_by_label("Name of the program")).to_have_value(name)
-    return re.sub(r"https?://[^/]+", "", page.url)
+
+
+def address_of(page: Page, path: str) -> str:
+    """The address of a path where this page is from."""
+    origin = re.match(r"https?://[^/]+", page.url)
+    assert origin is not None
+    return origin[0] + path
 
 
 def show_programs(page: Page) -> None:
     """Go to the list of the painting factory's programs and wait until it is there."""
-    origin = re.match(r"https?://[^/]+", page.url)
-    assert origin is not None
-    page.goto(f"{origin[0]}/sites/painting-factory/programs")
+    page.goto(address_of(page, "/sites/painting-factory/programs"))
     expect(page.get_by_role("heading", level=1, name="Programs")).to_be_visible()
     expect(page.get_by_role("table")).to_be_visible()
 
@@ -135,10 +145,8 @@ def reading(page: Page, device_id: str, name: str) -> Any:
 
 def tell(page: Page, path: str, body: dict[str, Any] | None = None) -> Any:
     """Change something over the interface with the page's own session."""
-    origin = re.match(r"https?://[^/]+", page.url)
-    assert origin is not None
     token = ask(page, "/api/me")["csrf"]
-    answer = page.request.post(origin[0] + path, data=body or {}, headers={"X-CSRFToken": token})
+    answer = page.request.post(address_of(page, path), data=body or {}, headers={"X-CSRFToken": token})
     assert answer.ok, f"{path}: {answer.status} {answer.text()}"
     return answer.json()
 

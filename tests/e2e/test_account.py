@@ -155,7 +155,7 @@ def test_the_page_is_sound_in_both_themes_sizes_and_languages(sign_in: SignIn) -
 
 
 def test_the_menu_of_the_account_leads_there(sign_in: SignIn) -> None:
-    page = sign_in("author")
+    page = sign_in("author", "/")
     page.get_by_role("button", name="Account").press("Enter")
     page.get_by_role("menuitem", name="Password and sessions").press("Enter")
     expect(page.get_by_role("heading", name="Your account")).to_be_visible()

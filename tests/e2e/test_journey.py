@@ -18,6 +18,7 @@ from tests.e2e.screens import (
     draw_task,
     machine,
     make_program,
+    make_program_by_form,
     open_program,
     problems,
     reading,
@@ -71,7 +72,7 @@ def test_a_wrong_password_is_refused_in_a_sentence_and_the_right_one_opens_home(
 
 
 def test_the_new_device_takes_part_once_an_admin_has_approved_it(sign_in: SignIn) -> None:
-    admin, author = sign_in("admin"), sign_in("author", "/sites/painting-factory/devices/paintMixer03")
+    admin, author = sign_in("admin", "/"), sign_in("author", "/sites/painting-factory/devices/paintMixer03")
     expect(author.get_by_text("An admin of this site can approve it.")).to_be_visible()
     admin.get_by_role("navigation").get_by_role("link", name=re.compile("^Devices")).first.click()
     row = admin.get_by_role("row", name=re.compile("^paintMixer03"))
@@ -159,7 +160,7 @@ def undo_ones_own(author: Page, admin: Page) -> None:
 
 def test_a_novice_needs_one_key_and_three_clicks(sign_in: SignIn) -> None:
     page = sign_in("author")
-    make_program(page, "Four presses")
+    make_program_by_form(page, "Four presses")
     page.evaluate(
         "presses = 0; for (const kind of ['pointerdown', 'keydown']) addEventListener(kind, () => presses++, true)"
     )
@@ -260,7 +261,7 @@ def test_a_run_carries_the_box_to_the_painting_machine(sign_in: SignIn) -> None:
 
 
 def test_a_run_pauses_resumes_is_stopped_for_everybody_and_cancelled(sign_in: SignIn) -> None:
-    author, admin = sign_in("author"), sign_in("admin")
+    author, admin = sign_in("author"), sign_in("admin", "/")
     make_program(author, "To be held")
     draw_task(author)
     expect(author.get_by_text("Nothing to fix")).to_be_visible()

@@ -60,7 +60,7 @@ def test_the_list_of_steps_is_walked_by_arrows(sign_in: SignIn) -> None:
 
 
 def test_the_bell_is_opened_and_closed_by_keyboard(sign_in: SignIn) -> None:
-    page = sign_in("author")
+    page = sign_in("author", "/")
     bell = page.get_by_role("button", name=re.compile("^Alerts: nothing new|alerts? that nobody has seen"))
     bell.focus()
     page.keyboard.press("Enter")

@@ -72,7 +72,7 @@ def wait_until_no_run_is_under_way(page: Page) -> None:
 
 
 def test_a_run_asks_and_somebody_else_answers(sign_in: SignIn) -> None:
-    author, admin = sign_in("author"), sign_in("admin")
+    author, admin = sign_in("author"), sign_in("admin", "/")
     author.add_init_script(LATE_JOURNAL)
     write_program(author, "Asking", ASKING)
     expect(author.get_by_role("tab", name="Problems")).to_be_visible()

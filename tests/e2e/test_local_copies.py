@@ -84,7 +84,7 @@ def steps_on_server(page: Page) -> int:
 
 
 def test_a_program_opens_without_a_server_and_what_is_drawn_is_sent_later(sign_in: SignIn, faults: list[str]) -> None:
-    page = sign_in("author")
+    page = sign_in("author", offline=True)
     make_program(page, "Drawn in a tunnel")
     draw_task(page)
     saved(page)
@@ -133,7 +133,7 @@ def test_a_killed_server_takes_nothing_along(chromium: Browser, tmp_path: Path) 
 def test_what_a_viewer_had_drawn_is_shown_kept_and_sent_when_the_role_comes_back(
     sign_in: SignIn, demo: Demo, faults: list[str]
 ) -> None:
-    page = sign_in("author")
+    page = sign_in("author", offline=True)
     make_program(page, "Drawn without a right")
     draw_task(page)
     saved(page)
@@ -157,7 +157,7 @@ def test_what_a_viewer_had_drawn_is_shown_kept_and_sent_when_the_role_comes_back
 
 
 def test_a_version_that_is_too_large_becomes_a_program_of_its_own(sign_in: SignIn, faults: list[str]) -> None:
-    page = sign_in("author")
+    page = sign_in("author", offline=True)
     make_program(page, "Too large")
     draw_task(page)
     saved(page)
@@ -256,7 +256,7 @@ def test_the_next_person_at_a_browser_finds_nothing_of_the_one_before(chromium: 
 
 
 def test_each_of_two_tabs_counts_its_own(sign_in: SignIn, faults: list[str]) -> None:
-    page = sign_in("author")
+    page = sign_in("author", offline=True)
     make_program(page, "In two tabs")
     draw_task(page)
     saved(page)

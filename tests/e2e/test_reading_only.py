@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn, make_member
-from tests.e2e.screens import SITE, ask, chip, the_map
+from tests.e2e.screens import SITE, address_of, ask, chip, the_map
 from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
@@ -23,7 +23,7 @@ def viewer(demo: Demo, signed_in: dict[str, Any]) -> None:
 
 def open_paint_order(page: Page) -> None:
     program = next(each["id"] for each in ask(page, f"{SITE}/programs") if each["name"] == "Paint order")
-    page.goto(f"{page.url.rstrip('/')}/programs/{program}")
+    page.goto(address_of(page, f"/programs/{program}"))
     expect(page.get_by_role("banner").get_by_text("Read only")).to_be_visible()
 
 

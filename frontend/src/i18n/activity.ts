@@ -17,8 +17,20 @@ export function countedWords(count: number, name: string): string {
   return `${formatNumber(count)} ${name}${/(x|s|ch|sh)$/.test(name) ? "es" : "s"}`;
 }
 
+/** What was told of a state of a device, which is never changed: maps ask in each frame. */
+const told = new WeakMap<Doer, { readonly language: string; readonly words: string }>();
+
 /** Empty where there is nothing to tell; of what is simulated in place of a real one it says so. */
 export function activityWords(doer: Doer): string {
+  const { language } = i18next;
+  const before = told.get(doer);
+  if (before?.language === language) return before.words;
+  const words = wordsOf(doer);
+  told.set(doer, { language, words });
+  return words;
+}
+
+function wordsOf(doer: Doer): string {
   const words = doingWords(doer);
   if (!doer.stand_in) return words;
   const isIdle = !words || doer.activity?.code === "ready";

@@ -16,6 +16,7 @@ from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
 MOST_BYTES = 425_000
+MOST_SCRIPTS = 20
 ENTRIES = ("EditorScreen", "catalogue.en")
 """What opening a program begins with, beside the page's own script. The editor of scripts comes beside the map, which
 does not wait for it; dialogs, forms and panels come once the program is on the screen."""
@@ -33,14 +34,21 @@ def bytes_before_drawing(address: str) -> dict[str, int]:
             sent = client.get(f"/assets/{name}", headers={"Accept-Encoding": "br"})
             return int(sent.headers["content-length"])
 
-        [own] = re.findall(r'src="/assets/([^"]+\.js)"', client.get("/").text)
-        text = read(own)
-        waiting = [own, *(re.findall(rf"{re.escape(name)}-[\w-]+\.js", text)[0] for name in ENTRIES)]
         found: dict[str, int] = {}
-        for name in waiting:  # grows while it is gone through
-            if name not in found:
-                found[name] = size(name)
-                waiting += IMPORT.findall(read(name))
+        texts = ""
+
+        def follow(*waiting: str) -> None:
+            nonlocal texts
+            for name in waiting:
+                if name not in found:
+                    found[name] = size(name)
+                    text = read(name)
+                    texts += text
+                    follow(*IMPORT.findall(text))
+
+        [own] = re.findall(r'src="/assets/([^"]+\.js)"', client.get("/").text)
+        follow(own)
+        follow(*(re.findall(rf"{re.escape(name)}-[\w-]+\.js", texts)[0] for name in ENTRIES))
     return found
 
 
@@ -65,6 +73,7 @@ def test_a_program_opens_with_few_scripts_and_all_of_them_are_sent_compressed(de
         needed = bytes_before_drawing(demo.url)
         assert needed.keys() <= scripts.keys()
         assert sum(needed.values()) <= MOST_BYTES, needed
+        assert len(needed) <= MOST_SCRIPTS, needed
     finally:
         fresh.close()
 

@@ -11,7 +11,7 @@ from mcap.reader import make_reader
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import ask, program_named, saved, tell, until, violations, write_program
+from tests.e2e.screens import address_of, ask, program_named, saved, tell, until, violations, write_program
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
@@ -92,7 +92,7 @@ def test_waits_are_marked_a_link_names_the_moment_and_files_are_handed_out(sign_
     page = sign_in("author")
     path, rehearsal = rehearse_order(page)
     wait = ask(page, f"/api/rehearsals/{rehearsal}")["result"]["waits"][0]
-    origin = page.url.rstrip("/")
+    origin = address_of(page, "")
     page.goto(f"{origin}{path}?t={wait['t'] + 0.2:.1f}")
     mark = page.get_by_role("region", name="Map", exact=True).get_by_role("button", name=re.compile("^1: "))
     row = page.get_by_role("region", name="Result").get_by_role("button", name=re.compile("^1 "))

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import ask, draw_task, make_program, run_state, saved, start_run, violations
+from tests.e2e.screens import address_of, ask, draw_task, make_program, run_state, saved, start_run, violations
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
@@ -25,11 +25,11 @@ def shoot(page: Page, name: str) -> None:
 
 
 def switch(page: Page, robot: str, *, simulated: bool) -> None:
-    """Let a stand-in speak for a robot, or the robot itself."""
-    origin = re.sub(r"(https?://[^/]+).*", r"\1", page.url)
+    """Let a stand-in speak for a robot, or the robot itself, once it has done what it still does."""
+    address = address_of(page, f"{SITE}/devices/{robot}/stand-in")
     send = page.request.put if simulated else page.request.delete
-    answer = send(f"{origin}{SITE}/devices/{robot}/stand-in", headers={"X-CSRFToken": ask(page, "/api/me")["csrf"]})
-    assert answer.ok, answer.text()
+    headers = {"X-CSRFToken": ask(page, "/api/me")["csrf"]}
+    wait_for("the end of what it does", lambda: send(address, headers=headers).ok, 60.0, every_s=0.3)
     wait_for(robot, lambda: ask(page, f"{SITE}/devices/{robot}")["status"] != "offline")
 
 

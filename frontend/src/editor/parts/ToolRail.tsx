@@ -3,13 +3,13 @@ import { Tooltip } from "@mantine/core";
 import { Lock } from "lucide-react";
 import { createPortal } from "react-dom";
 import { useTranslation } from "react-i18next";
-import type { PointerEvent, ReactNode } from "react";
+import { memo, type PointerEvent, type ReactNode } from "react";
 import { VipoIcon } from "@/design/VipoIcon";
 import type { Family } from "@/program/kinds";
 import { ariaKeys } from "@/shell/keys/keyNames";
 import { keysOf, useKeymap } from "@/shell/keys/keymap";
 import { toolId } from "../commands/drawing";
-import { runCommand } from "../commands/keys";
+import type { Command } from "../commands/command";
 import { commandOf } from "../commands/table";
 import { TOOLS } from "../state/tools";
 import { useOpenProgram } from "../state/context";
@@ -23,21 +23,15 @@ const COMMON = TOOLS.filter((kind) => !kind.rare);
 export function ToolRail() {
   const open = useOpenProgram();
   const { t, canEdit } = open;
-  const { dragged, begin, wasDragged } = useToolDrag(open);
+  const { dragged, ...hand } = useToolDrag(open);
   return (
     <div className={classes.rail} role="toolbar" aria-label={t("rail")} aria-orientation="vertical">
-      <Tool tool="select" command="select" />
-      <Tool tool="pan" command="pan" />
+      <Tool tool="select" command="select" run={hand.run} />
+      <Tool tool="pan" command="pan" run={hand.run} />
       {canEdit
         ? COMMON.map((kind, index) => (
             <FamilyGap key={kind.kind} first={COMMON[index - 1]?.family !== kind.family}>
-              <Tool
-                tool={kind.kind}
-                command={toolId(kind.kind)}
-                family={kind.family}
-                onDown={(event) => begin(kind.kind, event)}
-                wasDragged={wasDragged}
-              />
+              <Tool tool={kind.kind} command={toolId(kind.kind)} family={kind.family} {...hand} />
             </FamilyGap>
           ))
         : null}
@@ -64,12 +58,13 @@ interface ToolProps {
   tool: string;
   command: string;
   family?: Family;
-  onDown?: (event: PointerEvent) => void;
+  run: (command: Command) => unknown;
+  begin?: (tool: string, event: PointerEvent) => void;
   wasDragged?: () => boolean;
 }
 
-function Tool({ tool, command: id, family, onDown, wasDragged }: ToolProps) {
-  const open = useOpenProgram();
+/** Drawn anew when it changes itself: the program changes with each step of anybody, and there are twenty of these. */
+const Tool = memo(function Tool({ tool, command: id, family, run, begin, wasDragged }: ToolProps) {
   const { t } = useTranslation();
   const command = commandOf(id);
   const keys = useKeymap((keymap) => keysOf(command, keymap)[0]);
@@ -87,8 +82,8 @@ function Tool({ tool, command: id, family, onDown, wasDragged }: ToolProps) {
         aria-label={locked ? `${name}, ${t("commands.tool_kept")}` : name}
         aria-pressed={active}
         aria-keyshortcuts={keys ? ariaKeys([keys]) : undefined}
-        onPointerDown={onDown}
-        onClick={() => (wasDragged?.() ? undefined : runCommand(open, command))}
+        onPointerDown={(event) => begin?.(tool, event)}
+        onClick={() => (wasDragged?.() ? undefined : run(command))}
       >
         <Icon size={18} />
         {keys && keys.length === 1 ? <kbd aria-hidden="true">{keys}</kbd> : null}
@@ -96,7 +91,7 @@ function Tool({ tool, command: id, family, onDown, wasDragged }: ToolProps) {
       </button>
     </Tooltip>
   );
-}
+});
 
 /** What hangs on the pointer. */
 function Dragged({ kind, x, y }: DraggedTool) {

@@ -1,6 +1,8 @@
 /** A tool dragged from the rail onto the map: let go, its construct stands there. */
 import { useCallback, useEffect, useRef, useState, type PointerEvent as Press } from "react";
 import type { OpenProgram } from "../state/context";
+import type { Command } from "../commands/command";
+import { runCommand } from "../commands/keys";
 import { drawAt } from "../state/drawAt";
 import { underPointer } from "../state/under";
 
@@ -13,7 +15,10 @@ export interface DraggedTool {
   readonly y: number;
 }
 
-/** What is dragged now, and what begins it. A press that became a drag takes no tool: `wasDragged` says so once. */
+/**
+ * What is dragged now, and what begins it. A press that became a drag takes no tool: `wasDragged` says so once.
+ * What is returned to call stays the same whatever happens to the program.
+ */
 export function useToolDrag(open: OpenProgram) {
   const [dragged, setDragged] = useState<DraggedTool | null>(null);
   const latest = useRef(open);
@@ -44,7 +49,8 @@ export function useToolDrag(open: OpenProgram) {
     moved.current = false;
     return was;
   }, []);
-  return { dragged, begin, wasDragged };
+  const run = useCallback((command: Command) => runCommand(latest.current, command), []);
+  return { dragged, begin, wasDragged, run };
 }
 
 interface Following {

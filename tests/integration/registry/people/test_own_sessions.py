@@ -119,3 +119,18 @@ def test_a_session_of_before_is_listed_once_it_is_used(hall: str) -> None:
 )  # fmt: skip
 def test_a_browser_has_a_name_in_plain_words(agent: str, named: tuple[str, str]) -> None:
     assert name_browser(agent) == named
+
+
+def test_what_was_asked_before_a_session_got_its_new_key_does_not_sign_the_browser_out(hall: str) -> None:
+    here, late = come_in(), Client()
+    late.cookies["sessionid"] = here.cookies["sessionid"].value
+    answer = post_json(here, "/api/me/password", {"old": PASSWORD, "new": "another long sentence"})
+    assert answer.status_code == 200
+    assert answer.cookies["sessionid"].value not in {"", late.cookies["sessionid"].value}
+    for path, status in (("/api/sites", 401), ("/api/me", 200)):
+        behind = late.get(path)
+        assert behind.status_code == status
+        assert "sessionid" not in behind.cookies
+    assert "sessionid" not in post_json(late, "/api/me/tokens", {"name": "x"}).cookies
+    assert here.get("/api/sites").status_code == 200
+    assert post_json(here, "/api/sign-out", {}).cookies["sessionid"].value == ""
