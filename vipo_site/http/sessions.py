@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from django.contrib.sessions.middleware import SessionMiddleware
-from django.http import HttpRequest
-from django.http.response import HttpResponseBase
+from django.http import HttpRequest, HttpResponse
 
 
 class Sessions(SessionMiddleware):
@@ -16,13 +15,13 @@ class Sessions(SessionMiddleware):
     gone opens nothing, so that it may stay.
     """
 
-    def process_response(self, request: HttpRequest, response: HttpResponseBase) -> HttpResponseBase:
+    def process_response(self, request: HttpRequest, response: HttpResponse) -> HttpResponse:
         """Save the session, and take its cookie away if this request ended it."""
         if request.session.is_empty() and not _ended(request, response):
             return response
         return super().process_response(request, response)
 
 
-def _ended(request: HttpRequest, response: HttpResponseBase) -> bool:
+def _ended(request: HttpRequest, response: HttpResponse) -> bool:
     changed = request.session.modified and request.method not in {"GET", "HEAD", "OPTIONS"}
     return changed and response.status_code < 400
