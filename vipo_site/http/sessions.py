@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from django.contrib.sessions.middleware import SessionMiddleware
 from django.http import HttpRequest, HttpResponse
+from django.utils.cache import patch_vary_headers
 
 
 class Sessions(SessionMiddleware):
@@ -18,6 +19,7 @@ class Sessions(SessionMiddleware):
     def process_response(self, request: HttpRequest, response: HttpResponse) -> HttpResponse:
         """Save the session, and take its cookie away if this request ended it."""
         if request.session.is_empty() and not _ended(request, response):
+            patch_vary_headers(response, ("Cookie",))
             return response
         return super().process_response(request, response)
 
