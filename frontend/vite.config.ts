@@ -89,7 +89,7 @@ function scripts() {
     },
   };
   const groups = [
-    { name: "first", test: (id: string) => first.has(id), minShareCount: 2, priority: 3 },
+    { name: "first", test: (id: string) => first.has(id), priority: 3 },
     { name: "common", test: (id: string) => opening.has(id), minShareCount: MANY, priority: 2 },
     { name: "drawing", test: (id: string) => opening.has(id), minShareCount: 2, priority: 1 },
     { name: "shared", minShareCount: 2, entriesAware: true, entriesAwareMergeThreshold: SMALL },

@@ -16,7 +16,7 @@ from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
 MOST_BYTES = 425_000
-MOST_SCRIPTS = 20
+MOST_SCRIPTS = 12
 ENTRIES = ("EditorScreen", "catalogue.en")
 """What opening a program begins with, beside the page's own script. The editor of scripts comes beside the map, which
 does not wait for it; dialogs, forms and panels come once the program is on the screen."""
