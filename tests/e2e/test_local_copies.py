@@ -11,10 +11,22 @@ import sys
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page, WebSocketRoute, expect
 
 from tests.e2e.conftest import SignIn, sign_in_by_form
-from tests.e2e.screens import ask, click_floor, draw_task, make_program, opened, program_named, saved, show_programs
+from tests.e2e.screens import (
+    SITE,
+    address_of,
+    ask,
+    click_floor,
+    draw_task,
+    make_program,
+    opened,
+    program_named,
+    saved,
+    show_programs,
+    tell,
+)
 from tests.kit.demo import Demo, running_demo
 from tests.kit.files import ROOT
 from tests.kit.waiting import wait_for
@@ -174,6 +186,59 @@ def test_a_version_that_is_too_large_becomes_a_program_of_its_own(sign_in: SignI
     expect(page.get_by_label("Name of the program")).to_have_value("Too large (my version)")
     assert steps_on_server(page) == 2
     faults.clear()
+
+
+SLOW_STORE = """
+const { open } = IDBFactory.prototype;
+IDBFactory.prototype.open = function (...asked) {
+  const request = open.apply(this, asked);
+  Object.defineProperty(request, "onsuccess", {
+    set: (then) => request.addEventListener("success", (event) => setTimeout(() => then.call(request, event), 6000)),
+  });
+  return request;
+};
+window.wronglyAway = false;
+new MutationObserver(() => {
+  window.wronglyAway ||= document.body?.textContent.includes("The server does not answer");
+}).observe(document, { subtree: true, childList: true, characterData: true });
+"""
+
+
+def test_a_browser_that_is_slow_to_give_back_its_copy_is_not_told_that_the_server_is_away(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    page.add_init_script(SLOW_STORE)
+    held: list[tuple[WebSocketRoute, str | bytes]] = []
+    slow = [True]
+
+    def relay(socket: WebSocketRoute) -> None:
+        def pass_on(message: str | bytes) -> None:
+            if slow[0]:
+                held.append((socket, message))
+            else:
+                socket.send(message)
+
+        socket.connect_to_server().on_message(pass_on)
+
+    page.route_web_socket(re.compile("/ws/program/"), relay)
+    program = tell(page, f"{SITE}/programs", {"name": "From a slow disk"})["id"]
+    page.goto(address_of(page, f"/programs/{program}"))
+    expect(page.get_by_role("heading", name="Opening the program")).to_be_visible()
+    for _ in range(100):
+        page.wait_for_timeout(300)
+        if len({id(socket) for socket, _ in held}) > 1:
+            break
+    else:
+        pytest.fail("The connection was not made anew for the copy.")
+    slow[0] = False
+    sockets = [socket for socket, _ in held]
+    for socket, message in held:
+        if socket is sockets[-1]:
+            socket.send(message)
+    opened(page)
+    draw_task(page)
+    saved(page)
+    assert not page.evaluate("window.wronglyAway")
+    assert steps_on_server(page) == 1
 
 
 @pytest.mark.parametrize(

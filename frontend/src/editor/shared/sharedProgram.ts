@@ -205,7 +205,9 @@ export class SharedProgram {
     const connected = this.#saving.connection !== "refused";
     if (connected) this.provider.disconnect();
     this.#take(earlier);
-    if (connected) this.provider.connect();
+    if (!connected) return;
+    this.provider.connect();
+    this.#setSaving({ connection: "connecting" }); // we left ourselves: nobody may say that the server is away
   }
 
   #note(root: string, events: readonly Y.YEvent<Y.AbstractType<unknown>>[]): void {
