@@ -74,8 +74,9 @@ test-python:
 	PYTHONDONTWRITEBYTECODE= VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native --durations=25 --numprocesses=3 --dist=loadfile --no-loadscope-reorder \
 		|| { test $$? -eq 1 && PYTHONDONTWRITEBYTECODE= VIPO_STEADY=1 $(BIN)/python -m scripts.retry_failed; }
 
+# What nobody waits for gives way to what browsers and servers do meanwhile.
 check-beside:
-	@$(MAKE) --no-print-directory --output-sync=target check-frontend check-static
+	@nice -n 15 $(MAKE) --no-print-directory --output-sync=target check-frontend check-static
 
 constructs: setup-dev
 	$(BIN)/python manage.py constructs
