@@ -60,7 +60,8 @@ NOWHERE = "/health"
 class SignIn(Protocol):
     """Opens a browser of its own for a person of a role, signed in, and in it a screen, if one is named.
 
-    It keeps nothing for times without a server unless the test is of that.
+    It keeps nothing for times without a server unless the test is of that, and moves nothing for the eye unless the
+    test is of motion: each frame of a moving map takes a processor tens of milliseconds without a graphics card.
     """
 
     def __call__(
@@ -73,6 +74,7 @@ class SignIn(Protocol):
         dark: bool = False,
         language: str = "",
         offline: bool = False,
+        motion: bool = False,
     ) -> Page: ...
 
 
@@ -158,6 +160,7 @@ def sign_in(demo: Demo, chromium: Browser, signed_in: dict[str, Any], faults: li
         dark: bool = False,
         language: str = "",
         offline: bool = False,
+        motion: bool = False,
     ) -> Page:
         context = chromium.new_context(
             viewport={"width": width, "height": height},
@@ -166,6 +169,7 @@ def sign_in(demo: Demo, chromium: Browser, signed_in: dict[str, Any], faults: li
             storage_state=signed_in.get(role),
             permissions=["clipboard-read", "clipboard-write"],
             service_workers="allow" if offline else "block",
+            reduced_motion="no-preference" if motion else "reduce",
         )
         contexts.append(context)
         listen(context, faults)

@@ -1,4 +1,5 @@
 /** The place in 3D as it is now: robots and machines move as they do on the floor. */
+import { useReducedMotion } from "@mantine/hooks";
 import type { TFunction } from "i18next";
 import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
@@ -87,6 +88,7 @@ export function LiveScene({ map, devices }: LiveSceneProps) {
   const { recording, moment } = useLiveRecording(devices);
   const kind = kindOf(devices);
   const now = useNow(1000);
+  const still = useReducedMotion();
   const stateOf = (id: string) => {
     const device = devices.find((each) => each.id === id);
     if (!device) return "";
@@ -102,7 +104,7 @@ export function LiveScene({ map, devices }: LiveSceneProps) {
         recording={recording}
         moment={moment}
         t_s={now / 1000}
-        playing
+        playing={!still} // else drawn anew with each second that is shown, as maps are
         stateOf={stateOf}
         copyOf={copyOf}
         labelOf={(summary) => {
