@@ -60,8 +60,7 @@ NOWHERE = "/health"
 class SignIn(Protocol):
     """Opens a browser of its own for a person of a role, signed in, and in it a screen, if one is named.
 
-    It keeps nothing for times without a server unless the test is of that, and moves nothing for the eye unless the
-    test is of motion: each frame of a moving map takes a processor tens of milliseconds without a graphics card.
+    It keeps nothing for times without a server unless the test is of that.
     """
 
     def __call__(
@@ -74,7 +73,7 @@ class SignIn(Protocol):
         dark: bool = False,
         language: str = "",
         offline: bool = False,
-        motion: bool = False,
+        motion: bool = True,
     ) -> Page: ...
 
 
@@ -160,7 +159,7 @@ def sign_in(demo: Demo, chromium: Browser, signed_in: dict[str, Any], faults: li
         dark: bool = False,
         language: str = "",
         offline: bool = False,
-        motion: bool = False,
+        motion: bool = True,
     ) -> Page:
         context = chromium.new_context(
             viewport={"width": width, "height": height},
