@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from django.conf import settings
 from django.contrib.sessions.middleware import SessionMiddleware
 from django.http import HttpRequest, HttpResponse
 from django.utils.cache import patch_vary_headers
@@ -18,7 +19,8 @@ class Sessions(SessionMiddleware):
 
     def process_response(self, request: HttpRequest, response: HttpResponse) -> HttpResponse:
         """Save the session, and take its cookie away if this request ended it."""
-        if request.session.is_empty() and not _ended(request, response):
+        gone = settings.SESSION_COOKIE_NAME in request.COOKIES and request.session.is_empty()
+        if gone and not _ended(request, response):
             patch_vary_headers(response, ("Cookie",))
             return response
         return super().process_response(request, response)

@@ -132,5 +132,9 @@ def test_what_was_asked_before_a_session_got_its_new_key_does_not_sign_the_brows
         assert behind.status_code == status
         assert "sessionid" not in behind.cookies
     assert "sessionid" not in post_json(late, "/api/me/tokens", {"name": "x"}).cookies
+    assert "Cookie" in late.get("/api/sites").headers["Vary"]
+    assert "Cookie" not in Client().get("/health").headers.get("Vary", ""), (
+        "an answer for everybody may be kept for all"
+    )
     assert here.get("/api/sites").status_code == 200
     assert post_json(here, "/api/sign-out", {}).cookies["sessionid"].value == ""
