@@ -24,7 +24,7 @@ const told = new WeakMap<Doer, { readonly language: string; readonly words: stri
 export function activityWords(doer: Doer): string {
   const { language } = i18next;
   const before = told.get(doer);
-  if (before?.language === language) return before.words;
+  if (before && before.language === language) return before.words;
   const words = wordsOf(doer);
   told.set(doer, { language, words });
   return words;

@@ -70,8 +70,8 @@ def test_the_address_of_a_site_that_nobody_has_is_told(empty_demo: Demo, chromiu
     page = open_at(chromium, empty_demo, "author", "/sites/no-such-hall", faults)
     expect(page.get_by_role("main").get_by_role("alert")).to_be_visible()
     expect(page.get_by_role("region", name="Set up Workshop")).to_have_count(0)
-    faults.clear()  # of the refusal, the browser's console says 404
     page.context.close()
+    faults.clear()  # of the refusals, the browser's console says 404 when each of them comes
 
 
 def let_in(page: Page) -> None:
