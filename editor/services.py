@@ -1,5 +1,6 @@
 """What the other apps may ask of the editor; everything else in this app is its own affair."""
 
+from editor.comments.threads import Moment, Words, start_thread_at
 from editor.documents.mending import Mending, mend_program, restore_rows, show_mending
 from editor.documents.store import Change, get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram, NotApproved
@@ -54,6 +55,7 @@ __all__ = [
     "ExpressionView",
     "LibraryView",
     "Mending",
+    "Moment",
     "NoSuchProgram",
     "NotApproved",
     "Permit",
@@ -63,6 +65,7 @@ __all__ = [
     "VersionToTestView",
     "VersionView",
     "WholeVersionView",
+    "Words",
     "admit_start",
     "build_surroundings",
     "change_function",
@@ -101,5 +104,6 @@ __all__ = [
     "seed_library",
     "seed_programs",
     "show_mending",
+    "start_thread_at",
     "take_version_to_test",
 ]

@@ -13,6 +13,8 @@ from editor.language.constructs.table import CONSTRUCTS
 from registry.requests import Asked, Flag, Line, Repaired, Unchecked
 
 Position = tuple[float, float]
+MOST_COMMENT, MOST_MENTIONS = 2000, 20
+"""Letters of a comment, and whom it may mention."""
 if TYPE_CHECKING:
     StepKind = str
 else:

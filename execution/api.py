@@ -21,6 +21,7 @@ from execution.program_tests.routes import router as program_tests_router
 from execution.rehearsals.shapes import RehearsalShape, RehearsalSummaryShape, StartRehearsal
 from execution.rehearsals.views import rehearsal_to_json, whole_rehearsal_to_json
 from execution.retention.routes import router as retention_router
+from execution.runs.comments import begin_thread
 from execution.runs.programs import prepare, site_of_program
 from execution.shapes import (
     ActionInput,
@@ -32,6 +33,7 @@ from execution.shapes import (
     AskRoutes,
     CallMethod,
     CallShape,
+    CommentOnRun,
     QuestionShape,
     RouteShape,
     RunEventShape,
@@ -39,6 +41,7 @@ from execution.shapes import (
     RunShape,
     RunSummaryShape,
     StartRun,
+    ThreadBegun,
 )
 from execution.stand_ins.routes import router as stand_ins_router
 from execution.views import (
@@ -50,7 +53,7 @@ from execution.views import (
     run_to_json,
     whole_run_to_json,
 )
-from registry.requests import LOCATION, link_to_next, signed_in
+from registry.requests import LOCATION, link_to_next, refuses, signed_in
 from registry.services import NotAMember, require
 from registry.shapes import Stop
 from vipo_device.descriptions.thing_description import DEVICE_URN
@@ -212,6 +215,13 @@ def list_measurements(request: HttpRequest, run: UUID) -> list[dict[str, Any]]:
     """Return what the steps of a run took, beside what the copies of the devices took; empty without a mirror."""
     _require_here(request, services.site_of_run(run_id=run), "viewer", "run")
     return list_of_run(run=run)
+
+
+@router.post("/runs/{uuid:run}/threads", response={201: ThreadBegun}, openapi_extra=refuses(409, 429))
+def comment_on_run(request: HttpRequest, run: UUID, body: CommentOnRun) -> Status[dict[str, Any]]:
+    """Begin a thread of comments about a moment of a run; it is read and answered among those of the run's program."""
+    _require_here(request, services.site_of_run(run_id=run), "commenter", "run")
+    return Status(201, begin_thread(run_id=run, user=signed_in(request), body=body))
 
 
 @router.post("/runs/{uuid:run}/pause", response=RunSummaryShape)

@@ -8,8 +8,8 @@ from uuid import UUID
 from ninja import Field, Schema
 from pydantic import AwareDatetime, ConfigDict, Strict
 
-from editor.shapes import Compiled, DevicePlace, Document, NamedPlace, PointPlace, Position
-from registry.requests import Asked, Flag, Line, Unchecked
+from editor.shapes import MOST_COMMENT, MOST_MENTIONS, Compiled, DevicePlace, Document, NamedPlace, PointPlace, Position
+from registry.requests import Asked, Flag, Line, Number, Unchecked
 
 RunStatus = Literal["pending", "running", "paused", "finished", "failed", "cancelled"]
 StepStatus = Literal["waiting", "running", "done", "failed", "skipped"]
@@ -60,6 +60,25 @@ class AskRoute(Asked):
 
     start: End = Field(alias="from")
     to: End
+
+
+class CommentOnRun(Asked):
+    """A comment that begins a thread about a moment of a run: `t_s` seconds after its start.
+
+    A later moment than the run has had is the last that it has had. `label` is what people call what happens then.
+    """
+
+    text: str = Field(min_length=1, max_length=MOST_COMMENT, pattern=r"\S")
+    mentions: list[int] = Field([], max_length=MOST_MENTIONS)
+    t_s: Annotated[Number, Field(ge=0, le=1e9)]
+    label: Line = Field("", max_length=120)
+
+
+class ThreadBegun(Schema):
+    """The thread that was begun, which is read among those of the program."""
+
+    thread: UUID
+    program: UUID
 
 
 class AskRoutes(Asked):

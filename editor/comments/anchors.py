@@ -6,7 +6,9 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
-Kind = Literal["program", "construct", "arrow", "place"]
+Asked = Literal["program", "construct", "arrow", "place"]
+"""What members may ask to be talked about; of a moment of a run the app that has the runs tells."""
+Kind = Literal[Asked, "moment"]
 Root = Literal["steps", "functions", "roles", "parameters", "zones"]
 
 
@@ -15,7 +17,8 @@ class Anchor:
     """What a thread is about.
 
     `root` and `id` name a construct; an arrow leads from the step `id` to the step `to`. `x` and `y` are where its pin
-    stood on the map when the thread began, metres; a place is nothing else.
+    stood on the map when the thread began, metres; a place is nothing else. A moment is `t_s` seconds after the start
+    of the run `run`, the site's run `number`.
     """
 
     kind: Kind
@@ -24,6 +27,9 @@ class Anchor:
     to: str | None = None
     x: float | None = None
     y: float | None = None
+    run: str | None = None
+    number: int | None = None
+    t_s: float | None = None
 
 
 def find_missing(anchor: Anchor) -> str:
@@ -43,7 +49,7 @@ def is_drawn(kind: str) -> bool:
 
 
 def stands_in(anchor: Anchor, document: Mapping[str, Any]) -> bool:
-    """Tell whether what a thread is about is in this document; places and the program itself always are."""
+    """Tell whether what a thread is about is in this document; places, moments and the program itself always are."""
     if anchor.kind == "construct":
         return _has(document, anchor.root or "", anchor.id)
     if anchor.kind == "arrow":

@@ -9,19 +9,20 @@ from uuid import UUID
 from ninja import Field, Schema
 
 from editor.comments.anchors import Anchor, Kind, Root
-from editor.comments.threads import MOST_MENTIONS, Words
-from editor.shapes import Author
+from editor.comments.anchors import Asked as AskedKind
+from editor.comments.threads import Words
+from editor.shapes import MOST_COMMENT, MOST_MENTIONS, Author
 from registry.requests import Asked, Flag, Line, Number
 
-MOST_TEXT = 2000
 Id = Annotated[Line, Field(min_length=1, max_length=120)]
 Metres = Annotated[Number, Field(ge=-100_000, le=100_000)]
 
 
 class AnchorShape(Schema):
-    """What a thread is about: the program, a construct by root and id, an arrow from `id` to `to`, or a place.
+    """What a thread is about: the program, a construct by root and id, an arrow, a place, or a moment of a run.
 
-    `x` and `y` are where its pin stood on the map when it began, metres.
+    An arrow leads from `id` to `to`. `x` and `y` are where its pin stood on the map, metres. A moment is `t_s` seconds
+    after the start of the run `run`, the site's run `number`.
     """
 
     kind: Kind
@@ -30,6 +31,9 @@ class AnchorShape(Schema):
     to: str | None
     x: float | None
     y: float | None
+    run: UUID | None
+    number: int | None
+    t_s: float | None
 
 
 class CommentShape(Schema):
@@ -60,7 +64,7 @@ class ThreadShape(Schema):
 class WordsToWrite(Asked):
     """A comment to write; whom it mentions by their ids."""
 
-    text: str = Field(min_length=1, max_length=MOST_TEXT, pattern=r"\S")
+    text: str = Field(min_length=1, max_length=MOST_COMMENT, pattern=r"\S")
     mentions: list[int] = Field([], max_length=MOST_MENTIONS)
 
     def words(self) -> Words:
@@ -69,9 +73,9 @@ class WordsToWrite(Asked):
 
 
 class AnchorAsked(Asked):
-    """What a thread shall be about; see AnchorShape."""
+    """What a thread shall be about; see AnchorShape. A moment of a run is asked for at the run."""
 
-    kind: Kind
+    kind: AskedKind
     root: Root | None = None
     id: Id | None = None
     to: Id | None = None

@@ -23,8 +23,8 @@ from editor.models import Comment, CommentThread, Program, ThreadReading
 from editor.programs.views import AuthorView, view_author
 from registry import services as registry
 
-MOST_THREADS, MOST_IN_THREAD, MOST_COMMENTS, MOST_MENTIONS = 300, 100, 2000, 20
-"""Of a program, of a thread, of a program in all its threads, of a comment: who looks is sent them all."""
+MOST_THREADS, MOST_IN_THREAD, MOST_COMMENTS = 300, 100, 2000
+"""Of a program, of a thread, of a program in all its threads: who looks is sent them all."""
 RATE, RATE_OVER = 20, timedelta(minutes=1)
 _GONE = "There is no such comment here. It may have been deleted."
 
@@ -89,6 +89,16 @@ class Words:
     mentions: tuple[int, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A moment of a run, `t_s` seconds after its start; `label` is what people call what happens then."""
+
+    run: UUID
+    number: int
+    t_s: float
+    label: str = ""
+
+
 def list_threads(*, program: UUID, user: Any) -> tuple[ThreadView, ...]:
     """Return a program's threads, the last written in first, as this person has read them."""
     rows = list(_threads_of(program).order_by("-last_at", "pk"))
@@ -97,6 +107,15 @@ def list_threads(*, program: UUID, user: Any) -> tuple[ThreadView, ...]:
     document = _read_document(program) if any(is_drawn(row.anchor["kind"]) for row in rows) else {}
     people = _people_in(rows)
     return tuple(_view(row, document, people, user, read_to.get(row.pk)) for row in rows)
+
+
+def start_thread_at(*, program: UUID, user: Any, moment: Moment, words: Words, now: datetime) -> UUID:
+    """Begin a thread about a moment of a run of the program, which the caller knows; return its id.
+
+    Raises NoSuchProgram, BadRequest, TooManyComments, CommentsFull.
+    """
+    anchor = Anchor(kind="moment", run=str(moment.run), number=moment.number, t_s=moment.t_s)
+    return start_thread(program=program, user=user, anchor=anchor, label=moment.label, words=words, now=now).id
 
 
 def start_thread(*, program: UUID, user: Any, anchor: Anchor, label: str, words: Words, now: datetime) -> ThreadView:

@@ -185,6 +185,28 @@ def site_of_run(*, run_id: UUID | str) -> str:
     return _find(run_id).site.slug
 
 
+@dataclass(frozen=True, slots=True)
+class RunSpan:
+    """Which run of which program this is, and for how many seconds it has gone on."""
+
+    program: UUID
+    number: int
+    seconds: float
+
+
+def find_span(*, run_id: UUID | str, now: datetime) -> RunSpan:
+    """Return how long a run has gone on until it was over, or until `now`.
+
+    Raises:
+        NotFound: there is no such run.
+        NotPossibleNow: it has not begun.
+    """
+    row = _find(run_id)
+    if row.started_at is None:
+        raise NotPossibleNow(f"Run {row.number} has not begun, so it has no moments yet. Comment on the program.")
+    return RunSpan(row.program, row.number, max(0.0, ((row.ended_at or now) - row.started_at).total_seconds()))
+
+
 def get_run(*, run_id: UUID | str) -> WholeRunView:
     """Return a run with its document and compiled form, from the archive if it is there.
 

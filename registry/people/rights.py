@@ -77,7 +77,8 @@ DEEDS = (
         "comment",
         "commenter",
         "run",
-        "list_people_to_mention start_thread answer_thread change_thread change_comment delete_comment",
+        """list_people_to_mention start_thread answer_thread change_thread change_comment delete_comment
+        comment_on_run""",
     ),
     _deed(
         "operate",

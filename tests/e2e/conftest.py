@@ -41,9 +41,11 @@ import os
 from django.conf import settings
 from django.contrib.auth import BACKEND_SESSION_KEY, HASH_SESSION_KEY, SESSION_KEY
 from django.contrib.sessions.backends.db import SessionStore
+from django.utils.text import slugify
 from registry.models import Membership, Site, User
 role, name = os.environ["ROLE"], os.environ["NAME"]
-user = User.objects.create_user(email=f"{role}@x.example", password="not used here", display_name=name)
+email = f"{slugify(name)}@x.example"
+user = User.objects.create_user(email=email, password="not used here", display_name=name)
 Membership.objects.create(user=user, site=Site.objects.get(slug="painting-factory"), role=role)
 session = SessionStore()
 session[SESSION_KEY], session[HASH_SESSION_KEY] = str(user.pk), user.get_session_auth_hash()

@@ -34,6 +34,7 @@ BODIES: dict[str, dict[str, Any]] = {
     "arm_program": {"on": False},
     "start_thread": {"text": "Why so?", "anchor": {"kind": "program"}},
     "answer_thread": {"text": "So."},
+    "comment_on_run": {"text": "Why so?", "t_s": 1.5},
     "change_thread": {"resolved": True},
     "change_comment": {"text": "How so?"},
     "read_expression": {"value": None, "step": ""},
@@ -106,7 +107,8 @@ def make_one_of_each(slug: str) -> dict[str, str]:
         site=slug, program_id=program, function="f", said=editor.Said("Greet"), user=None
     ).id
     content = {"document": editor.get_document(program_id=program), "compiled": editor.get_compiled(program_id=program)}
-    run = Run.objects.create(site=site, number=1, program=program, program_name="Mix", created_at=NOW, **content)
+    begun = {"created_at": NOW, "started_at": NOW}
+    run = Run.objects.create(site=site, number=1, program=program, program_name="Mix", **begun, **content)
     call = Command.objects.create(
         id=uuid4(), site=site, position=1, device=device, method="mix", by="Me", send_after=NOW, created_at=NOW
     )

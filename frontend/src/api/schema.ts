@@ -1502,6 +1502,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run}/threads": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Comment On Run
+         * @description Begin a thread of comments about a moment of a run; it is read and answered among those of the run's program.
+         */
+        post: operations["comment_on_run"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sign-in": {
         parameters: {
             query?: never;
@@ -3795,7 +3815,7 @@ export interface components {
             limit: number;
             state?: ("open" | "seen" | "over") | null;
         };
-        /** @description What a thread shall be about; see AnchorShape. */
+        /** @description What a thread shall be about; see AnchorShape. A moment of a run is asked for at the run. */
         AnchorAsked: {
             id?: string | null;
             /** @enum {string} */
@@ -3806,15 +3826,19 @@ export interface components {
             y?: number | null;
         };
         /**
-         * @description What a thread is about: the program, a construct by root and id, an arrow from `id` to `to`, or a place.
+         * @description What a thread is about: the program, a construct by root and id, an arrow, a place, or a moment of a run.
          *
-         *     `x` and `y` are where its pin stood on the map when it began, metres.
+         *     An arrow leads from `id` to `to`. `x` and `y` are where its pin stood on the map, metres. A moment is `t_s` seconds
+         *     after the start of the run `run`, the site's run `number`.
          */
         AnchorShape: {
             id: string | null;
             /** @enum {string} */
-            kind: "program" | "construct" | "arrow" | "place";
+            kind: "program" | "construct" | "arrow" | "place" | "moment";
+            number: number | null;
             root: ("steps" | "functions" | "roles" | "parameters" | "zones") | null;
+            run: string | null;
+            t_s: number | null;
             to: string | null;
             x: number | null;
             y: number | null;
@@ -4111,6 +4135,19 @@ export interface components {
             changes: {
                 [key: string]: unknown;
             }[];
+        };
+        /**
+         * @description A comment that begins a thread about a moment of a run: `t_s` seconds after its start.
+         *
+         *     A later moment than the run has had is the last that it has had. `label` is what people call what happens then.
+         */
+        CommentOnRun: {
+            /** @default  */
+            label: string;
+            /** @default [] */
+            mentions: number[];
+            t_s: number;
+            text: string;
         };
         /** @description A comment; `mentions` are those whom it calls by `@` and their names. */
         CommentShape: {
@@ -6203,6 +6240,13 @@ export interface components {
             tests?: string[] | null;
             /** @description The version of the program that is taken; as it is drawn now if none. */
             version?: number | null;
+        };
+        /** @description The thread that was begun, which is read among those of the program. */
+        ThreadBegun: {
+            /** Format: uuid */
+            program: string;
+            /** Format: uuid */
+            thread: string;
         };
         /** @description Whether a thread is resolved. */
         ThreadChange: {
@@ -10424,6 +10468,53 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunSummaryShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    comment_on_run: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CommentOnRun"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ThreadBegun"];
                 };
             };
             400: components["responses"]["Refused400"];

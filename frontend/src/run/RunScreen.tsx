@@ -1,21 +1,10 @@
 import { useQueryClient } from "@tanstack/react-query";
-import { ChartGantt, FileCode, SquareTerminal } from "lucide-react";
-import { useCallback, useEffect, useMemo, useState, type ReactNode } from "react";
+import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
-import {
-  keys,
-  useDevices,
-  useMeasurements,
-  useQuestions,
-  useRun,
-  useRunEvents,
-  useSite,
-  useSiteMap,
-} from "@/api/queries";
-import { mayOperate } from "@/api/roles";
-import type { Device, Run, RunEvent, Site } from "@/api/types";
+import { keys, useMeasurements, useQuestions, useRun, useSite } from "@/api/queries";
+import type { Run } from "@/api/types";
 import { QuestionCard } from "@/shell/questions/QuestionCard";
 import { shownQuestions } from "@/shell/questions/openQuestions";
 import { LoadProblem } from "@/shell/LoadProblem";
@@ -32,42 +21,13 @@ import { useLiveStore } from "@/live/store";
 import { RunAlerts } from "./RunAlerts";
 import { RunActions, RunPill } from "./RunBar";
 import styles from "./RunScreen.module.css";
+import { RunDrawer, writeOn } from "./RunDrawer";
 import { RunTerms } from "./RunTerms";
 import { RunPlace } from "./scene/RunPlace";
 import { isPlanned } from "./terms";
-import { ScriptLines } from "./ScriptLines";
-import { currentStep, stepLines } from "./stepList";
-import { isSimulated, Journal, RunSteps } from "./RunSteps";
-import { Timeline, TimelineLegend } from "./Timeline";
-import { useStepWords } from "./useStepWords";
-import { DEFAULT_ROLE, roleOfStep } from "@/program/operation";
-
-const NO_DEVICES: Device[] = [];
-const NO_EVENTS: RunEvent[] = [];
-const OVER = ["finished", "failed", "cancelled"];
-type Tab = "timeline" | "logs" | "script";
-const TABS: { tab: Tab; icon: ReactNode }[] = [
-  { tab: "timeline", icon: <ChartGantt size={15} aria-hidden /> },
-  { tab: "logs", icon: <SquareTerminal size={15} aria-hidden /> },
-  { tab: "script", icon: <FileCode size={15} aria-hidden /> },
-];
-
-/** The present moment, once a second while it matters. */
-function useNow(running: boolean): number {
-  const [now, setNow] = useState(Date.now);
-  useEffect(() => {
-    if (!running) return;
-    const timer = setInterval(() => setNow(Date.now()), 1000);
-    return () => clearInterval(timer);
-  }, [running]);
-  return now;
-}
-
-function elapsedSeconds(run: Run, now: number): number {
-  if (!run.started_at) return 0;
-  const end = run.ended_at ? Date.parse(run.ended_at) : now;
-  return Math.max(0, (end - Date.parse(run.started_at)) / 1000);
-}
+import { currentStep } from "./stepList";
+import { Journal, RunSteps } from "./RunSteps";
+import { elapsedSeconds, type LoadedProps, OVER, type RunView, useRunView } from "./runView";
 
 function Notes({ run, now, problem }: { run: Run; now: number; problem: string | null }) {
   const { t } = useTranslation();
@@ -113,73 +73,6 @@ function RunQuestions({ run, allowed }: { run: Run; allowed: boolean }) {
   );
 }
 
-interface LoadedProps {
-  run: Run;
-  site: Site | undefined;
-}
-
-function Drawer(props: { tab: Tab; onTab: (tab: Tab) => void; children: ReactNode }) {
-  const { t } = useTranslation();
-  return (
-    <section className={styles.drawer} aria-label={t("run.drawer")}>
-      <div className={styles.tabs}>
-        <div role="tablist" aria-label={t("run.drawer")}>
-          {TABS.map(({ tab, icon }) => (
-            <button
-              key={tab}
-              type="button"
-              role="tab"
-              id={`run-tab-${tab}`}
-              aria-selected={tab === props.tab}
-              aria-controls="run-tab-body"
-              onClick={() => props.onTab(tab)}
-            >
-              {icon} {t(`run.tab.${tab}`)}
-            </button>
-          ))}
-        </div>
-        {props.tab === "timeline" && <TimelineLegend />}
-      </div>
-      <div className={styles.tabBody} role="tabpanel" id="run-tab-body" aria-labelledby={`run-tab-${props.tab}`}>
-        {props.children}
-      </div>
-    </section>
-  );
-}
-
-/** All that the parts of the screen show of a run. */
-function useRunView({ run, site }: LoadedProps) {
-  const devices = useDevices(run.site).data ?? NO_DEVICES;
-  const map = useSiteMap(run.site).data ?? null;
-  const events = useRunEvents(run.id).data ?? NO_EVENTS;
-  const over = OVER.includes(run.status);
-  const now = useNow(!over);
-  const [selected, setSelected] = useState<string | null>(null);
-  const simulated = useMemo(() => new Set(events.filter(isSimulated).map((event) => event.device)), [events]);
-  const lines = useMemo(() => stepLines(run.compiled, run.steps), [run.compiled, run.steps]);
-  const numberOf = (step: string) => run.compiled.numbers[step] ?? "";
-  const nameOf = (id: string) => devices.find((device) => device.id === id)?.name ?? id;
-  const allowed = site !== undefined && mayOperate(site.role);
-  return {
-    run,
-    site,
-    devices,
-    map,
-    events,
-    over,
-    now,
-    selected,
-    setSelected,
-    lines,
-    numberOf,
-    nameOf,
-    simulated,
-    allowed,
-  };
-}
-
-type RunView = ReturnType<typeof useRunView>;
-
 /** A refusal, for as long as things stand as they stood when it came. */
 function useProblem({ run, site }: LoadedProps) {
   const connection = useLiveStore((state) => state.connection);
@@ -218,7 +111,7 @@ function Loaded(props: LoadedProps) {
           <RunQuestions run={run} allowed={view.allowed} />
         </section>
         <Side view={view} />
-        <More view={view} />
+        <RunDrawer view={view} tell={setProblem} />
       </main>
     </div>
   );
@@ -271,8 +164,7 @@ function Simulated({ view }: { view: RunView }) {
 /** The steps and the journal. */
 function Side({ view }: { view: RunView }) {
   const { t } = useTranslation();
-  const { run, lines, numberOf, nameOf } = view;
-  const words = useStepWords(run.document, view.devices, view.map?.places);
+  const { run, lines, words, numberOf, nameOf } = view;
   const measurements = useMeasurements(run.id).data;
   const measured = useMemo(() => byStep(measurements ?? []), [measurements]);
   return (
@@ -288,41 +180,14 @@ function Side({ view }: { view: RunView }) {
         measured={measured}
         onSelect={view.setSelected}
       />
-      <Journal events={view.events} numberOf={numberOf} nameOf={nameOf} label={t("run.journal")} />
+      <Journal
+        events={view.events}
+        numberOf={numberOf}
+        nameOf={nameOf}
+        label={t("run.journal")}
+        onWrite={writeOn(view)}
+      />
     </aside>
-  );
-}
-
-/** Timeline, whole journal or script. */
-function More({ view }: { view: RunView }) {
-  const { t } = useTranslation();
-  const [tab, setTab] = useState<Tab>("timeline");
-  const { run, lines, events, devices, over, numberOf, nameOf, setSelected } = view;
-  const elapsed_s = elapsedSeconds(run, view.now);
-  const lit = useMemo(
-    () => new Set(lines.filter((line) => line.started_at && !line.ended_at).map((line) => line.step)),
-    [lines],
-  );
-  const robotOf = useCallback(
-    (step: string) => run.roles[roleOfStep(run.document.steps[step]) ?? DEFAULT_ROLE],
-    [run.roles, run.document],
-  );
-  return (
-    <Drawer tab={tab} onTab={setTab}>
-      {tab === "timeline" && (
-        <Timeline {...{ events, devices, elapsed_s, over, numberOf, robotOf }} onSelect={setSelected} />
-      )}
-      {tab === "logs" && <Journal {...{ events, numberOf, nameOf }} label={t("run.tab.logs")} full />}
-      {tab === "script" && (
-        <ScriptLines
-          compiled={run.compiled}
-          lit={lit}
-          selected={view.selected}
-          label={t("run.tab.script")}
-          onSelect={setSelected}
-        />
-      )}
-    </Drawer>
   );
 }
 

@@ -8,6 +8,7 @@ import { paceOf, percentOver } from "@/device/paces/paces";
 import { StandInMark } from "@/device/standIn/StandInMark";
 import { formatNumber } from "@/i18n/format";
 import { waitWords } from "@/i18n/waits";
+import comments from "./comments/runComments.module.css";
 import styles from "./RunScreen.module.css";
 import { eventWords } from "./eventWords";
 import { outerProgress, spentSeconds, type StepLine } from "./stepList";
@@ -155,10 +156,32 @@ interface JournalProps {
   nameOf: (device: string) => string;
   label: string;
   full?: boolean;
+  /** Begin a comment on a line; nothing for those who may not. By keys one is begun on the timeline. */
+  onWrite: ((event: RunEvent) => void) | null;
+}
+
+/** When a line was written; for those who may comment, the way to comment on it. */
+function Time({ event, onWrite }: { event: RunEvent; onWrite: JournalProps["onWrite"] }) {
+  const { t } = useTranslation();
+  const at = clock(event.t_s);
+  if (!onWrite) return <span className={styles.mono}>{at}</span>;
+  const words = t("comments.on", { what: at });
+  return (
+    <button
+      type="button"
+      tabIndex={-1}
+      className={`${styles.mono} ${comments.time}`}
+      title={words}
+      aria-label={words}
+      onClick={() => onWrite(event)}
+    >
+      {at}
+    </button>
+  );
 }
 
 /** What happened, newest last; it stays at the newest while one looks at the end. */
-export function Journal({ events, numberOf, nameOf, label, full = false }: JournalProps) {
+export function Journal({ events, numberOf, nameOf, label, full = false, onWrite }: JournalProps) {
   const { t } = useTranslation();
   const list = useRef<HTMLOListElement>(null);
   const shown = full ? events : events.filter((event) => !["command", "way"].includes(event.kind));
@@ -186,7 +209,7 @@ export function Journal({ events, numberOf, nameOf, label, full = false }: Journ
       >
         {shown.map((event) => (
           <li key={event.seq}>
-            <span className={styles.mono}>{clock(event.t_s)}</span>
+            <Time event={event} onWrite={onWrite} />
             <StatusGlyph status={eventGlyph(event)} size={13} />
             <span>
               {event.step && numberOf(event.step) ? <b>{numberOf(event.step)} </b> : null}

@@ -1,9 +1,13 @@
+import { MessageSquare } from "lucide-react";
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, RunEvent } from "@/api/types";
 import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import { clock, tickEvery } from "@/design/clock";
 import { type Bar, ganttOf, type RobotOf } from "./gantt";
+import { MomentPins } from "./comments/MomentPins";
+import { MomentScale } from "./comments/MomentScale";
+import type { RunComments } from "./comments/useRunComments";
 import styles from "./Timeline.module.css";
 
 interface TimelineProps {
@@ -14,6 +18,9 @@ interface TimelineProps {
   numberOf: (step: string) => string;
   robotOf: RobotOf;
   onSelect: (step: string) => void;
+  comments: RunComments;
+  /** Begin a comment on a moment. */
+  onWrite: (t_s: number) => void;
 }
 
 function kindOf(bar: Bar): string {
@@ -48,7 +55,7 @@ function BarButton({ bar, span_s, props }: { bar: Bar; span_s: number; props: Ti
 /** Who worked when: a row a device, robots first. */
 export function Timeline(props: TimelineProps) {
   const { t } = useTranslation();
-  const { devices, elapsed_s, over } = props;
+  const { devices, elapsed_s, over, comments, onWrite } = props;
   const rows = useRows(props);
   const span_s = Math.max(10, elapsed_s * (over ? 1.02 : 1.15));
   const every = tickEvery(span_s);
@@ -56,13 +63,21 @@ export function Timeline(props: TimelineProps) {
   if (rows.length === 0) return <p className={styles.empty}>{t(over ? "run.noWork" : "run.noWorkYet")}</p>;
   return (
     <div className={styles.timeline}>
-      <div className={styles.scale} aria-hidden="true">
+      <MomentScale
+        className={styles.scale}
+        span_s={span_s}
+        elapsed_s={elapsed_s}
+        moment={comments.moment}
+        onMoment={comments.setMoment}
+        onWrite={comments.allowed ? onWrite : null}
+      >
         {ticks.map((tick) => (
-          <span key={tick} style={{ left: `${(tick / span_s) * 100}%` }}>
+          <span key={tick} aria-hidden="true" style={{ left: `${(tick / span_s) * 100}%` }}>
             {clock(tick)}
           </span>
         ))}
-      </div>
+      </MomentScale>
+      <Commented comments={comments} span_s={span_s} />
       {rows.map((row) => {
         const device = devices.find((each) => each.id === row.device);
         return (
@@ -78,10 +93,27 @@ export function Timeline(props: TimelineProps) {
                 <BarButton key={`${bar.step}-${bar.kind}-${bar.started_s}`} bar={bar} span_s={span_s} props={props} />
               ))}
               {over ? null : <em style={{ left: `${(elapsed_s / span_s) * 100}%` }} />}
+              {comments.moment === null ? null : <s style={{ left: `${(comments.moment / span_s) * 100}%` }} />}
             </div>
           </div>
         );
       })}
+    </div>
+  );
+}
+
+/** A row with the pins of comments; none where nothing is open. */
+function Commented({ comments, span_s }: { comments: RunComments; span_s: number }) {
+  const { t } = useTranslation();
+  if (comments.threads.every(({ thread }) => thread.resolved_at !== null)) return null;
+  return (
+    <div className={styles.row}>
+      <span className={styles.name}>
+        <MessageSquare size={15} aria-hidden="true" /> {t("comments.title")}
+      </span>
+      <div className={styles.lane}>
+        <MomentPins comments={comments} span_s={span_s} />
+      </div>
     </div>
   );
 }

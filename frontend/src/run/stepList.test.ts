@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Compiled, RunStep } from "@/api/types";
-import { currentStep, outerProgress, spentSeconds, stepLines } from "./stepList";
+import { currentStep, outerProgress, spentSeconds, stepAt, stepLines } from "./stepList";
 
 const compiled: Compiled = {
   revision: 1,
@@ -45,4 +45,15 @@ it("counts the time to the end, or to now", () => {
   expect(spentSeconds(step("done", "2026-01-01T00:00:00Z", "2026-01-01T00:00:09Z"), now)).toBe(9);
   expect(spentSeconds(step("running", "2026-01-01T00:00:10Z"), now)).toBe(20);
   expect(spentSeconds(step("waiting", null), now)).toBeNull();
+});
+
+it("finds the innermost step that was carried out at a moment", () => {
+  const times = (from: string | null, to: string | null = null) => step("done", from, to);
+  const lines = stepLines(compiled, {
+    a: times("2026-01-01T00:00:00Z", "2026-01-01T00:01:00Z"),
+    b: times("2026-01-01T00:00:10Z", "2026-01-01T00:00:20Z"),
+    c: times("2026-01-01T00:01:00Z"),
+  });
+  const at = (seconds: number) => stepAt(lines, Date.parse("2026-01-01T00:00:00Z") + seconds * 1000);
+  expect([at(-1), at(5), at(15), at(30), at(90)]).toEqual([undefined, "a", "b", "a", "c"]);
 });

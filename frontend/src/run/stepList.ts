@@ -34,6 +34,17 @@ export function currentStep(lines: readonly StepLine[]): StepLine | null {
   );
 }
 
+/** The innermost step that was last begun of those that were carried out at a moment, ms since 1970. */
+export function stepAt(lines: readonly StepLine[], at: number): string | undefined {
+  const then = lines.filter(
+    ({ started_at, ended_at }) =>
+      started_at !== null && Date.parse(started_at) <= at && (ended_at === null || at <= Date.parse(ended_at)),
+  );
+  const inner = (a: StepLine, b: StepLine) =>
+    a.depth - b.depth || (a.started_at ?? "").localeCompare(b.started_at ?? "");
+  return [...then].sort(inner).at(-1)?.step;
+}
+
 /** How many of the program's outer steps are over, and how many there are. */
 export function outerProgress(lines: readonly StepLine[]): { done: number; all: number } {
   const outer = lines.filter((line) => line.depth === 0 && !EVENT.test(line.number));

@@ -9,7 +9,7 @@ import { aboutOf } from "./about";
 import classes from "./comments.module.css";
 import { openThreads, resetComments, useComments } from "./commentsUi";
 import { gatherPins, levelOf, pinsOf, type Pin } from "./pins";
-import { useCommenting, useThreads } from "./threads";
+import { useCommenting, useThreads } from "@/shell/comments/threads";
 
 /** Nearer than this a pin opens its threads, whatever it stands for. */
 const NEAR_ENOUGH = 1;

@@ -1,24 +1,38 @@
 /** The comments of a program: those that are open, mention me, or are resolved, and a new one. */
 import { Button, SegmentedControl, Switch } from "@mantine/core";
 import { MessageSquarePlus } from "lucide-react";
-import { useState } from "react";
+import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
+import { CommentForm } from "@/shell/comments/CommentForm";
+import talkClasses from "@/shell/comments/comments.module.css";
+import { TalkContext } from "@/shell/comments/talk";
+import { ThreadCard } from "@/shell/comments/ThreadCard";
+import { FILTERS, filterThreads, useCommenting, useThreads, type Filter } from "@/shell/comments/threads";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { useMe } from "@/api/queries";
 import { mayComment } from "@/api/roles";
 import { selection } from "../commands/command";
 import { useOpenProgram } from "../state/context";
-import { useUi } from "../state/ui";
-import { aboutFrom, type About } from "./about";
-import { CommentForm } from "./CommentForm";
+import { say, useUi } from "../state/ui";
+import { aboutFrom, aboutOf, type About } from "./about";
+import { AboutLine } from "./AboutLine";
 import classes from "./comments.module.css";
 import { useComments, writeAbout } from "./commentsUi";
-import { ThreadCard } from "./ThreadCard";
-import { FILTERS, filterThreads, useCommenting, useThreads, type Filter } from "./threads";
 
 export function CommentsPanel() {
-  const { t } = useTranslation();
   const { program, site } = useOpenProgram();
+  const talk = useMemo(() => ({ program: program.id, role: site.role, tell: say }), [program.id, site.role]);
+  return (
+    <TalkContext value={talk}>
+      <Threads />
+    </TalkContext>
+  );
+}
+
+function Threads() {
+  const { t } = useTranslation();
+  const open = useOpenProgram();
+  const { program, site } = open;
   const threads = useThreads(program.id);
   const me = useMe().data?.user?.id;
   const opened = useComments((ui) => ui.opened);
@@ -30,7 +44,7 @@ export function CommentsPanel() {
   };
   return (
     <div className={classes.panel}>
-      <div className={classes.head}>
+      <div className={talkClasses.head}>
         <SegmentedControl
           size="xs"
           className={classes.filter}
@@ -44,17 +58,22 @@ export function CommentsPanel() {
       </div>
       <NewThread />
       {threads.error ? <LoadProblem error={threads.error} again={() => void threads.refetch()} /> : null}
-      {threads.data && shown.length === 0 ? <p className={classes.none}>{t(`comments.none.${filter}`)}</p> : null}
-      <ul className={classes.threads}>
-        {shown.map((each) => (
-          <ThreadCard
-            key={each.id}
-            thread={each}
-            me={me}
-            opened={opened.includes(each.id)}
-            isFirst={each.id === opened[0]}
-          />
-        ))}
+      {threads.data && shown.length === 0 ? <p className={talkClasses.none}>{t(`comments.none.${filter}`)}</p> : null}
+      <ul className={talkClasses.threads}>
+        {shown.map((each) => {
+          const about = aboutOf(open, each);
+          return (
+            <ThreadCard
+              key={each.id}
+              thread={each}
+              me={me}
+              about={about}
+              aboutLine={<AboutLine thread={each} about={about} />}
+              opened={opened.includes(each.id)}
+              isFirst={each.id === opened[0]}
+            />
+          );
+        })}
       </ul>
     </div>
   );

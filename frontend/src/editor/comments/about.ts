@@ -1,6 +1,8 @@
 /** What a thread is about: in the words of who looks, where it is on the map, and whether it is still there. */
+import i18next from "i18next";
 import type { Thread, ThreadToStart } from "@/api/types";
 import { pathLength, type PixelPoint, pointAlong } from "@/map/plane/paths";
+import { momentOf, momentWords } from "@/shell/comments/moments";
 import { toMetres, toPixels } from "@/map/plane/projection";
 import type { On } from "../commands/command";
 import type { OpenProgram } from "../state/context";
@@ -16,6 +18,9 @@ type Drawn = Pick<OpenProgram, "document" | "scene">;
 
 const MOST_LABEL = 120;
 
+/** The `t` of an open program begins within the texts of the editor. */
+const say = (key: string, values?: Record<string, string | number>): string => i18next.t(key, values ?? {});
+
 /** The number and kind of a step that the program has: `2 Pick-and-Drop`. */
 export function stepLabel({ document, compiled, t }: Known, id: string): string | null {
   const step = document.steps[id];
@@ -25,14 +30,16 @@ export function stepLabel({ document, compiled, t }: Known, id: string): string 
 /** As the program calls it now; what is gone keeps the words with which the thread began. */
 export function aboutOf(open: Known, { anchor, label }: Thread): string {
   if (anchor.kind === "construct" && anchor.root === "steps")
-    return stepLabel(open, anchor.id ?? "") ?? (label || open.t("comments.program"));
+    return stepLabel(open, anchor.id ?? "") ?? (label || say("comments.program"));
   if (anchor.kind === "arrow") return arrowLabel(open, anchor.id ?? "", anchor.to ?? "") ?? label;
-  return label || open.t(anchor.kind === "place" ? "comments.place" : "comments.program");
+  const moment = momentOf({ anchor });
+  if (moment) return momentWords(say, moment, label);
+  return label || say(anchor.kind === "place" ? "comments.place" : "comments.program");
 }
 
 function arrowLabel(open: Known, from: string, to: string): string | null {
   const [one, other] = [stepLabel(open, from), stepLabel(open, to)];
-  return one === null || other === null ? null : open.t("comments.arrow", { from: one, to: other });
+  return one === null || other === null ? null : say("comments.arrow", { from: one, to: other });
 }
 
 /** Whether what a thread is about is still drawn; other things than steps as the server said when the list was read. */
@@ -87,7 +94,7 @@ export function aboutFrom(open: OpenProgram, on: Pick<On, "steps" | "link" | "at
     return { anchor: { kind: "construct", root: "steps", id, ...(corner ? placed(corner) : {}) }, label: step };
   }
   if (at && on.steps.length === 0) {
-    const label = open.t("comments.at", { x: at[0].toFixed(1), y: at[1].toFixed(1) });
+    const label = say("comments.at", { x: at[0].toFixed(1), y: at[1].toFixed(1) });
     return { anchor: { kind: "place", x: at[0], y: at[1] }, label };
   }
   return { anchor: { kind: "program" }, label: "" };

@@ -5,7 +5,7 @@ import type { OpenProgram } from "../state/context";
 import { gatherPins, levelOf, pinsOf } from "./pins";
 
 const AT = "2026-01-02T03:04:00Z";
-const NOWHERE = { root: null, id: null, to: null, x: null, y: null };
+const NOWHERE = { root: null, id: null, to: null, x: null, y: null, run: null, number: null, t_s: null };
 
 function thread(id: string, anchor: Partial<Thread["anchor"]>, changes: Partial<Thread> = {}): Thread {
   return {

@@ -12,7 +12,7 @@ import {
 import { lazy, type ReactNode, Suspense } from "react";
 import { IconButton } from "@/design/IconButton";
 import { useTranslation } from "react-i18next";
-import { countUnread, useThreads } from "../comments/threads";
+import { countUnread, useThreads } from "@/shell/comments/threads";
 import { useOpenProgram } from "../state/context";
 import { say, showTab, useUi, type DrawerTab } from "../state/ui";
 import classes from "./drawer.module.css";

@@ -1,19 +1,16 @@
 /** A thread: what it is about, what was written, and what one may do with it. */
 import { Button } from "@mantine/core";
 import { Check, RotateCcw } from "lucide-react";
-import { useEffect, useRef, useState } from "react";
+import { useEffect, useRef, useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import type { Thread } from "@/api/types";
 import { mayComment } from "@/api/roles";
 import { formatMoment } from "@/i18n/format";
-import { problemText } from "@/shell/LoadProblem";
-import { showSteps } from "../commands/view";
-import { useOpenProgram } from "../state/context";
-import { say, select } from "../state/ui";
-import { aboutOf, standsNow, stepOf } from "./about";
+import { problemText } from "../LoadProblem";
 import { CommentForm } from "./CommentForm";
 import classes from "./comments.module.css";
 import { piecesOf } from "./mentions";
+import { useTalk } from "./talk";
 import { useCommenting } from "./threads";
 
 type Comment = Thread["comments"][number];
@@ -21,6 +18,10 @@ type Comment = Thread["comments"][number];
 interface ThreadCardProps {
   thread: Thread;
   me: number | undefined;
+  /** What it is about, in words. */
+  about: string;
+  /** The same as it stands at its head, if it leads anywhere or has more to say. */
+  aboutLine?: ReactNode;
   /** It was opened by its pin. */
   opened: boolean;
   /** The keyboard goes to it. */
@@ -30,22 +31,21 @@ interface ThreadCardProps {
 /** What is done in a thread; a refusal is shown for a moment. */
 function useActs() {
   const { t } = useTranslation();
-  const act = useCommenting(useOpenProgram().program.id);
-  const tell = (problem: unknown) => say(problemText(problem, t("shell.problem.screen")));
-  return { act, now: (done: Promise<unknown>) => void done.catch(tell) };
+  const { program, tell } = useTalk();
+  const act = useCommenting(program);
+  const refused = (problem: unknown) => tell(problemText(problem, t("shell.problem.screen")));
+  return { act, now: (done: Promise<unknown>) => void done.catch(refused) };
 }
 
-export function ThreadCard({ thread, me, opened, isFirst }: ThreadCardProps) {
-  const open = useOpenProgram();
+export function ThreadCard({ thread, me, about, aboutLine, opened, isFirst }: ThreadCardProps) {
   const { act, now } = useActs();
   const { t } = useTranslation();
-  const about = aboutOf(open, thread);
   const card = useInSight(isFirst);
-  const writes = mayComment(open.site.role);
+  const writes = mayComment(useTalk().role);
   return (
     <li ref={card} className={classes.thread} aria-label={about} tabIndex={-1} data-opened={opened || undefined}>
       <div className={classes.head}>
-        <AboutLine thread={thread} about={about} />
+        {aboutLine ?? <span className={classes.about}>{about}</span>}
         {thread.unread > 0 ? (
           <Button size="compact-xs" variant="light" onClick={() => now(act.markRead(thread.id))}>
             {t("comments.markRead", { count: thread.unread })}
@@ -108,37 +108,12 @@ function Answer({ thread }: { thread: string }) {
   );
 }
 
-function AboutLine({ thread, about }: { thread: Thread; about: string }) {
-  const { t } = useTranslation();
-  const open = useOpenProgram();
-  const step = stepOf(open, thread);
-  if (step !== null)
-    return (
-      <button
-        type="button"
-        className={classes.about}
-        onClick={() => {
-          select([step]);
-          showSteps(open, [step]);
-        }}
-      >
-        {about}
-      </button>
-    );
-  return (
-    <span className={classes.about}>
-      {about}
-      {standsNow(open, thread) ? null : <em> {t("comments.deleted")}</em>}
-    </span>
-  );
-}
-
 function Written({ comment, isMine }: { comment: Comment; isMine: boolean }) {
   const { t } = useTranslation();
-  const { site } = useOpenProgram();
+  const { role } = useTalk();
   const { act, now } = useActs();
   const [edits, setEdits] = useState(false);
-  const edit = isMine && mayComment(site.role);
+  const edit = isMine && mayComment(role);
   if (edits)
     return (
       <li>
@@ -161,7 +136,7 @@ function Written({ comment, isMine }: { comment: Comment; isMine: boolean }) {
             {t("comments.edit")}
           </Button>
         ) : null}
-        {edit || site.role === "admin" ? (
+        {edit || role === "admin" ? (
           <Button size="compact-xs" variant="subtle" onClick={() => now(act.remove(comment.id))}>
             {t("comments.delete")}
           </Button>

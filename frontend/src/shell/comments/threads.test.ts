@@ -2,10 +2,11 @@ import { expect, test } from "vitest";
 import type { Thread } from "@/api/types";
 import { countUnread, filterThreads } from "./threads";
 
+const NO_MOMENT = { run: null, number: null, t_s: null };
 const named = (id: number) => ({ id, name: "Ann", initials: "A" });
 
 function thread(id: string, changes: Partial<Thread> = {}, mentions: number[] = []): Thread {
-  const anchor = { kind: "program" as const, root: null, id: null, to: null, x: null, y: null };
+  const anchor = { kind: "program" as const, root: null, id: null, to: null, x: null, y: null, ...NO_MOMENT };
   const at = "2026-01-02T03:04:00Z";
   const comment = {
     id: `${id}-1`,

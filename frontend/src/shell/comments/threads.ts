@@ -2,7 +2,7 @@
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
-import type { Thread, ThreadToStart, WordsToWrite } from "@/api/types";
+import type { CommentOnRun, Thread, ThreadBegun, ThreadToStart, WordsToWrite } from "@/api/types";
 import type { Named } from "./mentions";
 
 export const FILTERS = ["open", "mine", "resolved"] as const;
@@ -19,6 +19,15 @@ export const usePeopleToMention = (program: string) =>
     queryKey: keys.peopleToMention(program),
     queryFn: () => api.get<Named[]>(`${pathOf(program)}/people`),
   });
+
+/** Begin a thread about a moment of a run of the program. */
+export function useCommentOnRun(program: string, run: string) {
+  const queries = useQueryClient();
+  return useMutation({
+    mutationFn: (comment: CommentOnRun) => api.post<ThreadBegun>(`/runs/${run}/threads`, comment),
+    onSettled: () => queries.invalidateQueries({ queryKey: keys.threads(program) }),
+  }).mutateAsync;
+}
 
 /** What one does in a program's threads; all is read anew after each. */
 export function useCommenting(program: string) {

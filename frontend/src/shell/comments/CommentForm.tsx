@@ -4,10 +4,10 @@ import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { WordsToWrite } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
-import { useOpenProgram } from "../state/context";
 import classes from "./comments.module.css";
 import { MentionField } from "./MentionField";
 import { mentionedIn } from "./mentions";
+import { useTalk } from "./talk";
 import { usePeopleToMention } from "./threads";
 
 interface CommentFormProps {
@@ -22,8 +22,7 @@ interface CommentFormProps {
 /** It has the keyboard when it opens; what was refused stays in it, with the reason. */
 export function CommentForm({ label, send, first = "", onSend, onDone }: CommentFormProps) {
   const { t } = useTranslation();
-  const { program } = useOpenProgram();
-  const people = usePeopleToMention(program.id).data ?? [];
+  const people = usePeopleToMention(useTalk().program).data ?? [];
   const [text, setText] = useState(first);
   const [busy, setBusy] = useState(false);
   const [refused, setRefused] = useState<string | null>(null);
