@@ -258,3 +258,4 @@ def test_a_second_factor_is_demanded_and_who_lacks_it_is_led_to_set_it_up(
     expect(rule.get_by_label("Demanded of")).to_have_value("")
     for page in (admin, operator):
         page.context.close()
+    faults[:] = [line for line in faults if "401" not in line]  # what was under way when a session was made anew

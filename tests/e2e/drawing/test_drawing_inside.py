@@ -47,6 +47,7 @@ def test_an_open_branch_invites_takes_the_next_step_and_says_so(sign_in: SignIn)
     page.keyboard.press("n")
     page.mouse.click(x, y - 62)
     expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Notify")
+    until(page, "() => document.activeElement?.matches('textarea, input, [contenteditable]')")
     page.keyboard.press("Escape")  # its message has the keyboard
     page.keyboard.press("u")
     expect(page.get_by_text("The next step goes here: If 1, branch \u201cfalse\u201d")).to_be_visible()

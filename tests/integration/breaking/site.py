@@ -111,11 +111,11 @@ class Factory:
 
     def commands(self, run: str) -> list[dict[str, Any]]:
         """Return the commands of a run in the order in which they were decided, without pause, resume and cancel."""
-        query = "select device, method, status, tries from execution_command where run = ? and method not in \
+        query = "select device, method, status, tries, why from execution_command where run = ? and method not in \
                  ('pause', 'resume', 'cancel') order by position"
         with closing(sqlite3.connect(f"file:{self.demo.state}/vipo.sqlite3?mode=ro", uri=True, timeout=20)) as database:
             rows = database.execute(query, (UUID(run).hex,)).fetchall()
-        return [dict(zip(("device", "method", "status", "tries"), row, strict=True)) for row in rows]
+        return [dict(zip(("device", "method", "status", "tries", "why"), row, strict=True)) for row in rows]
 
     def wait_command(self, run: str, method: str, *statuses: str, timeout_s: float = 60) -> None:
         wait_for(
