@@ -7,6 +7,7 @@ from editor.errors import BadRequest, EditorError, NoSuchProgram, NotApproved
 from editor.library.functions import Said, change_function, save_function
 from editor.library.queries import LibraryView, get_function, search_library
 from editor.library.seeds import seed_library
+from editor.library.updates import get_updated_content
 from editor.programs.checking import build_surroundings, find_zones
 from editor.programs.contents import (
     ContentView,
@@ -84,6 +85,7 @@ __all__ = [
     "get_document",
     "get_function",
     "get_program",
+    "get_updated_content",
     "get_version",
     "has_versions_to_test",
     "is_admitted",

@@ -13,6 +13,7 @@ from ninja.responses import Status
 
 from editor import services
 from editor.errors import BadRequest
+from editor.library.shapes import MOST_VERSION
 from editor.programs.access import program_for
 from editor.programs.views import ProgramView, VersionView
 from editor.shapes import ProgramName, ProgramShape
@@ -31,8 +32,9 @@ from editor.versions.shapes import (
     comparison_to_json,
     read_sent,
 )
-from editor.versions.sides import compare_sides
+from editor.versions.sides import compare_functions, compare_sides
 from registry.requests import PartAsked, refuses, sends, signed_in, tell_rest
+from registry.services import require
 
 router = Router(tags=["editor"])
 _SENDS_A_FILE = {
@@ -150,3 +152,16 @@ def make_changes(request: HttpRequest, program: UUID, body: ChangesToMake) -> di
     program_for(request.user, program, "author")
     changes = [read_sent(each) for each in body.changes]
     return changed_to_json(apply_sent(program_id=program, changes=changes, user=signed_in(request)))
+
+
+@router.get("/library/{function}/sides", response=ComparisonShape)
+def compare_function_sides(
+    request: HttpRequest, function: UUID, site: str, old: int, new: int | None = None
+) -> dict[str, Any]:
+    """Compare two versions of a library function as programs of a site, where they can be drawn on its map."""
+    require(request.user, site, "viewer")
+    numbers = [None if each is None else each if 0 < each < MOST_VERSION else 0 for each in (old, new)]
+    compared = compare_functions(
+        function_id=function, site=site, user=signed_in(request), old=numbers[0] or 0, new=numbers[1]
+    )
+    return comparison_to_json(compared)

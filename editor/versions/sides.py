@@ -10,6 +10,8 @@ from uuid import UUID
 from editor import services
 from editor.errors import DocumentHole, NoSuchProgram, UnreadableVersion
 from editor.language.comparison.difference import Difference, compare
+from editor.library.queries import get_function
+from editor.library.updates import body_as_program
 from editor.programs.compilations import compile_program
 from editor.programs.views import VersionView
 
@@ -50,6 +52,18 @@ def compare_sides(*, program_id: UUID, site: str, old: int | None, new: int | No
     return Comparison(sides[0], sides[1], found)
 
 
+def compare_functions(*, function_id: UUID, site: str, user: Any, old: int, new: int | None) -> Comparison:
+    """Compare the bodies of two versions of a library function, as programs of a site; without `new` with the newest.
+
+    Raises NoSuchProgram.
+    """
+    surroundings = services.build_surroundings(site=site)
+    views = [get_function(function_id=function_id, user=user, version=number) for number in (old, new)]
+    documents = [body_as_program(view.definition) for view in views]
+    sides = [_compiled_side(None, document, surroundings) for document in documents]
+    return Comparison(sides[0], sides[1], compare(documents[0], documents[1]))
+
+
 def _side(program_id: UUID, number: int | None, surroundings: Any) -> Side:
     try:
         version = None if number is None else services.find_version(program_id=program_id, number=number)
@@ -59,6 +73,10 @@ def _side(program_id: UUID, number: int | None, surroundings: Any) -> Side:
     except NoSuchProgram:
         services.get_program(program_id=program_id)  # of a program that is gone there is nothing to compare
         return Side(None, None, None, "missing")
+    return _compiled_side(version, document, surroundings)
+
+
+def _compiled_side(version: VersionView | None, document: Mapping[str, Any], surroundings: Any) -> Side:
     compilation = compile_program(document, surroundings)
     form = {**compilation.compiled(), "diagnostics": []}
     return Side(version, document, form, "", len(compilation.errors))

@@ -42,7 +42,8 @@ class TrialRun(models.Model):
 
     `seeds` is how many each test was carried out with besides its own. `tries_changes` tells whether it was asked which
     changes of the program no test notices; `changes` is what came of that. `site` names by digests what of the site it
-    was carried out on: map, places, zones, and each device.
+    was carried out on: map, places, zones, and each device. `update` names the function of the library and the version
+    of it with which the program was tried before it is taken in; None where it was tried as it is.
     """
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
@@ -56,6 +57,7 @@ class TrialRun(models.Model):
     total = models.PositiveIntegerField()
     passed = models.PositiveIntegerField(default=0)
     ways = models.JSONField(default=list)
+    update = models.JSONField(null=True)
     seeds = models.PositiveSmallIntegerField(default=0, db_default=0)
     tries_changes = models.BooleanField(default=False, db_default=False)
     changes = models.JSONField(null=True)

@@ -10,6 +10,7 @@ from uuid import UUID
 from django.db.models import QuerySet
 
 from editor import services as editor
+from execution.errors import NotFound
 from execution.models import MeantChange, ProgramTest, Rehearsal, TrialResult, TrialRun
 from execution.program_tests.meant_changes import ChangeKey, find_meant, mark_of
 from execution.program_tests.site_digests import Digests, digests_of, what_changed
@@ -32,10 +33,10 @@ def show_tests(*, program: UUID, asker: int) -> dict[str, Any]:
     site = digests_of(content.site)
     rows = ProgramTest.objects.filter(program=program).select_related("edited_by").defer("text")
     tests = list(rows.order_by("created_at", "name"))
-    known = TrialResult.objects.filter(test__program=program).order_by("-at", "-pk")
+    known = TrialResult.objects.filter(test__program=program, run__update__isnull=True).order_by("-at", "-pk")
     results = list(known.values_list("pk", "test", "digest"))
     latest = _latest(results)
-    runs = list(runs_of(program)[:RUNS_LOOKED_AT])
+    runs = list(runs_of(program).filter(update__isnull=True)[:RUNS_LOOKED_AT])
     under_way = [run for run in runs if status_of(run) in Rehearsal.OPEN]
     over = next((run for run in runs if status_of(run) not in Rehearsal.OPEN), None)
     return {
@@ -83,6 +84,21 @@ def run_to_json(run: TrialRun, asker: int) -> dict[str, Any]:
         "created_at": run.created_at,
         "ended_at": ended,
     }
+
+
+def show_run(*, program: UUID, run: UUID, asker: int) -> dict[str, Any]:
+    """Return a run of tests with what came of each, as JSON (`WholeTestRunShape`). Raises NotFound."""
+    row = runs_of(program).filter(pk=run).first()
+    if row is None:
+        raise NotFound("There is no such run of tests. Its results may be too old to be kept.")
+    results = row.results.select_related("test").defer("taken", "test__text").order_by("test__created_at", "test__name")
+    shown = [_line_of_run(each) for each in results]
+    return {**run_to_json(row, asker), "update": row.update, "results": shown}
+
+
+def _line_of_run(result: TrialResult) -> dict[str, Any]:
+    told = {"id": result.test_id, "name": result.test.name, "status": result.status}
+    return {**told, "seed": result.seed, "duration_s": result.duration_s, **result.detail}
 
 
 def _test_to_json(test: ProgramTest, result: TrialResult | None, digest: str, site: Digests) -> dict[str, Any]:
@@ -157,7 +173,7 @@ def _newest(results: Iterable[Key]) -> dict[UUID, int]:
 
 def _coverage(program: UUID, results: Sequence[Key], digest: str) -> dict[str, Any] | None:
     """Return which ways the tests took through the program as it is now, else as it was when they last ran."""
-    runs = TrialRun.objects.filter(program=program).exclude(ways=[]).order_by("-created_at")
+    runs = TrialRun.objects.filter(program=program, update__isnull=True).exclude(ways=[]).order_by("-created_at")
     run = runs.filter(digest=digest).first() or runs.first()
     if run is None:
         return None
@@ -175,7 +191,7 @@ def list_version_tests(*, program: UUID) -> list[dict[str, Any]]:
     As JSON (`VersionTestsShape`).
     """
     newest: dict[str, TrialRun] = {}
-    for run in runs_of(program).filter(whole=True)[:MOST_RUNS]:
+    for run in runs_of(program).filter(whole=True, update__isnull=True)[:MOST_RUNS]:
         newest.setdefault(run.digest, run)
     numbers = editor.find_numbers(program_id=program, digests=newest)
     return [_version_to_json(number, newest[digest]) for number, digest in sorted(numbers.items(), reverse=True)]

@@ -16,7 +16,7 @@ from editor.services import NoSuchProgram
 from execution.program_tests import stored_tests
 from execution.program_tests.first_text import first_text
 from execution.program_tests.meant_changes import ChangeKey, set_meant
-from execution.program_tests.overview import list_version_tests, run_to_json, runs_of, show_tests
+from execution.program_tests.overview import list_version_tests, run_to_json, runs_of, show_run, show_tests
 from execution.program_tests.shapes import (
     FirstTextShape,
     MeantChangeToSay,
@@ -28,8 +28,9 @@ from execution.program_tests.shapes import (
     TestTextShape,
     TestToWrite,
     VersionTestsShape,
+    WholeTestRunShape,
 )
-from execution.program_tests.test_runs import Asker, Extent, start_tests
+from execution.program_tests.test_runs import Asker, Extent, Update, start_tests
 from registry.requests import refuses, sends, signed_in
 from registry.services import NotAMember, require
 
@@ -145,14 +146,25 @@ def say_change_is_meant(request: HttpRequest, program: UUID, body: MeantChangeTo
 
 @router.post("/programs/{uuid:program}/test-runs", response={202: TestRunShape})
 def run_tests(request: HttpRequest, program: UUID, body: TestsToRun | None = None) -> Status[dict[str, Any]]:
-    """Carry out tests of a program, all or some, on what is drawn now or on a version; queued as rehearsals are."""
+    """Carry out tests of a program on what is drawn now, on a version or on an update; queued as rehearsals are."""
     _program(request, program, "operator")
-    person, body = signed_in(request), body or TestsToRun(tests=None, seeds=0, changes=False)
+    person, body = signed_in(request), body or TestsToRun(tests=None, seeds=0, changes=False, update=None)
     asker = Asker(person.pk, person.display_name)
-    extent = Extent(body.seeds, body.changes)
-    started = start_tests(program=program, asker=asker, tests=body.tests, number=body.version, extent=extent)
+    extent, update = Extent(body.seeds, body.changes), None
+    if body.update is not None:
+        update = Update(body.update.library, body.update.version, request.user)
+    started = start_tests(
+        program=program, asker=asker, tests=body.tests, number=body.version, extent=extent, update=update
+    )
     run = runs_of(program).get(pk=started)
     return Status(202, run_to_json(run, person.pk))
+
+
+@router.get("/programs/{uuid:program}/test-runs/{uuid:test_run}", response=WholeTestRunShape)
+def show_test_run(request: HttpRequest, program: UUID, test_run: UUID) -> dict[str, Any]:
+    """Return a run of a program's tests, with what came of each test once it is over."""
+    _program(request, program, "viewer", "read")
+    return show_run(program=program, run=test_run, asker=signed_in(request).pk)
 
 
 @router.get("/programs/{uuid:program}/version-tests", response=list[VersionTestsShape])

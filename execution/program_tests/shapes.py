@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 from uuid import UUID
 
 from ninja import Field, Schema
+from pydantic import Strict, model_validator
 
 from execution.program_tests.stored_tests import MOST_TESTS, MOST_TEXT
 from execution.program_tests.test_runs import MOST_SEEDS
@@ -136,6 +137,34 @@ class TestRunShape(Schema):
     ended_at: datetime | None
 
 
+class UpdateShape(Schema):
+    """A function of the library and a version of it."""
+
+    library: UUID
+    version: int
+
+
+class TestRunResultShape(Schema):
+    """What came of a test in one run of tests: what was expected and not seen, or what there is not."""
+
+    id: UUID
+    name: str
+    status: Literal["passed", "failed", "unusable", "stopped"]
+    seed: int
+    duration_s: float
+    expectations: list[ExpectationShape]
+    errors: list[str]
+    line: int
+    why: str
+
+
+class WholeTestRunShape(TestRunShape):
+    """A run of tests with what came of each, once it is over; tests that were deleted since are left out."""
+
+    update: UpdateShape | None
+    results: list[TestRunResultShape]
+
+
 class CoveredConstruct(Schema):
     """A construct, its line of the script, and for each way through it how many tests took it."""
 
@@ -253,8 +282,17 @@ class MeantChangeToSay(Asked):
     meant: bool
 
 
+class UpdateToTry(Asked):
+    """A function of the library that the program holds, and the version of it with which the program is tried."""
+
+    library: UUID
+    version: Annotated[int, Strict(), Field(ge=1, lt=2**31)]
+
+
 class TestsToRun(Asked):
     """Which tests are carried out (all, if none are named), on which version (what is drawn now, if none).
+
+    With `update` on what is drawn now as it would be with that; what comes of it is told of that run of tests alone.
 
     With so many `seeds`, 1, 2, 3 and so on, besides its own each; `changes` of the program are tried once all pass. All
     of it has the time of one rehearsal.
@@ -264,3 +302,10 @@ class TestsToRun(Asked):
     version: OfVersion = None
     seeds: int = Field(0, ge=0, le=MOST_SEEDS)
     changes: bool = False
+    update: UpdateToTry | None = None
+
+    @model_validator(mode="after")
+    def _one_content(self) -> TestsToRun:
+        if self.update is not None and (self.version is not None or self.changes):
+            raise ValueError("An update is tried on what is drawn now, without other changes: leave the others out.")
+        return self

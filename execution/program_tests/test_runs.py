@@ -48,6 +48,25 @@ PLAIN = Extent()
 
 
 @dataclass(frozen=True, slots=True)
+class Update:
+    """A version of a library function that the program holds at another one; `user` must see it."""
+
+    library: UUID
+    version: int
+    user: Any
+
+    def content(self, program: UUID) -> editor.ContentView:
+        """Return what the program would hold."""
+        return editor.get_updated_content(
+            program_id=program, library=self.library, version=self.version, user=self.user
+        )
+
+    def facts(self) -> dict[str, Any]:
+        """Return what is kept of it."""
+        return {"library": str(self.library), "version": self.version}
+
+
+@dataclass(frozen=True, slots=True)
 class Asker:
     """For whom tests are carried out: their id, if they are known, and their name; `by_itself` for a named version."""
 
@@ -58,22 +77,25 @@ class Asker:
 
 def start_tests(
     *, program: UUID, asker: Asker, tests: Collection[UUID] | None = None, number: int | None = None,
-    extent: Extent = PLAIN,
+    extent: Extent = PLAIN, update: Update | None = None,
 ) -> UUID:  # fmt: skip
-    """Queue tests of a program, all or some, on what is drawn now or on a version; returns the id of the run of them.
+    """Queue tests of a program, all or some, on what is drawn now, on a version, or on what an update would make of it.
+
+    Returns the id of the run of them.
 
     Raises:
         NotFound: there is none, or one of them is gone.
         NotReady: the program has errors.
         TooManyRehearsals: the person or the site has as many as may wait or be under way.
-        editor.NoSuchProgram: there is no such version.
+        editor.NoSuchProgram: there is no such version, or no such function of the library.
+        editor.BadRequest: the program does not hold the function.
     """
     rows = _find(program, tests)
-    content = editor.get_content(program_id=program, number=number)
+    content = editor.get_content(program_id=program, number=number) if update is None else update.content(program)
     refuse_too_many(site=content.site, person=asker.person)  # before it is compiled: who asks too often costs little
     job = _job(content, rows) | {"seeds": extent.seeds, "changes": MOST_CHANGES if extent.tries_changes else 0}
     with transaction.atomic():
-        return _put(content, rows, asker, job, whole=tests is None)
+        return _put(content, rows, asker, job, whole=tests is None, update=update.facts() if update else None)
 
 
 def _find(program: UUID, tests: Collection[UUID] | None) -> list[ProgramTest]:
@@ -110,7 +132,7 @@ def _scene(site: str) -> dict[str, Any]:
 
 
 def _put(
-    content: editor.ContentView, tests: Sequence[ProgramTest], asker: Asker, job: dict[str, Any], *, whole: bool
+    content: editor.ContentView, tests: Sequence[ProgramTest], asker: Asker, job: dict[str, Any], **columns: Any
 ) -> UUID:
     """Queue tests, in the caller's transaction."""
     rehearsal = put_into_queue(
@@ -118,7 +140,7 @@ def _put(
         program_name=content.name, job=job, started_by=asker.name,
     )  # fmt: skip
     asked = {"seeds": job.get("seeds", 0), "tries_changes": bool(job.get("changes"))}
-    return _note(content, tests, asker, whole=whole, rehearsal=rehearsal, site=job["site"], **asked)
+    return _note(content, tests, asker, rehearsal=rehearsal, site=job["site"], **asked, **columns)
 
 
 def _note(content: editor.ContentView, tests: Sequence[ProgramTest], asker: Asker, **columns: Any) -> UUID:

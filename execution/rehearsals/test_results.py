@@ -11,7 +11,7 @@ from django.db.models.functions import Now
 from execution.models import ProgramTest, TrialResult, TrialRun
 
 KEPT_OF_TEST = 20
-"""So many results of a test are kept, the newest."""
+"""So many results of a test are kept, the newest; those of updates that were tried beside those of the program."""
 KEPT_OF_PROGRAM = 500
 """So many runs of a program's tests are kept, the newest."""
 
@@ -42,7 +42,8 @@ def keep_results(*, rehearsal: UUID, found: Mapping[str, Any]) -> None:
 
 def _forget_old(run: TrialRun, tests: list[UUID]) -> None:
     for test in tests:
-        old = TrialResult.objects.filter(test=test).order_by("-at", "-pk").values_list("pk", flat=True)
+        like = TrialResult.objects.filter(test=test, run__update__isnull=run.update is None)
+        old = like.order_by("-at", "-pk").values_list("pk", flat=True)
         TrialResult.objects.filter(pk__in=list(old[KEPT_OF_TEST:])).delete()
     runs = TrialRun.objects.filter(program=run.program_id).order_by("-created_at", "-pk").values_list("pk", flat=True)
     TrialRun.objects.filter(pk__in=list(runs[KEPT_OF_PROGRAM:])).delete()

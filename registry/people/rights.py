@@ -69,7 +69,7 @@ DEEDS = (
         show_map_version show_version_cells show_place show_zone current probe sample current_of_device probe_device
         sample_of_device list_programs ask post_query list_things watch_things show_thing read_expression
         show_values show_value watch_value await_next_value query_action list_threads show_thread mark_thread_read
-        list_tests export_tests show_test show_version_tests""",
+        list_tests export_tests show_test show_version_tests show_test_run compare_function_sides""",
     ),
     _deed("stop", "viewer", "operate", "press_stop"),
     _deed("own", "viewer", "session", "list_tokens show_token create_token revoke_token list_members leave_site"),

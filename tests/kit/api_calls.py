@@ -17,7 +17,17 @@ from django.test import Client
 
 from editor import services as editor
 from editor.models import Comment, CommentThread
-from execution.models import Calibration, Command, DeadLetter, Measurement, ProgramTest, Question, Rehearsal, Run
+from execution.models import (
+    Calibration,
+    Command,
+    DeadLetter,
+    Measurement,
+    ProgramTest,
+    Question,
+    Rehearsal,
+    Run,
+    TrialRun,
+)
 from registry import services
 from registry.models import Device, DeviceAlert, Site, User
 from registry.people.wall_screens import make_wall_screen
@@ -93,7 +103,7 @@ BODIES: dict[str, dict[str, Any]] = {
 }
 """What is sent, where an empty object does not say enough; a name in braces stands for an id."""
 QUERIES = {"ask": "?query=ASK+%7B%7D", "show_property_history": "?property=jobStatus", "compare_versions": "?old=1"}
-QUERIES |= {"compare_function": "?old=1"}
+QUERIES |= {"compare_function": "?old=1", "compare_function_sides": "?old=1&site={slug}"}
 
 
 def make_one_of_each(slug: str) -> dict[str, str]:
@@ -134,6 +144,7 @@ def make_one_of_each(slug: str) -> dict[str, str]:
     made["test"] = ProgramTest.objects.create(
         program_id=program, name="It ends", text=ends, created_at=NOW, edited_at=NOW
     ).pk
+    made["test_run"] = TrialRun.objects.create(program_id=program, digest="0" * 64, total=1, created_at=NOW).pk
     named = {"device_id": device, "device": device, "thing": device, "slug": slug, "site": slug, "number": "1"}
     named |= {"version": "1", "name": "jobStatus", "action": "mix", "session": "0", "provider": "none", "sign_on": "0"}
     named["method"] = "mix"
@@ -199,7 +210,7 @@ def ask_each(client: Client, ids: dict[str, str]) -> Iterator[tuple[str, Any]]:
 
 def ask(client: Client, method: str, path: str, name: str, ids: dict[str, str]) -> Any:
     """Ask for an operation in a way that it understands, with these ids in its address and body."""
-    path = path.format(**ids) + QUERIES.get(name, "")
+    path = path.format(**ids) + QUERIES.get(name, "").format(**ids)
     if name == "post_query":
         return client.post(path, "ASK {}", content_type="application/sparql-query")
     if name == "upload_site":

@@ -190,6 +190,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/library/{function}/sides": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Compare Function Sides
+         * @description Compare two versions of a library function as programs of a site, where they can be drawn on its map.
+         */
+        get: operations["compare_function_sides"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/library/{function}/uses": {
         parameters: {
             query?: never;
@@ -883,9 +903,29 @@ export interface paths {
         put?: never;
         /**
          * Run Tests
-         * @description Carry out tests of a program, all or some, on what is drawn now or on a version; queued as rehearsals are.
+         * @description Carry out tests of a program on what is drawn now, on a version or on an update; queued as rehearsals are.
          */
         post: operations["run_tests"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/test-runs/{test_run}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Test Run
+         * @description Return a run of a program's tests, with what came of each test once it is over.
+         */
+        get: operations["show_test_run"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -6183,6 +6223,20 @@ export interface components {
             status: "passed" | "failed" | "unusable" | "stopped";
             why: string;
         };
+        /** @description What came of a test in one run of tests: what was expected and not seen, or what there is not. */
+        TestRunResultShape: {
+            duration_s: number;
+            errors: string[];
+            expectations: components["schemas"]["ExpectationShape"][];
+            /** Format: uuid */
+            id: string;
+            line: number;
+            name: string;
+            seed: number;
+            /** @enum {string} */
+            status: "passed" | "failed" | "unusable" | "stopped";
+            why: string;
+        };
         /**
          * @description Tests carried out together, on a version or on what was drawn (no `number`).
          *
@@ -6229,6 +6283,8 @@ export interface components {
         /**
          * @description Which tests are carried out (all, if none are named), on which version (what is drawn now, if none).
          *
+         *     With `update` on what is drawn now as it would be with that; what comes of it is told of that run of tests alone.
+         *
          *     With so many `seeds`, 1, 2, 3 and so on, besides its own each; `changes` of the program are tried once all pass. All
          *     of it has the time of one rehearsal.
          */
@@ -6238,6 +6294,7 @@ export interface components {
             /** @default 0 */
             seeds: number;
             tests?: string[] | null;
+            update?: components["schemas"]["UpdateToTry"] | null;
             /** @description The version of the program that is taken; as it is drawn now if none. */
             version?: number | null;
         };
@@ -6309,6 +6366,18 @@ export interface components {
             name: string;
             reached: boolean;
             step: string;
+        };
+        /** @description A function of the library and a version of it. */
+        UpdateShape: {
+            /** Format: uuid */
+            library: string;
+            version: number;
+        };
+        /** @description A function of the library that the program holds, and the version of it with which the program is tried. */
+        UpdateToTry: {
+            /** Format: uuid */
+            library: string;
+            version: number;
         };
         /** @description Which robot's map, and the versions that were looked at: of the robot's map, and of the site's (0: none). */
         UseRobotMap: {
@@ -6419,6 +6488,29 @@ export interface components {
         /** @description Where something is, as a point. */
         Whereabouts: {
             at: components["schemas"]["Place"] | components["schemas"]["RoleUse"];
+        };
+        /** @description A run of tests with what came of each, once it is over; tests that were deleted since are left out. */
+        WholeTestRunShape: {
+            by_itself: boolean;
+            cause: components["schemas"]["Cause"] | null;
+            /** Format: date-time */
+            created_at: string;
+            ended_at: string | null;
+            /** Format: uuid */
+            id: string;
+            mine: boolean;
+            number: number | null;
+            passed: number;
+            reason: string;
+            rehearsal: string | null;
+            results: components["schemas"]["TestRunResultShape"][];
+            seeds: number;
+            started_by: string;
+            /** @enum {string} */
+            status: "queued" | "running" | "done" | "failed" | "cancelled";
+            total: number;
+            tries_changes: boolean;
+            update: components["schemas"]["UpdateShape"] | null;
         };
         /** @description A version with its script and its document. */
         WholeVersionShape: {
@@ -7047,6 +7139,49 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["FunctionComparisonShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    compare_function_sides: {
+        parameters: {
+            query: {
+                site: string;
+                old: number;
+                new?: number | null;
+            };
+            header?: never;
+            path: {
+                function: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ComparisonShape"];
                 };
             };
             400: components["responses"]["Refused400"];
@@ -8880,6 +9015,46 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_test_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+                test_run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WholeTestRunShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

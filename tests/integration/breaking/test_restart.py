@@ -56,7 +56,7 @@ def test_a_run_survives_ctrl_c_and_kill_9_and_does_each_thing_once(tmp_path: Pat
         view = third.wait_run(run, "finished")
         assert (view["status"], view["reason"]) == ("finished", "")
         commands = third.commands(run)
-        # A move may come too late for a device that was away for long on a busy machine; it is told anew, and at the end.
+        # On a busy machine a move may come too late for a device that was away for long; it is told anew.
         assert {c["status"] for c in commands if c["method"] != "move"} == {"done"}, commands
         assert [c["status"] for c in commands if c["method"] == "move"][-1] == "done", commands
         done = [c["method"] for c in commands if c["method"] != "move"]

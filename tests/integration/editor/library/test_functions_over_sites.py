@@ -298,3 +298,34 @@ def test_roles_and_zones_that_a_function_names_are_saved_with_it(hall: str) -> N
     )
     definition = save(drawn, name="go").json()["definition"]
     assert (list(definition["roles"]), list(definition["zones"])) == (["porter"], ["z"])
+
+
+def test_two_versions_are_compared_as_programs_of_a_site(hall: str) -> None:
+    more = {
+        "wait": step("wait", F, "5V", duration=3),
+        "look": step("if", F, "7V", condition={"op": ">", "args": [2, 1]}),
+    }
+    function = save(mixing(MINUTES)).json()["id"]
+    save(mixing(MINUTES, more={**more, "inner": step("wait", ("look", "then"), duration=1)}))
+    told = signed_in("viewer").get(f"/api/library/{function}/sides?site=hall&old=1").json()
+    assert {(each["root"], each["id"], each["kind"]) for each in told["difference"]["constructs"]} == {
+        ("steps", name, "added") for name in ("wait", "look", "inner")
+    }
+    assert told["old"]["document"]["steps"]["mix"]["place"] == ["program", "body", "1V"]
+    assert told["new"]["document"]["steps"]["inner"]["place"][:2] == ["look", "then"]
+    assert told["new"]["document"]["start_pos"] == [2.2, pytest.approx(-3.9)]
+    assert list(told["new"]["document"]["parameters"].values()) == [MINUTES]
+    assert (told["old"]["problem"], told["new"]["errors"]) == ("", 0)
+    assert told["new"]["compiled"]["numbers"]["wait"] == "2"
+
+
+def test_sides_are_for_members_who_see_the_function(hall: str) -> None:
+    function = save(mixing(), visibility="site").json()["id"]
+    path = f"/api/library/{function}/sides"
+    assert signed_in("viewer").get(f"{path}?site=shed&old=1").status_code == 404
+    add_person("far")
+    registry.create_site(name="Far", slug="far")
+    registry.set_member(site="far", email="far@vipo.example", role="viewer")
+    assert signed_in("far").get(f"{path}?site=far&old=1").status_code == 404
+    for asked in ("old=9", "old=0", "old=-1", "old=99999999999999999999", "old=1&new=7", "old=x", ""):
+        assert signed_in("viewer").get(f"{path}?site=hall&{asked}").status_code in (404, 422), asked
