@@ -173,6 +173,7 @@ export type ProgramTests = Schemas["ProgramTestsShape"];
 export type ProgramTest = Schemas["ProgramTestShape"];
 export type TestResult = Schemas["TestResultShape"];
 export type TestRun = Schemas["TestRunShape"];
+export type WholeTestRun = Schemas["WholeTestRunShape"];
 export type TestOdds = Schemas["OddsShape"];
 export type UnnoticedChange = Schemas["UnnoticedChange"];
 export type TestText = Schemas["TestTextShape"];

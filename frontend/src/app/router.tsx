@@ -12,6 +12,7 @@ const screens: Screens = import.meta.glob<Record<string, ComponentType>>([
   "../pages/*/*Page.tsx",
   "../editor/EditorScreen.tsx",
   "../compare/CompareScreen.tsx",
+  "../compare/functions/FunctionCompareScreen.tsx",
   "../run/RunScreen.tsx",
   "../simulation/SimulationScreen.tsx",
 ]);
@@ -26,6 +27,7 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/devices/:id?", "pages/devices/DevicesPage"],
   ["/sites/:slug/programs", "pages/programs/ProgramsPage"],
   ["/sites/:slug/library/:id?", "pages/library/LibraryPage"],
+  ["/sites/:slug/library/:id/compare", "compare/functions/FunctionCompareScreen"],
   ["/sites/:slug/runs", "pages/runs/RunsPage"],
   ["/sites/:slug/map", "pages/map/MapPage"],
   ["/sites/:slug/map/new", "pages/site/NewMapPage"],

@@ -1,6 +1,6 @@
 /** Two states of a program compared: on the map, as a list of changes, as scripts beside each other. */
 import { ArrowLeft, History } from "lucide-react";
-import { type ReactNode, useEffect, useMemo, useState } from "react";
+import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { Button } from "@mantine/core";
@@ -9,22 +9,21 @@ import { useComparison, useDevices, useProgram, useProgramRuns, useSite, useSite
 import type { Comparison, ConstructChange, Device, Program, RunSummary, Site, Version } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { useSiteLive } from "@/live/site";
-import type { FloorPlan } from "@/map/floor/floor";
 import type { SiteDevice } from "@/program/surroundings";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { Crumb, TopBar } from "@/shell/TopBar";
 import { ChangeList } from "./ChangeList";
 import { CompareHead } from "./CompareHead";
-import { CompareMap } from "./CompareMap";
+import { Frame, MapOf, useChoice } from "./ComparedParts";
 import styles from "./compare.module.css";
-import { keyOf, neighbour, type Shown, spotOf } from "./marks";
+import type { Shown } from "./marks";
 import { RehearsedSides } from "./RehearsedSides";
 import { ReviewBar } from "./ReviewBar";
 import { RestoreDialog } from "./RestoreDialog";
 import { ScriptDifference } from "./ScriptDifference";
 import { DRAFT, sidesOf, versionOfSide } from "./sides";
 import { useCompareKeys } from "./useCompareKeys";
-import { NOTHING, type Pictures, usePictures } from "./usePictures";
+import { usePictures } from "./usePictures";
 import { useRestore } from "./useRestore";
 
 const NO_DEVICES: Device[] = [];
@@ -52,18 +51,6 @@ export function CompareScreen() {
       site={site.data}
       versions={versions.data.pages.flatMap((page) => page.items)}
     />
-  );
-}
-
-function Frame({ children, waiting }: { children?: ReactNode; waiting?: boolean }) {
-  const { t } = useTranslation();
-  return (
-    <div className={styles.screen}>
-      <TopBar site={undefined} />
-      <main className={styles.loading} role={waiting ? "status" : undefined}>
-        {waiting ? t("compare.loading") : children}
-      </main>
-    </div>
   );
 }
 
@@ -160,22 +147,6 @@ interface ComparedProps extends LoadedProps {
   comparison: Comparison | undefined;
 }
 
-/** What is chosen, and how often: choosing it once more brings it into sight again. */
-function useChoice(changes: readonly ConstructChange[]) {
-  const [choice, setChoice] = useState<{ key: string | null; round: number }>({ key: null, round: 0 });
-  const order = useMemo(() => changes.map(keyOf), [changes]);
-  const chosen = choice.key !== null && order.includes(choice.key) ? choice.key : null;
-  const choose = (key: string | null) => setChoice(({ round }) => ({ key, round: round + 1 }));
-  return {
-    order,
-    chosen,
-    round: choice.round,
-    choose,
-    walk: (by: 1 | -1) => choose(neighbour(order, chosen, by)),
-    change: changes.find((each) => keyOf(each) === chosen) ?? null,
-  };
-}
-
 /** Restoring goes from a version on the old side into what is drawn now; null where there is no such way. */
 function useOffer({ program, site, sides, asked, choose, comparison }: ComparedProps) {
   const from = asked && asked[0] !== DRAFT && comparison?.old.problem === "" ? Number(asked[0]) : null;
@@ -228,39 +199,5 @@ function Compared(props: ComparedProps) {
       <ScriptDifference pictures={pictures} chosen={change} onChoose={choice.choose} known={order} />
       <RestoreDialog restore={restore} version={from} pictures={pictures} />
     </>
-  );
-}
-
-interface MapOfProps {
-  plan: FloorPlan | null;
-  devices: readonly SiteDevice[];
-  comparison: Comparison | undefined;
-  pictures: Pictures;
-  choice: ReturnType<typeof useChoice>;
-}
-
-function MapOf({ plan, devices, comparison, pictures, choice }: MapOfProps) {
-  const { t } = useTranslation();
-  const { change, chosen, round } = choice;
-  return (
-    <section className={styles.map} aria-label={t("compare.map")}>
-      {comparison ? (
-        <CompareMap
-          plan={plan}
-          devices={devices}
-          difference={comparison.difference ?? NOTHING}
-          pictures={pictures}
-          chosen={chosen}
-          round={round}
-          spot={change ? spotOf(change, pictures.old.scene, pictures.new.scene) : null}
-          label={t("compare.map")}
-          onChoose={choice.choose}
-        />
-      ) : (
-        <p className={styles.loading} role="status">
-          {t("compare.loading")}
-        </p>
-      )}
-    </section>
   );
 }

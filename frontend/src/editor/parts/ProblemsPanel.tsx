@@ -3,6 +3,7 @@ import { Button } from "@mantine/core";
 import { CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
 import { api } from "@/api/client";
 import type { LibraryFunction } from "@/api/types";
 import { fixEdits, versionOf } from "../edits/fixes";
@@ -79,8 +80,28 @@ function Problem({ problem }: { problem: Diagnostic }) {
         {number && kind ? t("problems.where", { number, kind: editor(`kind.${kind}`) }) : null}
         {problem.when === "now" ? <em className={classes.now}>{t("problems.now")}</em> : null}
       </span>
-      {problem.fix && canEdit ? <FixButton fix={problem.fix} /> : null}
+      {problem.fix ? (
+        <div className={classes.mend}>
+          {canEdit ? <FixButton fix={problem.fix} /> : null}
+          <CompareLink fix={problem.fix} />
+        </div>
+      ) : null}
     </li>
+  );
+}
+
+/** To what a version of a library function changes, with the tests of this program on it. */
+function CompareLink({ fix }: { fix: Fix }) {
+  const { document, program, site } = useOpenProgram();
+  const { t } = useTranslation();
+  const wanted = versionOf(fix);
+  const held = wanted ? document.functions[wanted.function]?.source?.version : undefined;
+  if (!wanted || held === undefined) return null;
+  const asked = new URLSearchParams({ old: String(held), new: String(wanted.version), program: program.id });
+  return (
+    <Link className={classes.compare} to={`/sites/${site.slug}/library/${wanted.library}/compare?${asked}`}>
+      {t("problems.compare")}
+    </Link>
   );
 }
 
@@ -94,7 +115,7 @@ function FixButton({ fix }: { fix: Fix }) {
     else apply(fixEdits(document, fix, { makeId, robotName }));
   };
   return (
-    <Button className={classes.fix} size="xs" variant="default" onClick={mend}>
+    <Button size="xs" variant="default" onClick={mend}>
       {fix.label}
     </Button>
   );

@@ -12,7 +12,7 @@ import drawer from "../parts/drawer.module.css";
 import { useOpenProgram } from "../state/context";
 import { say } from "../state/ui";
 import { formatShare } from "./odds";
-import { expectedWords, seenWords } from "./sentences";
+import { expectedWords, seenWords } from "@/program/words/testSentences";
 import classes from "./tests.module.css";
 import { keepDraft, lookAt, openTest, readTest, useTesting, useTestsUi, useTestText } from "./tests";
 import { Status, staleWords } from "./TestList";

@@ -7,7 +7,7 @@ import { formatSpan } from "@/i18n/format";
 import { useOpenProgram } from "../state/context";
 import { scaleOf, type Scale } from "./odds";
 import { OddsCells } from "./OddsCells";
-import { expectedWords, seenWords, type Expectation } from "./sentences";
+import { expectedWords, seenWords, type Expectation } from "@/program/words/testSentences";
 import classes from "./tests.module.css";
 import { NEW, openTest, useTestsUi } from "./tests";
 

@@ -3,7 +3,7 @@ import { NativeSelect } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
-import { useSearchParams } from "react-router-dom";
+import { Link, useParams, useSearchParams } from "react-router-dom";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { FunctionComparison, FunctionReason, LibraryFunction, LibraryVersion } from "@/api/types";
@@ -77,6 +77,7 @@ function Reasons({ reasons }: { reasons: readonly FunctionReason[] }) {
 /** `from` of the address says which version is looked at first, such as the one that a program holds. */
 function Compared({ item, versions }: { item: LibraryFunction; versions: readonly LibraryVersion[] }) {
   const { t } = useTranslation();
+  const { slug = "" } = useParams();
   const [asked] = useSearchParams();
   const numbers = versions.map((version) => version.number);
   const from = Number(asked.get("from"));
@@ -113,6 +114,9 @@ function Compared({ item, versions }: { item: LibraryFunction; versions: readonl
       {compared.isPending ? <TableSkeleton /> : null}
       {compared.isError ? <LoadProblem error={compared.error} again={() => void compared.refetch()} /> : null}
       {compared.data ? <Difference compared={compared.data} /> : null}
+      <Link className={styles.picture} to={`/sites/${slug}/library/${item.id}/compare?old=${old}&new=${next}`}>
+        {t("compare.function.picture")}
+      </Link>
     </section>
   );
 }

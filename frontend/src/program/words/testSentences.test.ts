@@ -4,7 +4,7 @@ import i18next from "i18next";
 import { chooseLanguage, loadScreenTexts, startI18n } from "@/i18n";
 import en from "@/i18n/en/screens/tests.json";
 import de from "@/i18n/de/screens/tests.json";
-import { expectedWords, seenWords, type Expectation } from "./sentences";
+import { expectedWords, seenWords, type Expectation } from "./testSentences";
 
 const t = (key: string, values?: Record<string, unknown>) => i18next.t(key, values);
 const of = (more: Partial<Expectation>): Expectation => ({
