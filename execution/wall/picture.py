@@ -14,8 +14,8 @@ from typing import Any
 from execution.views import RunView
 from registry.services import AlertView, DeviceView, PlaceView, SiteView, alert_to_json, device_to_json
 
-DEVICE_FIELDS = ("id", "name", "kind", "device_class", "icon", "status", "done")
-STATE_FIELDS = frozenset({"status", "done", "location", "activity", "properties"})
+DEVICE_FIELDS = ("id", "name", "kind", "device_class", "icon", "status", "done", "stand_in")
+STATE_FIELDS = frozenset({"status", "done", "stand_in", "location", "activity", "properties"})
 """What is told of a device while it stays the same one; of anything else the whole picture is made anew."""
 QUIET_FIELDS = frozenset({"id", "doing", "last_seen_at", "carrying", "dropped"})
 """What changes often and is not shown."""

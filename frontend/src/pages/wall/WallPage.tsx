@@ -6,12 +6,11 @@ import { EmptyState } from "@/design/EmptyState";
 import { Logo } from "@/design/Logo";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { useNow } from "@/design/useNow";
-import { activityWords } from "@/i18n/activity";
 import { formatAgo, formatTime } from "@/i18n/format";
 import { waitWords } from "@/i18n/waits";
 import { StaticMap } from "@/map/StaticMap";
 import { useWall, type Wall } from "./useWall";
-import { countOnline, type Picture, type WallAlert, type WallRun } from "./wall";
+import { countOnline, doingWords, type Picture, type WallAlert, type WallRun } from "./wall";
 import styles from "./wall.module.css";
 
 function LineState({ line, heardAt }: Pick<Wall, "line" | "heardAt">) {
@@ -126,7 +125,7 @@ function Floor({ wall, picture }: { wall: Wall; picture: Picture }) {
     () =>
       picture.devices
         .filter((device) => device.kind !== "robot")
-        .map((device) => ({ ...device, doing: activityWords({ doing: "", activity: device.activity }) })),
+        .map((device) => ({ ...device, doing: doingWords(device) })),
     [picture.devices],
   );
   return (

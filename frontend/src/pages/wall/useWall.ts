@@ -3,12 +3,11 @@ import { useQuery } from "@tanstack/react-query";
 import { useEffect, useRef, useState } from "react";
 import { api, ApiProblem } from "@/api/client";
 import { useMe } from "@/api/queries";
-import { activityWords } from "@/i18n/activity";
 import { LiveConnection } from "@/live/connection";
 import { statusOf } from "@/map/devices/device";
 import type { FloorPlan } from "@/map/floor/floor";
 import { interpolatePose, type RobotSource, type TimedPose } from "@/map/robots/robots";
-import { applyMessage, codeOf, unpackMap, type Picture, type WallDevice, type WallMessage } from "./wall";
+import { applyMessage, codeOf, doingWords, unpackMap, type Picture, type WallDevice, type WallMessage } from "./wall";
 
 export type Line = "connecting" | "live" | "reconnecting" | "ended" | "many";
 
@@ -71,7 +70,7 @@ class Poses {
       .map((device) => {
         const pair = this.#pairs.get(device.id);
         const pose = pair ? interpolatePose(pair.previous, pair.current, now) : device.location;
-        const note = activityWords({ doing: "", activity: device.activity }) || undefined;
+        const note = doingWords(device) || undefined;
         return { id: device.id, name: device.name, status: statusOf(device), note, ...pose };
       });
 }

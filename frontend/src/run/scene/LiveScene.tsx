@@ -79,9 +79,12 @@ function copiesApart(devices: readonly Device[], t: TFunction): string[] {
 /** Whether nothing, all or some of what is seen is simulated. */
 function kindOf(devices: readonly Device[]): "live" | "simulated" | "mixed" {
   const approved = devices.filter((device) => device.lifecycle === "approved");
-  if (!approved.some((device) => device.simulated)) return "live";
-  return approved.every((device) => device.simulated) ? "simulated" : "mixed";
+  if (!approved.some(isSimulated)) return "live";
+  return approved.every(isSimulated) ? "simulated" : "mixed";
 }
+
+/** By itself, or because something simulated speaks in its place. */
+const isSimulated = (device: Device) => device.simulated || device.stand_in;
 
 export function LiveScene({ map, devices }: LiveSceneProps) {
   const { t } = useTranslation();

@@ -196,6 +196,9 @@ async def test_it_shows_the_map_and_everything_that_happens(hall: str) -> None:
         services.publish("hall", {"type": "device", "device": change})
         moved = await until(socket, lambda each: each["type"] == "devices", heard)
         assert moved["devices"] == [{"id": MIXER.id, "location": {"x": 3.0, "y": 1.0, "theta": 0.5}}]
+        services.publish("hall", {"type": "device", "device": {"id": MIXER.id, "stand_in": True, "doing": ""}})
+        switched = await until(socket, lambda each: each["type"] == "devices", heard)
+        assert switched["devices"] == [{"id": MIXER.id, "stand_in": True}]
         await database_sync_to_async(execution.press_stop)(site="hall", by="Zephyrine Quillon")
         stopped = await until(socket, lambda each: each["type"] == "picture" and each["stop"]["active"], heard)
         assert stopped["stop"].keys() == {"active", "at"}
