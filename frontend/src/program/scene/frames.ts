@@ -3,7 +3,7 @@ import type { Box } from "@/map/plane/projection";
 import type { ProgramDocument } from "../document/document";
 import type { ProgramTree } from "../document/tree";
 import type { Chip } from "./chips";
-import { gap, grown, union } from "./geometry";
+import { boxAt, gap, grown, overlaps, union } from "./geometry";
 
 export interface Frame {
   readonly id: string;
@@ -31,6 +31,24 @@ export function framesOf(
     frames.set(id, frameAround(id, step.kind, chip, tree.children(id, "body"), chips, frames));
   }
   return frames;
+}
+
+/** Between a head and the step that it made room for. */
+const APART = 8;
+
+/** Heads that would lie on the steps beside them, as where a language has longer words, make room to the left. */
+export function clearHeads(document: ProgramDocument, tree: ProgramTree, chips: Map<string, Chip>): void {
+  for (const id of tree.reading) {
+    const head = chips.get(id);
+    if (!document.steps[id] || head?.shape !== "header") continue;
+    const covered = tree.children(id, "body").flatMap((child) => {
+      const box = chips.get(child)?.box;
+      return box && overlaps(head.box, box) && box.left > head.box.left ? [box.left] : [];
+    });
+    if (covered.length === 0) continue;
+    const at = { x: head.at.x - (head.box.right + APART - Math.min(...covered)), y: head.at.y };
+    chips.set(id, { ...head, at, box: boxAt(at, head.width, head.height) });
+  }
 }
 
 function frameAround(

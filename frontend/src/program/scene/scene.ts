@@ -5,7 +5,7 @@ import { pointAlong, pathLength, simplified, type PixelPoint } from "@/map/plane
 import type { Compiled, ProgramDocument, Step } from "../document/document";
 import { readTree, type ProgramTree } from "../document/tree";
 import { buildChip, type Chip, findingsByStep, type Measure, type TagSide } from "./chips";
-import { framesOf, type Frame } from "./frames";
+import { clearHeads, framesOf, type Frame } from "./frames";
 import { boxAt, edgeTowards, elbow, grown, leastCovering, legBoxes, nearestOn, overlaps, union } from "./geometry";
 import { hullsOf, type Hull } from "./hulls";
 import { isFramed } from "../kinds";
@@ -66,6 +66,7 @@ export function buildScene(input: SceneInput): Scene {
         ),
       );
   }
+  clearHeads(document, tree, chips);
   const frames = framesOf(document, tree, chips);
   const start = document.start_pos ? toPixels(document.start_pos) : freeStart(surroundings, chips);
   const links = linksOf({ document, tree, chips, frames, start, surroundings, t });
