@@ -95,6 +95,7 @@ def screens(page: Page, things: dict[str, str]) -> list[Screen]:
         Screen("simulation", things["rehearsal"], "canvas[data-engine]"),
         Screen("run", things["run"], "[data-state]"),
         Screen("comparison", things["comparison"], "[data-kind='removed']"),
+        Screen("function comparison", things["function"], "main aside h2"),
         Screen("history", things["history"], "main li canvas"),
         Screen("nowhere", "/no/such/page", "main, h1, h2"),
     ]
@@ -109,6 +110,7 @@ def make_things(page: Page) -> dict[str, str]:
     saved(page)
     rehearsal = tell(page, f"/api{task}/rehearsals")["id"]
     run = tell(page, f"/api{task}/runs")["id"]
+    function = ask(page, "/api/library")[0]["id"]
     programs = {each["name"]: each["id"] for each in ask(page, f"{SITE}/programs")}
     page.keyboard.press("Control+a")
     page.keyboard.press("Delete")
@@ -118,6 +120,7 @@ def make_things(page: Page) -> dict[str, str]:
     saved(page)
     return {
         "comparison": f"{task}/compare?old=1&new=draft",
+        "function": f"/sites/painting-factory/library/{function}/compare?program={task.removeprefix('/programs/')}",
         "history": f"/sites/painting-factory/history/{task.removeprefix('/programs/')}",
         "empty": empty,
         "task": task,
