@@ -252,6 +252,25 @@ class ThreadReading(models.Model):
         constraints = [models.UniqueConstraint(fields=["thread", "person"], name="one_reading_per_person")]
 
 
+class CommentNotice(models.Model):
+    """That somebody is to hear of a comment by e-mail, unless they read it first; gone once it is sent or read.
+
+    `origin` is where the writer reached VIPO, for the link. Who sends takes it at `taken_at`, so that nobody else does.
+    """
+
+    comment = models.ForeignKey(Comment, on_delete=models.CASCADE, related_name="notices")
+    person = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE, related_name="+")
+    origin = models.CharField(max_length=200)
+    made_at = models.DateTimeField()
+    taken_at = models.DateTimeField(null=True)
+
+    class Meta:
+        """One for each person and comment; those that wait longest are sent first."""
+
+        constraints = [models.UniqueConstraint(fields=["comment", "person"], name="one_notice_per_person")]
+        indexes = [models.Index(fields=["made_at"], name="comment_notices_made")]
+
+
 class ReviewRule(models.Model):
     """How many approvals a site demands before a program may run on its devices (0: none), and who may give them.
 

@@ -53,7 +53,7 @@ from execution.views import (
     run_to_json,
     whole_run_to_json,
 )
-from registry.requests import LOCATION, link_to_next, refuses, signed_in
+from registry.requests import LOCATION, link_to_next, origin_of, refuses, signed_in
 from registry.services import NotAMember, require
 from registry.shapes import Stop
 from vipo_device.descriptions.thing_description import DEVICE_URN
@@ -221,7 +221,7 @@ def list_measurements(request: HttpRequest, run: UUID) -> list[dict[str, Any]]:
 def comment_on_run(request: HttpRequest, run: UUID, body: CommentOnRun) -> Status[dict[str, Any]]:
     """Begin a thread of comments about a moment of a run; it is read and answered among those of the run's program."""
     _require_here(request, services.site_of_run(run_id=run), "commenter", "run")
-    return Status(201, begin_thread(run_id=run, user=signed_in(request), body=body))
+    return Status(201, begin_thread(run_id=run, user=signed_in(request), body=body, origin=origin_of(request)))
 
 
 @router.post("/runs/{uuid:run}/pause", response=RunSummaryShape)

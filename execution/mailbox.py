@@ -26,6 +26,7 @@ from vipo_device.kit.log_ids import bound_ids
 log = logging.getLogger(__name__)
 DRIVE_SITE = "execution.tasks.drive_site"
 REHEARSE = "execution.tasks.rehearse"
+SEND_MAIL = "execution.tasks.send_mail"
 REQUEST_HEADER = "vipo_request"
 """Where a task's message carries the id of the HTTP request that it comes from, for the log."""
 ASK_AGAIN_S = 0.5

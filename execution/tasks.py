@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from datetime import UTC, datetime
 from typing import Any
 
 from celery import current_task, shared_task
 from celery.signals import worker_init, worker_process_init, worker_shutting_down
 
+from editor import services as editor
 from execution import mailbox
 from execution.engine.drive import drive_site as drive
 from execution.engine.drive import leave
@@ -88,3 +90,9 @@ def archive_old(_hint: str) -> None:
     """Put into the archive what is older than its site keeps it; what is left when time runs out is for the next."""
     if upkeep.archive_old():
         upkeep.ask_for_archiving()
+
+
+@shared_task(name=mailbox.SEND_MAIL, ignore_result=True)  # type: ignore[untyped-decorator]
+def send_mail(_hint: str) -> int:
+    """Send people by e-mail what was written to them and what they have not read; the database knows to whom."""
+    return editor.send_due_mail(now=datetime.now(UTC))

@@ -44,6 +44,11 @@ def signed_in(request: HttpRequest) -> User:
     return request.user
 
 
+def origin_of(request: HttpRequest) -> str:
+    """Return where somebody reached VIPO, such as `https://vipo.example/`."""
+    return request.build_absolute_uri("/")
+
+
 def link_to_next(request: HttpRequest, **changed: object) -> str:
     """Return the header Link that names the next part of a list: the same address with another place to go on from."""
     query = request.GET.copy()

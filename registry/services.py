@@ -139,6 +139,7 @@ from registry.processes.findings import Finding, find_trouble
 from registry.processes.heart import Heart, ProcessKind
 from registry.processes.heartbeats import ProcessView, list_processes, prune_processes, read_time
 from registry.sites.invitations import prune_invitations
+from registry.sites.mail import can_mail, send_mail
 from registry.sites.members import PersonView, list_people, remove_member, set_member
 from registry.sites.quota import set_site_quota
 from registry.sites.sites import (
@@ -233,6 +234,7 @@ __all__ = [
     "alert_to_json",
     "approve_device",
     "broker_of",
+    "can_mail",
     "change_password",
     "change_place",
     "change_zone",
@@ -367,6 +369,7 @@ __all__ = [
     "run_query",
     "save_map",
     "save_places",
+    "send_mail",
     "session_of_socket",
     "set_enrolment_key",
     "set_member",

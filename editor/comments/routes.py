@@ -15,7 +15,7 @@ from editor.comments.threads import ThreadView
 from editor.programs.access import program_for
 from editor.shapes import Author
 from registry import services as registry
-from registry.requests import refuses, signed_in
+from registry.requests import origin_of, refuses, signed_in
 from registry.services import PersonView
 
 router = Router(tags=["editor"])
@@ -45,7 +45,7 @@ def start_thread(request: HttpRequest, program: UUID, body: ThreadToStart) -> St
         user=signed_in(request),
         anchor=body.anchor.anchor(),
         label=body.label,
-        words=body.words(),
+        words=body.words(origin_of(request)),
         now=timezone.now(),
     )
     return Status(201, made)
@@ -56,7 +56,10 @@ def answer_thread(request: HttpRequest, program: UUID, thread: UUID, body: Words
     """Write an answer into a thread; the answer is the whole thread."""
     program_for(request.user, program, "commenter")
     user, now = signed_in(request), timezone.now()
-    return Status(201, threads.answer_thread(program=program, thread=thread, user=user, words=body.words(), now=now))
+    return Status(
+        201,
+        threads.answer_thread(program=program, thread=thread, user=user, words=body.words(origin_of(request)), now=now),
+    )
 
 
 @router.patch("/programs/{program}/threads/{thread}", response=ThreadShape)
@@ -80,7 +83,9 @@ def change_comment(request: HttpRequest, program: UUID, comment: UUID, body: Wor
     """Write one's own comment anew; the answer is its thread."""
     program_for(request.user, program, "commenter")
     user, now = signed_in(request), timezone.now()
-    return threads.change_comment(program=program, comment=comment, user=user, words=body.words(), now=now)
+    return threads.change_comment(
+        program=program, comment=comment, user=user, words=body.words(origin_of(request)), now=now
+    )
 
 
 @router.delete("/programs/{program}/comments/{comment}", response={204: None}, openapi_extra=_MAY_BE_ANOTHERS)

@@ -67,9 +67,9 @@ class WordsToWrite(Asked):
     text: str = Field(min_length=1, max_length=MOST_COMMENT, pattern=r"\S")
     mentions: list[int] = Field([], max_length=MOST_MENTIONS)
 
-    def words(self) -> Words:
-        """Return what is written."""
-        return Words(self.text, tuple(self.mentions))
+    def words(self, origin: str) -> Words:
+        """Return what is written, by somebody who reached VIPO at an address."""
+        return Words(self.text, tuple(self.mentions), origin)
 
 
 class AnchorAsked(Asked):

@@ -17,6 +17,7 @@ from django.db import transaction
 from django.db.models import Prefetch
 
 from editor.comments.anchors import Anchor, anchor_to_json, find_missing, is_drawn, stands_in
+from editor.comments.mail import note_comment
 from editor.documents.store import get_document
 from editor.errors import BadRequest, DocumentHole, EditorError, NoSuchProgram
 from editor.models import Comment, CommentThread, Program, ThreadReading
@@ -83,10 +84,11 @@ class ThreadView:
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """What somebody writes: a text and the ids of the members that it mentions."""
+    """What somebody writes: a text and the ids of the members that it mentions; `origin` is where they reached VIPO."""
 
     text: str
     mentions: tuple[int, ...] = ()
+    origin: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,7 +217,8 @@ def _writing(program: UUID, user: Any, now: datetime) -> Iterator[str]:
 
 def _write(thread: CommentThread, user: Any, words: Words, now: datetime, site: str) -> None:
     mentions = _checked(words.mentions, site)
-    Comment.objects.create(thread=thread, author=user, text=words.text, mentions=mentions, written_at=now)
+    made = Comment.objects.create(thread=thread, author=user, text=words.text, mentions=mentions, written_at=now)
+    note_comment(made, words.origin)
     ThreadReading.objects.update_or_create(thread=thread, person=user, defaults={"read_to": now})
 
 

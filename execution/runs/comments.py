@@ -13,7 +13,7 @@ from execution.runs.runs import find_span
 from execution.shapes import CommentOnRun
 
 
-def begin_thread(*, run_id: UUID, user: Any, body: CommentOnRun) -> dict[str, Any]:
+def begin_thread(*, run_id: UUID, user: Any, body: CommentOnRun, origin: str) -> dict[str, Any]:
     """Begin a thread about a moment of a run; return its id and the program's.
 
     Raises:
@@ -27,7 +27,7 @@ def begin_thread(*, run_id: UUID, user: Any, body: CommentOnRun) -> dict[str, An
             program=span.program,
             user=user,
             moment=editor.Moment(run_id, span.number, round(min(body.t_s, span.seconds), 1), body.label),
-            words=editor.Words(body.text, tuple(body.mentions)),
+            words=editor.Words(body.text, tuple(body.mentions), origin),
             now=now,
         )
     except editor.NoSuchProgram as error:

@@ -31,6 +31,7 @@ from registry import services as registry
 
 TICK_SITES_S = 0.5
 SWEEP_S = 1.0
+MAIL_S = 60.0
 PRUNE_S = 600.0
 KEPT_FOR = timedelta(days=2)
 LOST_AFTER = timedelta(seconds=1)
@@ -64,6 +65,8 @@ class Ticker:
                 mailbox.hint_now(view.site)
             registry.flush_samples()
             watch_alerts(now=now, since=self._leads_since)
+        if self._is_due("mail", MAIL_S, now) and editor.is_mail_due(now=now):
+            mailbox.send_hint(mailbox.SEND_MAIL, "")
         if self._is_due("prune", PRUNE_S, now):
             mailbox.forget_taken(now - KEPT_FOR)
             ask_for_archiving()

@@ -32,8 +32,9 @@ from registry.people.sign_in import change_password, check_own_password, check_s
 from registry.people.sign_in import sign_out_everywhere as end_all_sessions
 from registry.people.sign_on.provider_client import sign_out_address
 from registry.people.sign_on.providers import list_providers
-from registry.requests import PartAsked, signed_in, tell_rest
+from registry.requests import Asked, Flag, PartAsked, signed_in, tell_rest
 from registry.shapes import Me, NewPassword, SignIn
+from registry.sites.mail import can_mail
 from registry.sites.quota import may_create_sites
 
 router = Router(tags=["registry"])
@@ -185,4 +186,30 @@ def end_my_session(request: HttpRequest, session: int) -> Status[None]:
     """End one of the asker's own sessions; its sockets and streams close within 3 s."""
     end_session(user=signed_in(request), session_id=session)
     call_listeners()
+    return Status(204, None)
+
+
+class MyMail(Schema):
+    """Whether somebody wants by e-mail what others write to them; `can_mail` says whether this server sends any."""
+
+    wanted: bool
+    can_mail: bool
+
+
+class MyMailChoice(Asked):
+    """Whether somebody wants by e-mail what others write to them."""
+
+    wanted: Flag
+
+
+@router.get("/me/mail", response=MyMail, auth=session_only)
+def show_my_mail(request: HttpRequest) -> dict[str, bool]:
+    """Tell whether comments that call the asker, and that they have not read, come by e-mail."""
+    return {"wanted": signed_in(request).wants_mail, "can_mail": can_mail()}
+
+
+@router.put("/me/mail", response={204: None}, auth=session_only)
+def choose_my_mail(request: HttpRequest, body: MyMailChoice) -> Status[None]:
+    """Choose whether comments come by e-mail."""
+    User.objects.filter(pk=signed_in(request).pk).update(wants_mail=body.wanted)
     return Status(204, None)

@@ -37,7 +37,10 @@ class UserManager(BaseUserManager["User"]):
 
 
 class User(AbstractBaseUser):
-    """A person; signs in by e-mail, and may make so many sites as `site_quota` says."""
+    """A person; signs in by e-mail, and may make so many sites as `site_quota` says.
+
+    `wants_mail` is whether what others write to them comes by e-mail, too.
+    """
 
     email = models.EmailField(unique=True)
     display_name = models.CharField(max_length=100)
@@ -45,6 +48,7 @@ class User(AbstractBaseUser):
     is_active = models.BooleanField(default=True)
     site_quota = models.PositiveSmallIntegerField(default=0)
     session_generation = models.PositiveIntegerField(default=0)
+    wants_mail = models.BooleanField(default=True, db_default=True)
     created_at = models.DateTimeField(auto_now_add=True)
 
     grant: Grant | None = None

@@ -1,4 +1,4 @@
-"""Invitations by e-mail, where the server has a way to send any."""
+"""Mail, where the server has a way to send any: invitations, and what other apps have to tell."""
 
 from __future__ import annotations
 
@@ -38,13 +38,14 @@ def can_mail() -> bool:
 
 def mail_invitation(*, to: str, link: str, by: str, site: str, until: str) -> bool:
     """Send an invitation, and tell whether the mail server took it; waits ten seconds for it at most."""
-    message = EmailMessage(
-        subject=f"{by}: {site} (VIPO)",
-        body=_TEXT.format(by=by, site=site, until=until, link=link),
-        to=[to],
-    )
+    text = _TEXT.format(by=by, site=site, until=until, link=link)
+    return send_mail(to=to, subject=f"{by}: {site} (VIPO)", text=text)
+
+
+def send_mail(*, to: str, subject: str, text: str) -> bool:
+    """Send a message, and tell whether the mail server took it; waits ten seconds for it at most."""
     try:
-        return message.send() == 1
+        return EmailMessage(subject=subject, body=text, to=[to]).send() == 1
     except (SMTPException, OSError) as error:
-        log.warning("An invitation could not be sent by mail: %s", error)
+        log.warning("Mail could not be sent: %s", error)
         return False

@@ -18,6 +18,7 @@ export type User = Schemas["Person"];
 export type Site = Schemas["SiteShape"];
 export type Role = Site["role"];
 export type Thread = Schemas["ThreadShape"];
+export type MyMail = Schemas["MyMail"];
 export type CommentOnRun = Schemas["CommentOnRun"];
 export type ThreadBegun = Schemas["ThreadBegun"];
 export type ThreadToStart = Schemas["ThreadToStart"];

@@ -32,6 +32,9 @@ class Place:
     sessions: dict[str, str]
 
 
+MAIL = {"VIPO_MAIL_HOST": "localhost", "VIPO_MAIL_TLS": "none", "VIPO_MAIL_FROM": "vipo@hall.example"}
+
+
 @pytest.fixture(scope="module")
 def place(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Place]:
     folder, port = tmp_path_factory.mktemp("web"), free_port()
@@ -39,7 +42,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Place]:
     with run_openid(tmp_path_factory.mktemp("openid"), [f"{url}/sign-on/acme"]) as openid:
         told = {"backchannel_logout_uri": f"{url}/api/sign-in/providers/acme/logout"}
         openid.restart(client={**told, "backchannel_logout_session_required": True})
-        extra = openid.environment(SIGN_OUT="1")
+        extra = openid.environment(SIGN_OUT="1") | MAIL
         web = Web(folder, prepare(folder, extra)["sessions"], "", extra, port)
         web.start()
         try:
@@ -259,3 +262,26 @@ def test_a_second_factor_is_demanded_and_who_lacks_it_is_led_to_set_it_up(
     for page in (admin, operator):
         page.context.close()
     faults[:] = [line for line in faults if "401" not in line]  # what was under way when a session was made anew
+
+
+def test_comments_by_mail_are_switched_off_by_keyboard_and_stay_so(
+    place: Place, chromium: Browser, faults: list[str]
+) -> None:
+    page = open_page(chromium, faults)
+    come_in(page, place, "author")
+    page.goto(f"{place.url}/account")
+    switch = page.get_by_role("switch", name="Comments that call me")
+    expect(switch).to_be_checked()
+    with page.expect_response(re.compile("/api/me/mail$")):
+        switch.press("Space")
+    expect(switch).not_to_be_checked()
+    for scheme in ("light", "dark"):
+        themed(page, scheme)
+        assert violations(page) == []
+    shoot(page, "account-mail")
+    page.reload()
+    expect(switch).not_to_be_checked()
+    with page.expect_response(re.compile("/api/me/mail$")):
+        switch.press("Space")
+    expect(switch).to_be_checked()
+    page.context.close()

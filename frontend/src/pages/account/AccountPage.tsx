@@ -12,6 +12,7 @@ import { problemText } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { SignOutQuestion, useSignOut } from "@/shell/SignOut";
 import styles from "./account.module.css";
+import { Mail } from "./Mail";
 import { SecondFactor } from "./SecondFactor";
 import { SessionList } from "./SessionList";
 import { WaysIn } from "./WaysIn";
@@ -142,6 +143,7 @@ export function AccountPage() {
           {ways?.has_password === false ? null : <PasswordForm user={user} />}
           <WaysIn />
           <SecondFactor />
+          <Mail />
           <Sessions />
         </div>
       ) : null}

@@ -1,0 +1,133 @@
+"""Comments by e-mail: what somebody has not read within ten minutes comes to them once, gathered in one message."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterable, Sequence
+from datetime import datetime, timedelta
+from typing import Any
+
+from django.contrib.auth import get_user_model
+from django.db.models import Q, QuerySet
+
+from editor.models import Comment, CommentNotice, ThreadReading
+from registry import services as registry
+
+log = logging.getLogger(__name__)
+
+GATHERED_FOR = timedelta(minutes=10)
+"""So long who is called has to read it on the screen, and what comes in meanwhile goes into the same message."""
+TAKEN_FOR = timedelta(minutes=10)
+"""After so long what a process has taken and not sent is taken by another one, or tried again."""
+TOLD_WITHIN = timedelta(days=1)
+"""What could not be sent within that is not sent any more."""
+MOST_PEOPLE, MOST_COMMENTS, MOST_LETTERS = 50, 30, 400
+"""In one pass, in one message, and of one comment."""
+
+
+def note_comment(comment: Comment, origin: str) -> None:
+    """Note whom a comment is for: those it mentions and those who have written in its thread, without its writer.
+
+    In the caller's transaction. Nothing is noted where the server sends no mail.
+    """
+    if not registry.can_mail():
+        return
+    talking = set(comment.thread.comments.exclude(author=None).values_list("author", flat=True))
+    people = (talking | set(comment.mentions)) - {comment.author_id}
+    CommentNotice.objects.bulk_create(
+        [
+            CommentNotice(comment=comment, person_id=person, origin=origin, made_at=comment.written_at)
+            for person in sorted(people)
+        ],
+        ignore_conflicts=True,
+    )
+
+
+def is_mail_due(*, now: datetime) -> bool:
+    """Tell whether somebody has waited long enough for what was written to them."""
+    return _due(now).exists()
+
+
+def send_due_mail(*, now: datetime) -> int:
+    """Send everybody who has waited long enough all that they have not read, in one message each; return how many.
+
+    Several processes may do this at once: each person is taken by one of them. What cannot be sent is tried again.
+    """
+    waiting = _due(now).values_list("person", flat=True).distinct()[:MOST_PEOPLE]
+    return sum(_send_to(person, now) for person in list(waiting))
+
+
+def _due(now: datetime) -> QuerySet[CommentNotice]:
+    return _free(now).filter(made_at__lte=now - GATHERED_FOR)
+
+
+def _free(now: datetime) -> QuerySet[CommentNotice]:
+    return CommentNotice.objects.filter(Q(taken_at=None) | Q(taken_at__lte=now - TAKEN_FOR))
+
+
+def _send_to(person: int, now: datetime) -> bool:
+    if not _free(now).filter(person=person).update(taken_at=now):
+        return False  # another process was first
+    mine = CommentNotice.objects.filter(person=person, taken_at=now)
+    mine.filter(made_at__lte=now - TOLD_WITHIN).delete()
+    rows = mine.select_related("comment__author", "comment__thread__program__site")
+    found = list(rows.order_by("made_at", "pk"))
+    user = get_user_model().objects.get(pk=person)
+    told = _worth_telling(found, user) if user.is_active and user.wants_mail else []
+    if told and not registry.send_mail(to=user.email, subject=_subject(len(told)), text=_text(told)):
+        return False  # it stays taken for a while, and is tried again
+    CommentNotice.objects.filter(pk__in=[row.pk for row in found]).delete()
+    return bool(told)
+
+
+def _worth_telling(rows: Sequence[CommentNotice], user: Any) -> list[CommentNotice]:
+    """Return what this person has not read, at sites of which they are a member."""
+    threads = {row.comment.thread_id for row in rows}
+    read = dict(ThreadReading.objects.filter(person=user, thread__in=threads).values_list("thread_id", "read_to"))
+    sites = {row.comment.thread.program.site.slug for row in rows}
+    mine = {site for site in sites if user.pk in {member.id for member in registry.list_people(site=site)}}
+    return [
+        row
+        for row in rows
+        if row.comment.thread.program.site.slug in mine
+        and not (row.comment.thread_id in read and read[row.comment.thread_id] >= row.comment.written_at)
+    ]
+
+
+def _subject(count: int) -> str:
+    if count == 1:
+        return "1 comment, 1 Kommentar (VIPO)"
+    return f"{count} comments, {count} Kommentare (VIPO)"
+
+
+_HEAD = """Comments that you have not read yet.
+Kommentare, die Sie noch nicht gelesen haben.
+"""
+_FOOT = """
+---
+You get this because somebody mentioned you or wrote where you had written. Your account has a switch for it:
+Sie erhalten dies, weil Sie erwähnt wurden oder dort geschrieben haben. In Ihrem Konto gibt es dafür einen Schalter:
+{origin}account
+"""
+
+
+def _text(rows: Sequence[CommentNotice]) -> str:
+    shown, left = rows[:MOST_COMMENTS], len(rows) - MOST_COMMENTS
+    parts = [_HEAD]
+    program = None
+    for row in shown:
+        thread = row.comment.thread
+        if thread.program_id != program:
+            program = thread.program_id
+            parts += ["", f"{thread.program.name} ({thread.program.site.name})", f"{row.origin}programs/{program}", ""]
+        parts += [*_lines_of(row.comment, thread.label), ""]
+    if left > 0:
+        parts.append(f"+ {left}")
+    return "\n".join([*parts, _FOOT.format(origin=rows[-1].origin)])
+
+
+def _lines_of(comment: Comment, label: str) -> Iterable[str]:
+    by = comment.author.display_name if comment.author else "?"
+    yield ", ".join(each for each in (by, f"{comment.written_at:%Y-%m-%d %H:%M} UTC", label) if each)
+    text = comment.text if len(comment.text) <= MOST_LETTERS else f"{comment.text[:MOST_LETTERS]}…"
+    yield from (f"  {line}" for line in text.splitlines())
