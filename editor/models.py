@@ -260,7 +260,7 @@ class CommentNotice(models.Model):
 
     comment = models.ForeignKey(Comment, on_delete=models.CASCADE, related_name="notices")
     person = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE, related_name="+")
-    origin = models.CharField(max_length=200)
+    origin = models.CharField(max_length=300)
     made_at = models.DateTimeField()
     taken_at = models.DateTimeField(null=True)
 

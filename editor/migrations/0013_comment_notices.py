@@ -16,7 +16,7 @@ class Migration(migrations.Migration):
             name="CommentNotice",
             fields=[
                 ("id", models.BigAutoField(auto_created=True, primary_key=True, serialize=False, verbose_name="ID")),
-                ("origin", models.CharField(max_length=200)),
+                ("origin", models.CharField(max_length=300)),
                 ("made_at", models.DateTimeField()),
                 ("taken_at", models.DateTimeField(null=True)),
                 (
