@@ -50,7 +50,7 @@ class ThingPatch:
 
 def thing_to_json(view: DeviceView, base: str) -> dict[str, Any]:
     """Return a device as a Thing Description, with the name and place that hold; `base` is where VIPO is served."""
-    return {**consumed_thing(view.canonical, view.site), "base": base}
+    return {**consumed_thing(view.played, view.site), "base": base}
 
 
 def thing_text(view: DeviceView, base: str) -> str:
@@ -117,7 +117,7 @@ def what_became(before: DeviceView | None, after: DeviceView) -> tuple[EventName
     if is_now is None:
         return ("thing_deleted", {})
     if was is None:
-        return ("thing_created", consumed_thing(after.canonical, after.site))
+        return ("thing_created", consumed_thing(after.played, after.site))
     change = merge_patch(consumed_thing(was, after.site), consumed_thing(is_now, after.site))
     return ("thing_updated", change) if change else None
 
@@ -126,7 +126,7 @@ def _as_listed(view: DeviceView | None) -> Description | None:
     """Return what a directory says of a device but for its state; None when it does not stand there."""
     if view is None or view.lifecycle != "approved":
         return None
-    still = replace(view.canonical, done=True)
+    still = replace(view.played, done=True)
     return replace(still, pose=Pose(0.0, 0.0)) if view.kind == "robot" else still
 
 

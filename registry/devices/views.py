@@ -57,6 +57,11 @@ class DeviceView:
         return replace(self.canonical, methods=(*self.canonical.methods, *self.asks)) if self.asks else self.canonical
 
     @property
+    def played(self) -> Description:
+        """What the device says of itself, told as simulated while a stand-in speaks for it."""
+        return replace(self.canonical, simulated=True) if self.stand_in else self.canonical
+
+    @property
     def name(self) -> str:
         """The name people gave it, or the one it gave itself."""
         return self.canonical.name

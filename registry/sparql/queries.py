@@ -121,7 +121,7 @@ def _read(code: int, output: bytes) -> QueryAnswer:
 
 def _device(view: DeviceView) -> dict[str, Any]:
     return {
-        "description": description_to_json(view.canonical),
+        "description": description_to_json(view.played),
         "status": view.status,
         "lifecycle": view.lifecycle,
         "online": view.online,

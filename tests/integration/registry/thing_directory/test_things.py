@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
+from datetime import UTC, datetime
 from typing import Any
 
 import pytest
@@ -10,7 +12,7 @@ import pytest
 from registry import services
 from registry.models import DeviceEvent
 from tests.kit.sign_in import ROLES, signed_in
-from tests.kit.sites import make_mixers
+from tests.kit.sites import MIXER, approve, make_mixers
 from vipo_device.descriptions.td_schema import check_thing
 from vipo_device.protocol.description import Pose
 
@@ -103,3 +105,22 @@ def test_what_is_not_for_people_to_change_is_refused(things: str, body: str, tol
     assert (answer.status_code, answer.json()["code"]) == (400, "bad_thing_patch")
     assert answer.json()["detail"].startswith(told)
     assert DeviceEvent.objects.count() == before
+
+
+def test_a_thing_is_told_as_simulated_while_a_stand_in_speaks_for_it(hall: str) -> None:
+    approve(replace(MIXER, simulated=False))
+    client = signed_in("viewer")
+    asked = "ASK { ?device vipo:simulated true }"
+
+    def told() -> tuple[bool, str, bool]:
+        thing = client.get(f"{ADDRESS}/{MIXER.id}")
+        answer = client.get("/api/sites/hall/sparql", {"query": asked, "format": "json"})
+        return thing.json()["vipo:simulated"], thing["ETag"], answer.json()["boolean"]
+
+    before = told()
+    services.switch_stand_in(site="hall", device_id=MIXER.id, simulated=True, by=None, at=datetime.now(UTC))
+    during = told()
+    assert (before[0], before[2], during[0], during[2]) == (False, False, True, True)
+    assert before[1] != during[1]
+    services.switch_stand_in(site="hall", device_id=MIXER.id, simulated=False, by=None, at=datetime.now(UTC))
+    assert told() == before
