@@ -14,7 +14,7 @@ from django.db import transaction
 from django.http import HttpRequest, HttpResponse
 from django.middleware.csrf import get_token
 from django.utils import timezone
-from ninja import Query, Router, Schema
+from ninja import Field, Query, Router, Schema
 from ninja.errors import HttpError
 from ninja.responses import Status
 from ninja.utils import check_csrf
@@ -28,11 +28,11 @@ from registry.models import User
 from registry.people.backends import PASSWORDS
 from registry.people.known_browsers import find_device, remember_browser
 from registry.people.open_sessions import end_session, follow_session, list_open_sessions, note_session
-from registry.people.sign_in import change_password, check_own_password, check_sign_in
+from registry.people.sign_in import MOST_NAME, change_password, check_own_password, check_sign_in, rename_person
 from registry.people.sign_in import sign_out_everywhere as end_all_sessions
 from registry.people.sign_on.provider_client import sign_out_address
 from registry.people.sign_on.providers import list_providers
-from registry.requests import Asked, Flag, PartAsked, signed_in, tell_rest
+from registry.requests import Asked, Flag, Line, PartAsked, signed_in, tell_rest
 from registry.shapes import Me, NewPassword, SignIn
 from registry.sites.mail import can_mail
 from registry.sites.quota import may_create_sites
@@ -148,6 +148,19 @@ def change_my_password(request: HttpRequest, body: NewPassword) -> dict[str, Any
         update_session_auth_hash(request, user)
         request.session.save()
         follow_session(old=former, new=str(request.session.session_key))
+    return tell_me(request)
+
+
+class MyName(Asked):
+    """What somebody wants to be called."""
+
+    name: Line = Field(min_length=1, max_length=MOST_NAME, pattern=r"\S")
+
+
+@router.put("/me/name", response=Me, auth=session_only)
+def change_my_name(request: HttpRequest, body: MyName) -> dict[str, Any]:
+    """Change what others call the asker; what was written down before keeps the name that it has."""
+    rename_person(user=signed_in(request), name=" ".join(body.name.split()))
     return tell_me(request)
 
 

@@ -10,7 +10,7 @@ Kind = Literal[
 KINDS: tuple[Kind, ...] = get_args(Kind)
 
 _CODES: dict[Kind, str] = {
-    "roles": "role_changed access_end_set member_added member_removed member_left joined",
+    "roles": "role_changed access_end_set member_added member_removed member_left joined renamed",
     "invitations": "invitation_made invitation_revoked",
     "tokens": "token_made token_revoked",
     "wall_screens": "wall_screen_made wall_screen_revoked",

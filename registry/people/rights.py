@@ -141,7 +141,7 @@ DEEDS = (
         "session",
         """sign_out change_my_password sign_out_everywhere list_my_sessions end_my_session accept_invitation
         show_second_factor begin_second_factor confirm_second_factor renew_recovery_codes turn_off_second_factor
-        list_my_sign_ons begin_linking remove_my_sign_on show_my_mail choose_my_mail""",
+        list_my_sign_ons begin_linking remove_my_sign_on show_my_mail choose_my_mail change_my_name""",
     ),
     _deed("find", "person", "read", "list_sites search_library list_rights"),
     _deed("make_site", "maker", "session", "upload_site"),

@@ -12,9 +12,11 @@ from django.core.validators import validate_email
 from django.db import IntegrityError, transaction
 from django.db.models import F
 
+from registry.audit.record import note_act
 from registry.errors import RegistryError
 from registry.live.fanout import EVERY_SITE, publish
-from registry.models import User
+from registry.models import Membership, User
+from registry.models.people import initials_of
 from registry.people.passwords import check_new_password
 from registry.people.second_factor import check_code
 from registry.people.throttle import Attempt, counted
@@ -88,6 +90,21 @@ def change_password(*, email: str, password: str) -> None:
     user.set_password(password)
     user.save(update_fields=["password"])
     _tell_sessions()
+
+
+def rename_person(*, user: User, name: str) -> None:
+    """Give a person another name, which those who see them are told from then on; the record of their sites has both.
+
+    What was written down before (runs, versions, records) keeps the name that it has.
+    """
+    before = user.display_name
+    if name == before:
+        return
+    user.display_name, user.initials = name, initials_of(name)
+    with transaction.atomic():
+        user.save(update_fields=["display_name", "initials"])
+        for site in Membership.objects.filter(user=user).values_list("site_id", flat=True):
+            note_act(site_id=site, code="renamed", facts={"before": before, "person": name}, by=name)
 
 
 def close_account(*, email: str) -> None:

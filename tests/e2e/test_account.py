@@ -12,7 +12,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 
 from tests.e2e.conftest import PATIENCE_MS, SignIn, listen
-from tests.e2e.screens import violations
+from tests.e2e.screens import themed, violations
 from tests.kit.demo import Demo
 from tests.kit.files import ROOT
 
@@ -159,3 +159,27 @@ def test_the_menu_of_the_account_leads_there(sign_in: SignIn) -> None:
     page.get_by_role("button", name="Account").press("Enter")
     page.get_by_role("menuitem", name="Password and sessions").press("Enter")
     expect(page.get_by_role("heading", name="Your account")).to_be_visible()
+
+
+def test_a_name_is_changed_by_keyboard_and_is_the_one_on_the_next_page(
+    demo: Demo, chromium: Browser, email: str, password: str, faults: list[str]
+) -> None:
+    context = chromium.new_context(locale="en-GB", viewport={"width": 820, "height": 1180})
+    listen(context, faults)
+    page = come_in(context, demo, email, password)
+    field = page.get_by_label("Your name")
+    save = page.get_by_role("button", name="Change name")
+    expect(save).to_be_disabled()
+    field.fill("Nova Lind")
+    field.press("Enter")
+    expect(page.get_by_text("That is your name now.")).to_be_visible()
+    expect(page.get_by_role("main").get_by_text("Nova Lind", exact=True)).to_be_visible()
+    expect(save).to_be_disabled()
+    for scheme in ("light", "dark"):
+        themed(page, scheme)
+        assert violations(page) == []
+    if folder := os.environ.get("VIPO_PICTURES"):
+        page.screenshot(path=f"{folder}/account-name.png")
+    page.reload()
+    expect(field).to_have_value("Nova Lind")
+    context.close()

@@ -44,6 +44,7 @@ BODIES: dict[str, dict[str, Any]] = {
     "arm_program": {"on": False},
     "start_thread": {"text": "Why so?", "anchor": {"kind": "program"}},
     "answer_thread": {"text": "So."},
+    "change_my_name": {"name": "Ada Meyer"},
     "choose_my_mail": {"wanted": True},
     "comment_on_run": {"text": "Why so?", "t_s": 1.5},
     "change_thread": {"resolved": True},

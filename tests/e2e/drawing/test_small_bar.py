@@ -54,7 +54,7 @@ TOOLS = """(bar) => [...bar.querySelectorAll('button')].map((tool) => {
 })"""
 
 
-@pytest.mark.parametrize(("width", "height"), [(820, 1180), (1003, 760), (1004, 760), (390, 844)])
+@pytest.mark.parametrize(("width", "height"), [(820, 1180), (1003, 760), (1004, 760)])
 def test_every_tool_is_whole_on_a_small_screen_and_can_be_pressed(sign_in: SignIn, width: int, height: int) -> None:
     page = sign_in("author", width=width, height=height)
     make_program(page, f"Tools in {width} pixels")
@@ -69,3 +69,32 @@ def test_every_tool_is_whole_on_a_small_screen_and_can_be_pressed(sign_in: SignI
     expect(zone).to_have_attribute("aria-pressed", "true")
     bar.get_by_role("button", name="All constructs").click()
     expect(page.get_by_role("listbox", name="All constructs")).to_be_visible()
+
+
+def test_on_a_phone_the_tools_scroll_and_the_list_of_all_stays(sign_in: SignIn) -> None:
+    page = sign_in("author", width=390, height=844)
+    make_program(page, "Tools on a phone")
+    bar = page.get_by_role("toolbar", name="Tools")
+    every = bar.get_by_role("button", name="All constructs")
+    expect(every).to_be_visible()
+    box = bar.bounding_box()
+    assert box is not None
+    assert box["height"] <= 60
+    assert box["x"] >= 0
+    assert box["x"] + box["width"] <= 390
+    zone = bar.get_by_role("button", name="Zone")
+    for tool in (zone, bar.get_by_role("button", name="Select")):
+        tool.focus()  # what has the keyboard comes into sight, and is not under the list of all
+        expect(tool).to_be_in_viewport(ratio=1)
+        over = "(tool) => { const { left, right, top } = tool.getBoundingClientRect();" + (
+            "return tool.contains(document.elementFromPoint((left + right) / 2, top + 22)); }"
+        )
+        assert tool.evaluate(over)
+        found: list[dict[str, object]] = bar.evaluate(TOOLS)
+        assert [each["whole"] for each in found if each["name"] == "All constructs"] == [True]
+        assert {(each["wide"], each["high"]) for each in found} == {(44, 44)}
+    zone.click()
+    expect(zone).to_have_attribute("aria-pressed", "true")
+    every.click()
+    expect(page.get_by_role("listbox", name="All constructs")).to_be_visible()
+    assert violations(page) == []

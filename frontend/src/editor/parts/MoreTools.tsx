@@ -39,7 +39,7 @@ export function MoreTools() {
         <Tooltip label={[t("more.label"), key].filter(Boolean).join(" · ")} position="right" disabled={opened}>
           <button
             type="button"
-            className={classes.tool}
+            className={`${classes.tool} ${classes.all}`}
             aria-label={t("more.label")}
             aria-expanded={opened}
             aria-pressed={rareTool}

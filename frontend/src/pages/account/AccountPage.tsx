@@ -1,20 +1,21 @@
 /** One's own account: another password, where one is signed in, and an end of that. */
 import { Button, PasswordInput } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { Check, CircleAlert, LogOut } from "lucide-react";
+import { LogOut } from "lucide-react";
 import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { api, ApiProblem, rememberCsrf } from "@/api/client";
 import { keys, useMe } from "@/api/queries";
 import type { Me, User } from "@/api/types";
 import { Panel } from "@/design/Panel";
-import { problemText } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { SignOutQuestion, useSignOut } from "@/shell/SignOut";
 import styles from "./account.module.css";
 import { Mail } from "./Mail";
+import { NameForm } from "./NameForm";
 import { SecondFactor } from "./SecondFactor";
 import { SessionList } from "./SessionList";
+import { Told } from "./Told";
 import { WaysIn } from "./WaysIn";
 import { useWaysIn } from "./waysIn";
 
@@ -30,23 +31,6 @@ function useChangePassword(onDone: () => void) {
       onDone();
     },
   });
-}
-
-function Told({ error, done }: { error: Error | null; done: boolean }) {
-  const { t } = useTranslation();
-  if (error)
-    return (
-      <p className={styles.refused} role="alert">
-        <CircleAlert size={16} aria-hidden="true" />
-        {problemText(error, t("shell.problem.screen"))}
-      </p>
-    );
-  return (
-    <p className={done ? styles.done : "visually-hidden"} role="status">
-      {done ? <Check size={16} aria-hidden="true" /> : null}
-      {done ? t("pages.account.changed") : null}
-    </p>
-  );
 }
 
 function PasswordForm({ user }: { user: User }) {
@@ -97,7 +81,7 @@ function PasswordForm({ user }: { user: User }) {
           error={code === "bad_password"}
           onChange={(event) => write({ new: event.target.value })}
         />
-        <Told error={change.error} done={change.isSuccess} />
+        <Told error={change.error} done={change.isSuccess ? t("pages.account.changed") : ""} />
         <Button type="submit" loading={change.isPending} disabled={!words.old || !words.new}>
           {t("pages.account.change")}
         </Button>
@@ -140,6 +124,7 @@ export function AccountPage() {
             <strong>{user.name}</strong>
             <span>{user.email}</span>
           </div>
+          <NameForm user={user} />
           {ways?.has_password === false ? null : <PasswordForm user={user} />}
           <WaysIn />
           <SecondFactor />
