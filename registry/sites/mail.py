@@ -31,6 +31,10 @@ geschieht nichts.
 """
 
 
+_BY_ITSELF = {"Auto-Submitted": "auto-generated"}
+"""So that nobody's absence answers (RFC 3834)."""
+
+
 def can_mail() -> bool:
     """Tell whether the server's settings name a way to send mail (`VIPO_MAIL_HOST`)."""
     return bool(settings.EMAIL_HOST)
@@ -45,7 +49,7 @@ def mail_invitation(*, to: str, link: str, by: str, site: str, until: str) -> bo
 def send_mail(*, to: str, subject: str, text: str) -> bool:
     """Send a message, and tell whether the mail server took it; waits ten seconds for it at most."""
     try:
-        return EmailMessage(subject=subject, body=text, to=[to]).send() == 1
+        return EmailMessage(subject=subject, body=text, to=[to], headers=_BY_ITSELF).send() == 1
     except (SMTPException, OSError) as error:
         log.warning("Mail could not be sent: %s", error)
         return False
