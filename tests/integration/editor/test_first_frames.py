@@ -130,6 +130,10 @@ async def beside(web: Web, program: str) -> AsyncIterator[Beside]:
     """Let two honest people sit in the room."""
     async with join(web, "second", program) as drawing, join(web, "viewer", program) as hearing:
         await drawing.send(yjs_protocol.encode_step_2(b"\x00\x00"))
+        await hearing.send(yjs_protocol.encode_step_1(b"\x00"))
+        async with asyncio.timeout(NEVER_LATER_S):  # who has its answer is in the room, and hears what comes after
+            while (await hearing.recv())[:2] != b"\x00\x01":
+                pass
         draining = asyncio.create_task(drain(drawing))
         people = Beside(drawing, hearing)
         await people.draw()
