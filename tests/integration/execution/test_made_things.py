@@ -10,6 +10,7 @@ from django.core.files.uploadedfile import SimpleUploadedFile
 from django.test import Client
 
 from editor import services as editor
+from execution.models import Run
 from registry import services as registry
 from registry.floorplan.map_server import write_pgm, write_yaml
 from tests.kit import demo_floor
@@ -53,7 +54,7 @@ def make_each(client: Client) -> dict[str, Any]:
     saved = post_json(client, f"{AT_SITE}/library", function)
     registry.create_site(name="Shed", slug="shed")
     registry.set_member(site="shed", email=find_person("admin").email, role="author")
-    return {
+    answers = {
         "make_invitation": invitation,
         "make_wall_screen": post_json(client, f"{AT_SITE}/wall-screens", {"name": "Hall 1"}),
         "begin_second_factor": post_json(client, "/api/me/second-factor", {"password": PASSWORD}),
@@ -100,8 +101,12 @@ def make_each(client: Client) -> dict[str, Any]:
             client, f"{AT_SITE}/devices/paintMixer01/call", {"method": "mixPaint", "args": {"time": 5}}
         ),
         "promote_program": post_json(client, f"/api/programs/{task}/promotion", {"site": "shed", "name": "Moved"}),
-        "start_run": post_json(client, f"/api/programs/{task}/runs"),
     }
+    run = answers["start_run"] = post_json(client, f"/api/programs/{task}/runs")
+    Run.objects.filter(id=run.json()["id"]).update(started_at=datetime.now(UTC))
+    words = {"text": "Why so?", "t_s": 0}
+    answers["comment_on_run"] = post_json(client, f"/api/runs/{run.json()['id']}/threads", words)
+    return answers
 
 
 def test_each_call_that_makes_something_says_so_and_where_it_is(admin: Client) -> None:
