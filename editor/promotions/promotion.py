@@ -155,3 +155,24 @@ def find_origin(*, program_id: UUID, sees: frozenset[str]) -> tuple[ProgramView,
     if row is None or row.origin is None or row.origin.site.slug not in sees:
         return None
     return services.get_program(program_id=row.origin.pk), row.origin_version, row.origin.last_version
+
+
+MOST_COPIES = 20
+
+
+@dataclass(frozen=True, slots=True)
+class CopyView:
+    """A program of another site that was made from one, at which version of that, and its own newest version."""
+
+    id: UUID
+    name: str
+    site: str
+    version: int
+    newest: int
+
+
+def list_copies(*, program_id: UUID, sees: frozenset[str]) -> list[CopyView]:
+    """Return the programs that were made from a program at the sites of whoever asks, the last made first."""
+    rows = Program.objects.select_related("site").filter(origin=program_id, site__slug__in=sees)
+    found = rows.order_by("-created_at", "pk")[:MOST_COPIES]
+    return [CopyView(row.pk, row.name, row.site.slug, row.origin_version, row.last_version) for row in found]

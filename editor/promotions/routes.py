@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any
 from uuid import UUID
 
@@ -41,12 +42,13 @@ def promote_program(request: HttpRequest, program: UUID, body: ProgramToPromote)
 
 @router.get("/programs/{program}/origin", response=MaybeOriginShape)
 def show_program_origin(request: HttpRequest, program: UUID) -> dict[str, Any]:
-    """Show which program of another site a program was made from, and how far that has gone on."""
+    """Show which program of another site a program was made from, and which were made from it."""
     program_for(request.user, program, "viewer")
     sees = frozenset(site.slug for site in list_sites(user=signed_in(request)))
     found = promotion.find_origin(program_id=program, sees=sees)
+    copies = [asdict(each) for each in promotion.list_copies(program_id=program, sees=sees)]
     if found is None:
-        return {"origin": None}
+        return {"origin": None, "copies": copies}
     source, version, newest = found
     return {
         "origin": {
@@ -55,5 +57,6 @@ def show_program_origin(request: HttpRequest, program: UUID) -> dict[str, Any]:
             "site": source.site,
             "version": version,
             "newest": newest,
-        }
+        },
+        "copies": copies,
     }

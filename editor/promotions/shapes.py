@@ -63,7 +63,21 @@ class ProgramOriginShape(Schema):
     newest: int
 
 
+class ProgramCopyShape(Schema):
+    """A program of another site that was made from a program, at which version of it, and its own newest version."""
+
+    id: UUID
+    name: str
+    site: str
+    version: int
+    newest: int
+
+
 class MaybeOriginShape(Schema):
-    """What a program was made from; null if from nothing, or from what the asker does not see."""
+    """What a program was made from; null if from nothing, or from what the asker does not see.
+
+    `copies` are the programs of other sites that were made from it, as far as the asker sees them, at most 20.
+    """
 
     origin: ProgramOriginShape | None
+    copies: list[ProgramCopyShape]

@@ -32,7 +32,7 @@ from editor.versions.shapes import (
     comparison_to_json,
     read_sent,
 )
-from editor.versions.sides import compare_functions, compare_sides
+from editor.versions.sides import Content, compare_functions, compare_sides
 from registry.requests import PartAsked, refuses, sends, signed_in, tell_rest
 from registry.services import require
 
@@ -41,6 +41,7 @@ _SENDS_A_FILE = {
     "responses": {**sends("application/json", "text/plain")["responses"], **refuses(409)["responses"]},
 }
 _MAY_BE_AWAY = refuses(409, 503)
+_SIDES = "Compare numbers of versions, or draft, such as ?old=3&new=draft; of another program ?old=ID:3."
 
 
 @router.get("/programs/{program}/versions", response=list[VersionShape])
@@ -109,18 +110,28 @@ def _file(text: str, content_type: str, name: str) -> HttpResponse:
 
 @router.get("/programs/{program}/comparison", response=ComparisonShape)
 def compare_versions(request: HttpRequest, program: UUID, old: str, new: str = "draft") -> dict[str, Any]:
-    """Compare two versions by their numbers; `draft` is the program as it is drawn now."""
+    """Compare two versions by their numbers; `draft` is the program as it is drawn now.
+
+    A side of another program that the asker may look at, such as another site's copy, is its id, a colon and that.
+    """
     found = program_for(request.user, program, "viewer")
-    numbers = [_number_of(each) for each in (old, new)]
-    return comparison_to_json(compare_sides(program_id=program, site=found.site, old=numbers[0], new=numbers[1]))
+    sides = [_content_of(request, program, each) for each in (old, new)]
+    return comparison_to_json(compare_sides(site=found.site, old=sides[0], new=sides[1]))
 
 
-def _number_of(side: str) -> int | None:
-    if side == "draft":
-        return None
-    if not (side.isascii() and side.isdigit() and len(side) <= 9):
-        raise BadRequest("Compare numbers of versions, or draft, such as ?old=3&new=draft.")
-    return int(side)
+def _content_of(request: HttpRequest, program: UUID, side: str) -> Content:
+    other, colon, version = side.rpartition(":")
+    if colon:
+        try:
+            program = UUID(other)
+        except ValueError as error:
+            raise BadRequest(_SIDES) from error
+        program_for(request.user, program, "viewer")
+    if version == "draft":
+        return Content(program, None)
+    if not (version.isascii() and version.isdigit() and len(version) <= 9):
+        raise BadRequest(_SIDES)
+    return Content(program, int(version))
 
 
 @router.post("/programs/{program}/versions/{number}/restore/look", response=ChangedShape, openapi_extra=refuses(409))

@@ -34,6 +34,14 @@ class Side:
 
 
 @dataclass(frozen=True, slots=True)
+class Content:
+    """A version of a program, or without `number` what is drawn now."""
+
+    program: UUID
+    number: int | None
+
+
+@dataclass(frozen=True, slots=True)
 class Comparison:
     """Two sides, and how they differ where both can be read."""
 
@@ -42,10 +50,10 @@ class Comparison:
     difference: Difference | None
 
 
-def compare_sides(*, program_id: UUID, site: str, old: int | None, new: int | None) -> Comparison:
-    """Compare two versions of a program; None stands for what is drawn now. Raises NoSuchProgram."""
+def compare_sides(*, site: str, old: Content, new: Content) -> Comparison:
+    """Compare two contents, both as programs of one site. Raises NoSuchProgram."""
     surroundings = services.build_surroundings(site=site)
-    sides = [_side(program_id, number, surroundings) for number in (old, new)]
+    sides = [_side(content.program, content.number, surroundings) for content in (old, new)]
     documents = [side.document for side in sides]
     readable = None not in documents
     found = compare(documents[0] or {}, documents[1] or {}) if readable else None

@@ -13,6 +13,7 @@ import type {
   Processes,
   Program,
   ProgramDocument,
+  ProgramRelatives,
   Question,
   Rehearsal,
   RehearsalSummary,
@@ -21,8 +22,8 @@ import type {
   RunSummary,
   Site,
   SiteMap,
-  StepMeasured,
   SiteMapInfo,
+  StepMeasured,
   Version,
   WholeVersion,
 } from "./types";
@@ -286,6 +287,13 @@ export const useVersion = (id: Maybe, number: number, wanted: boolean) =>
     queryKey: keys.version(id ?? "", number),
     queryFn: id && wanted ? () => api.get<WholeVersion>(`/programs/${id}/versions/${number}`) : skipToken,
     staleTime: Infinity,
+  });
+
+/** Which program of another site a program was made from, and which there were made from it; as far as one sees them. */
+export const useRelatives = (id: Maybe) =>
+  useQuery({
+    queryKey: ["program-origin", id],
+    queryFn: id ? () => api.get<ProgramRelatives>(`/programs/${id}/origin`) : skipToken,
   });
 /** Two sides compared: numbers of versions, or `draft` for what is drawn now. */
 export const useComparison = (id: Maybe, sides: readonly [old: string, new: string] | null) =>

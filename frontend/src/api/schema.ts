@@ -644,6 +644,8 @@ export interface paths {
         /**
          * Compare Versions
          * @description Compare two versions by their numbers; `draft` is the program as it is drawn now.
+         *
+         *     A side of another program that the asker may look at, such as another site's copy, is its id, a colon and that.
          */
         get: operations["compare_versions"];
         put?: never;
@@ -727,7 +729,7 @@ export interface paths {
         };
         /**
          * Show Program Origin
-         * @description Show which program of another site a program was made from, and how far that has gone on.
+         * @description Show which program of another site a program was made from, and which were made from it.
          */
         get: operations["show_program_origin"];
         put?: never;
@@ -4990,8 +4992,13 @@ export interface components {
             version: number;
             width: number;
         };
-        /** @description What a program was made from; null if from nothing, or from what the asker does not see. */
+        /**
+         * @description What a program was made from; null if from nothing, or from what the asker does not see.
+         *
+         *     `copies` are the programs of other sites that were made from it, as far as the asker sees them, at most 20.
+         */
         MaybeOriginShape: {
+            copies: components["schemas"]["ProgramCopyShape"][];
             origin: components["schemas"]["ProgramOriginShape"] | null;
         };
         /** @description Who asks, whether they may make a site, and what their next request needs. */
@@ -5485,6 +5492,15 @@ export interface components {
             program: string;
             rehearsals: number;
             runs: number;
+        };
+        /** @description A program of another site that was made from a program, at which version of it, and its own newest version. */
+        ProgramCopyShape: {
+            /** Format: uuid */
+            id: string;
+            name: string;
+            newest: number;
+            site: string;
+            version: number;
         };
         /** @description A name for a program. */
         ProgramName: {

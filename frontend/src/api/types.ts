@@ -113,7 +113,7 @@ export type FunctionComparison = Schemas["FunctionComparisonShape"];
 export type FunctionUses = Schemas["UsesShape"];
 export type PromotionLook = Schemas["PromotionLookShape"];
 export type PromotionBinding = Schemas["BindingShape"];
-export type ProgramOrigin = Schemas["ProgramOriginShape"];
+export type ProgramRelatives = Schemas["MaybeOriginShape"];
 
 export type Run = Schemas["RunShape"];
 export type RunSummary = Schemas["RunSummaryShape"];

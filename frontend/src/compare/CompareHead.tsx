@@ -9,12 +9,13 @@ import { IconButton } from "@/design/IconButton";
 import { formatMoment } from "@/i18n/format";
 import styles from "./compare.module.css";
 import type { Shown } from "./marks";
-import { DRAFT, runSide, versionOfSide, versionTitle } from "./sides";
+import { DRAFT, otherSide, otherSideOf, type Relative, runSide, versionOfSide, versionTitle } from "./sides";
 import type { Restore } from "./useRestore";
 
 interface HeadProps {
   versions: readonly Version[];
   runs: readonly RunSummary[];
+  relatives: readonly Relative[];
   sides: { old: string; new: string };
   choose: (next: { old: string; new: string }) => void;
   shown: Shown;
@@ -26,14 +27,14 @@ interface HeadProps {
 }
 
 export function CompareHead(props: HeadProps) {
-  const { versions, runs, sides, choose, shown, setShown, comparison, restore } = props;
+  const { versions, runs, relatives, sides, choose, shown, setShown, comparison, restore } = props;
   const { t } = useTranslation();
   const number = versionOfSide(sides.old, runs);
   return (
     <section className={styles.head} aria-label={t("compare.sides")}>
       <SidePicker
         which="old"
-        {...{ versions, runs }}
+        {...{ versions, runs, relatives }}
         shown={comparison?.old.version}
         side={sides.old}
         onChoose={(old) => choose({ ...sides, old })}
@@ -41,7 +42,7 @@ export function CompareHead(props: HeadProps) {
       <ArrowRight size={18} className={styles.arrow} aria-hidden="true" />
       <SidePicker
         which="new"
-        {...{ versions, runs }}
+        {...{ versions, runs, relatives }}
         shown={comparison?.new.version}
         side={sides.new}
         onChoose={(next) => choose({ ...sides, new: next })}
@@ -80,20 +81,27 @@ interface PickerProps {
   shown: Version | null | undefined;
   versions: readonly Version[];
   runs: readonly RunSummary[];
+  relatives: readonly Relative[];
   onChoose: (side: string) => void;
 }
 
-function SidePicker({ which, side, shown, versions, runs, onChoose }: PickerProps) {
+function SidePicker({ which, side, shown, versions, runs, relatives, onChoose }: PickerProps) {
   const { t } = useTranslation();
   const run = runs.find((each) => runSide(each.id) === side);
   const number = versionOfSide(side, runs);
+  const other = otherSide(side);
   // One that is older than the listed ones is told by what is compared.
   const listed = versions.find((each) => String(each.number) === number);
-  const version = listed ?? (String(shown?.number) === number ? (shown ?? undefined) : undefined);
+  const told = other || String(shown?.number) === number ? (shown ?? undefined) : undefined;
+  const version = listed ?? told;
   const numbered = t("compare.version", { number: number ?? side });
   const named = version ? versionTitle(version, (key) => String(t(key))) : numbered;
   const isDraft = side === DRAFT;
-  const short = isDraft ? t("compare.draft") : run ? t("compare.run", { number: run.number }) : `v${side}`;
+  const own = isDraft ? t("compare.drawn_now") : named;
+  const relative = relatives.find((each) => each.id === other?.program);
+  const title = other ? (relative?.name ?? t("compare.other")) : own;
+  const place = relative?.site ?? t("compare.other");
+  const short = isDraft ? t("compare.draft") : run ? t("compare.run", { number: run.number }) : shortOf(side, place);
   return (
     <div className={styles.side}>
       <Menu position="bottom-start" width={320} shadow="md">
@@ -109,18 +117,25 @@ function SidePicker({ which, side, shown, versions, runs, onChoose }: PickerProp
           </button>
         </Menu.Target>
         <Menu.Dropdown className={styles.menu}>
-          <Choices {...{ versions, runs, onChoose }} />
+          <Choices {...{ versions, runs, relatives, onChoose }} />
         </Menu.Dropdown>
       </Menu>
-      <SideWords title={isDraft ? t("compare.drawn_now") : named} version={isDraft ? undefined : version} />
+      <SideWords title={title} version={isDraft ? undefined : version} />
     </div>
   );
+}
+
+/** `v7`, at another site `shed: v7`. */
+function shortOf(side: string, place: string): string {
+  const other = otherSide(side);
+  if (!other) return `v${side}`;
+  return `${place}: ${other.version === DRAFT ? DRAFT : `v${other.version}`}`;
 }
 
 /** How many runs the menu names; older ones are reached from their versions in the history. */
 const MOST_RUNS = 12;
 
-function Choices({ versions, runs, onChoose }: Pick<PickerProps, "versions" | "runs" | "onChoose">) {
+function Choices({ versions, runs, relatives, onChoose }: Omit<PickerProps, "which" | "side" | "shown">) {
   const { t } = useTranslation();
   const ran = runs.filter((each) => each.version).slice(0, MOST_RUNS);
   return (
@@ -142,6 +157,14 @@ function Choices({ versions, runs, onChoose }: Pick<PickerProps, "versions" | "r
           {t("compare.ran", { run: each.number, number: each.version })}
         </Menu.Item>
       ))}
+      {relatives.length > 0 ? <Menu.Label>{t("compare.elsewhere")}</Menu.Label> : null}
+      {relatives.flatMap(({ id, name, site, newest }) =>
+        ([DRAFT, ...(newest > 0 ? [newest] : [])] as const).map((version) => (
+          <Menu.Item key={`${id} ${version}`} onClick={() => onChoose(otherSideOf(id, version))}>
+            {t(version === DRAFT ? "compare.there_draft" : "compare.there", { site, name, number: version })}
+          </Menu.Item>
+        )),
+      )}
     </>
   );
 }

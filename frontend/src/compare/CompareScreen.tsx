@@ -1,11 +1,20 @@
 /** Two states of a program compared: on the map, as a list of changes, as scripts beside each other. */
 import { ArrowLeft, History } from "lucide-react";
-import { useEffect, useState } from "react";
+import { useEffect, useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { Button } from "@mantine/core";
 import { missing } from "@/api/failed";
-import { useComparison, useDevices, useProgram, useProgramRuns, useSite, useSiteMap, useVersions } from "@/api/queries";
+import {
+  useComparison,
+  useDevices,
+  useProgram,
+  useProgramRuns,
+  useRelatives,
+  useSite,
+  useSiteMap,
+  useVersions,
+} from "@/api/queries";
 import type { Comparison, ConstructChange, Device, Program, RunSummary, Site, Version } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { useSiteLive } from "@/live/site";
@@ -21,7 +30,7 @@ import { RehearsedSides } from "./RehearsedSides";
 import { ReviewBar } from "./ReviewBar";
 import { RestoreDialog } from "./RestoreDialog";
 import { ScriptDifference } from "./ScriptDifference";
-import { DRAFT, sidesOf, versionOfSide } from "./sides";
+import { DRAFT, otherSide, type Relative, sidesOf, versionOfSide } from "./sides";
 import { useCompareKeys } from "./useCompareKeys";
 import { usePictures } from "./usePictures";
 import { useRestore } from "./useRestore";
@@ -53,6 +62,8 @@ export function CompareScreen() {
     />
   );
 }
+
+type Asked = readonly [string, string] | null;
 
 interface LoadedProps {
   program: Program;
@@ -141,15 +152,27 @@ function CompareTop({ program, site }: { program: Program; site: Site }) {
 interface ComparedProps extends LoadedProps {
   runs: readonly RunSummary[];
   sides: { old: string; new: string };
-  asked: readonly [string, string] | null;
+  asked: Asked;
   choose: (next: { old: string; new: string }) => void;
   devices: readonly SiteDevice[];
   comparison: Comparison | undefined;
 }
 
+const isNumber = (side: string) => /^\d+$/.test(side);
+
+/** The sides, if both are of this program: others cannot be approved or rehearsed here. */
+function ownSides(asked: Asked): Asked {
+  return asked?.some((side) => otherSide(side)) ? null : asked;
+}
+
+function useKnownRelatives(program: string): readonly Relative[] {
+  const found = useRelatives(program).data;
+  return useMemo(() => (found ? [...(found.origin ? [found.origin] : []), ...found.copies] : []), [found]);
+}
+
 /** Restoring goes from a version on the old side into what is drawn now; null where there is no such way. */
 function useOffer({ program, site, sides, asked, choose, comparison }: ComparedProps) {
-  const from = asked && asked[0] !== DRAFT && comparison?.old.problem === "" ? Number(asked[0]) : null;
+  const from = asked && isNumber(asked[0]) && comparison?.old.problem === "" ? Number(asked[0]) : null;
   const toDraft = () => choose({ old: sides.old, new: DRAFT });
   const restore = useRestore(program.id, from, sides.new !== DRAFT, toDraft);
   const canEdit = site.role === "author" || site.role === "admin";
@@ -159,6 +182,7 @@ function useOffer({ program, site, sides, asked, choose, comparison }: ComparedP
 function Compared(props: ComparedProps) {
   const { site, versions, runs, sides, choose, devices, comparison } = props;
   const plan = useSiteMap(site.has_map ? site.slug : undefined).data ?? null;
+  const relatives = useKnownRelatives(props.program.id);
   const [shown, setShown] = useState<Shown>("both");
   const pictures = usePictures(site.slug, plan, devices, comparison, shown);
   const choice = useChoice(comparison?.difference?.constructs ?? NO_CHANGES);
@@ -172,14 +196,14 @@ function Compared(props: ComparedProps) {
   const rest = order.length > 0 ? offered : null;
   return (
     <>
-      <CompareHead {...{ versions, runs, sides, choose, shown, setShown, comparison }} restore={rest}>
+      <CompareHead {...{ versions, runs, relatives, sides, choose, shown, setShown, comparison }} restore={rest}>
         <ReviewBar
           program={props.program.id}
           role={site.role}
-          asked={props.asked}
+          asked={ownSides(props.asked)}
           onSince={(old) => choose({ ...sides, old })}
         />
-        {props.asked ? (
+        {props.asked && ownSides(props.asked) ? (
           <RehearsedSides
             key={props.asked.join()}
             program={props.program.id}

@@ -1,6 +1,16 @@
 import { expect, test } from "vitest";
 import type { RunSummary } from "@/api/types";
-import { compareAddress, DRAFT, runsByVersion, runSide, sidesOf, versionOfSide, versionTitle } from "./sides";
+import {
+  compareAddress,
+  DRAFT,
+  otherSide,
+  otherSideOf,
+  runsByVersion,
+  runSide,
+  sidesOf,
+  versionOfSide,
+  versionTitle,
+} from "./sides";
 
 const run = (id: string, version: number | null) => ({ id, version }) as RunSummary;
 
@@ -35,4 +45,11 @@ test("a version without a name says why it was made", () => {
   expect(versionTitle({ name: "Checked", cause: "run" }, t)).toBe("Checked");
   expect(versionTitle({ name: "", cause: "run" }, t)).toBe("compare.cause.run");
   expect(versionTitle({ name: "", cause: "" }, t)).toBe("compare.unnamed");
+});
+
+test("a side may be of another program, and of nothing else that is written so", () => {
+  const program = "0e9debeb-1234-4ac5-813a-ae366d58caa6";
+  expect(otherSide(otherSideOf(program, 7))).toEqual({ program, version: "7" });
+  expect(versionOfSide(otherSideOf(program, DRAFT), [])).toBe(`${program}:draft`);
+  expect(["run:x", `${program}:0`, `${program}:`, "x:7", "7", DRAFT].map(otherSide)).toEqual(Array(6).fill(null));
 });

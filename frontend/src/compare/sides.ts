@@ -10,9 +10,34 @@ export function runSide(id: string): string {
 
 /** The version that a side stands for, `draft`, or null for a run that is not known or has none. */
 export function versionOfSide(side: string, runs: readonly Pick<RunSummary, "id" | "version">[]): string | null {
-  if (side === DRAFT || /^[1-9]\d{0,8}$/.test(side)) return side;
+  if (side === DRAFT || /^[1-9]\d{0,8}$/.test(side) || otherSide(side)) return side;
   const run = runs.find((each) => runSide(each.id) === side);
   return run?.version ? String(run.version) : null;
+}
+
+/** A program of another site from which this one was made, or that was made from it. */
+export interface Relative {
+  readonly id: string;
+  readonly name: string;
+  readonly site: string;
+  /** Its newest version; 0 while it has none. */
+  readonly newest: number;
+}
+
+/** A side that is of another program, such as another site's copy. */
+export interface OtherSide {
+  readonly program: string;
+  /** A version's number, or `draft`. */
+  readonly version: string;
+}
+
+export function otherSide(side: string): OtherSide | null {
+  const [, program, version] = /^([0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}):(draft|[1-9]\d{0,8})$/.exec(side) ?? [];
+  return program && version ? { program, version } : null;
+}
+
+export function otherSideOf(program: string, version: number | typeof DRAFT): string {
+  return `${program}:${version}`;
 }
 
 /** The two sides of an address; where it names none, the newest version and what is drawn now. */

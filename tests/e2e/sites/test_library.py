@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from typing import Any
 
@@ -107,6 +108,16 @@ def test_a_program_goes_to_another_site_and_what_has_no_match_is_marked(sign_in:
         made = page.url.rpartition("/")[2]
         page.goto(f"{origin}/sites/{slug}/history/{made}")
         expect(page.get_by_role("link", name=re.compile("^Made from Paint order, version"))).to_be_visible()
+        page.get_by_role("link", name="Compare with it").press("Enter")
+        expect(page.get_by_role("heading", name=re.compile(r"^\d+ changes$"))).to_be_visible()
+        old = page.get_by_role("button", name=re.compile("painting-factory: v"))
+        assert violations(page) == []
+        if folder := os.environ.get("VIPO_PICTURES"):
+            page.screenshot(path=f"{folder}/compared-with-origin.png")
+        old.press("Enter")
+        page.get_by_role("menuitem", name=re.compile("painting-factory: Paint order, as drawn now")).press("Enter")
+        expect(page.get_by_role("button", name=re.compile("painting-factory: draft"))).to_be_visible()
+        expect(page.get_by_role("heading", name=re.compile(r"^\d+ changes$"))).to_be_visible()
     finally:
         page.goto(f"{origin}{SITE}/programs")  # so that the next page of this person begins there
     assert ask(page, f"/api/programs/{made}/origin")["origin"]["id"] == program_named(page, "Paint order")

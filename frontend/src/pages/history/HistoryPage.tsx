@@ -1,14 +1,12 @@
 /** The versions of a program: who drew them and when, what they are about, which runs used them. */
 import { Button } from "@mantine/core";
-import { useQuery } from "@tanstack/react-query";
 import { History } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link, useParams } from "react-router-dom";
-import { api } from "@/api/client";
 import { missing } from "@/api/failed";
-import { useProgram, useProgramRuns, useSite, useVersions } from "@/api/queries";
-import type { Program, ProgramOrigin, Site } from "@/api/types";
-import { runsByVersion } from "@/compare/sides";
+import { useProgram, useProgramRuns, useRelatives, useSite, useVersions } from "@/api/queries";
+import type { Program, Site } from "@/api/types";
+import { compareAddress, DRAFT, otherSideOf, runsByVersion } from "@/compare/sides";
 import { Chip } from "@/design/Chip";
 import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
@@ -46,17 +44,14 @@ export function HistoryPage() {
 /** From which program of another site this one was made, as far as who looks sees that site. */
 function OriginLine({ program }: { program: Program }) {
   const { t } = useTranslation();
-  const found = useQuery({
-    queryKey: ["program-origin", program.id],
-    queryFn: () => api.get<{ origin: ProgramOrigin | null }>(`/programs/${program.id}/origin`),
-  });
-  const origin = found.data?.origin;
+  const origin = useRelatives(program.id).data?.origin;
   if (!origin) return null;
   const behind = origin.newest - origin.version;
   return (
     <p className={styles.origin}>
       <Link to={`/programs/${origin.id}`}>{t("promote.from", { ...origin })}</Link>
       {behind > 0 ? <Chip tone="warn">{t("promote.behind", { count: behind })}</Chip> : null}
+      <Link to={compareAddress(program.id, otherSideOf(origin.id, origin.newest), DRAFT)}>{t("promote.compare")}</Link>
     </p>
   );
 }

@@ -66,6 +66,12 @@ def promote(program: str, person: str = "both", **more: Any) -> Any:
     return post_json(signed_in(person), f"/api/programs/{program}/promotion", {"site": "shed", "name": "Order", **more})
 
 
+def make_pair() -> tuple[str, str]:
+    """Return a program, and the one that was made from it at Shed."""
+    program = make_program()
+    return program, str(promote(program).json()["id"])
+
+
 def test_who_stands_for_whom_is_proposed_by_what_devices_describe(hall: str) -> None:
     answer = post_json(signed_in("both"), f"/api/programs/{make_program()}/promotion/look", {"site": "shed"})
     assert answer.status_code == 200
@@ -114,11 +120,16 @@ def test_the_origin_is_kept_and_shown_to_who_sees_its_site(hall: str) -> None:
     assert origin == {"id": program, "name": "Order", "site": "hall", "version": 1, "newest": 1}
     add_person("local")
     registry.set_member(site="shed", email="local@vipo.example", role="viewer")
-    assert signed_in("local").get(f"/api/programs/{made}/origin").json() == {"origin": None}
-    assert signed_in("both").get(f"/api/programs/{program}/origin").json() == {"origin": None}
+    assert signed_in("local").get(f"/api/programs/{made}/origin").json() == {"origin": None, "copies": []}
+    there = signed_in("both").get(f"/api/programs/{program}/origin").json()
+    assert (there["origin"], [(each["id"], each["site"], each["version"]) for each in there["copies"]]) == (
+        None,
+        [(made, "shed", 1)],
+    )
+    assert signed_in("viewer").get(f"/api/programs/{program}/origin").json() == {"origin": None, "copies": []}
     assert signed_in("viewer").get(f"/api/programs/{made}/origin").status_code == 404
     editor.delete_program(program_id=program)
-    assert signed_in("both").get(f"/api/programs/{made}/origin").json() == {"origin": None}
+    assert signed_in("both").get(f"/api/programs/{made}/origin").json() == {"origin": None, "copies": []}
 
 
 def test_what_was_chosen_holds_and_null_leaves_a_hole(hall: str) -> None:
@@ -172,3 +183,32 @@ def test_odd_documents_are_promoted_without_a_fault(hall: str) -> None:
     drawn = {**drawing(), "steps": steps, "roles": {"r": {"device": "gone"}, "q": {}}}
     program = str(editor.create_program(site="hall", name="Odd", document=drawn).id)
     assert promote(program).status_code == 201, json.dumps(drawn)
+
+
+def test_a_copy_is_compared_with_what_it_was_made_from_by_who_sees_both(hall: str) -> None:
+    program, made = make_pair()
+    client = signed_in("both")
+    for old, new in ((f"{program}:1", "draft"), (f"{program}:draft", f"{made}:draft")):
+        told = client.get(f"/api/programs/{made}/comparison", {"old": old, "new": new})
+        assert told.status_code == 200, told.content
+        changed = {each["id"]: each["kind"] for each in told.json()["difference"]["constructs"]}
+        assert changed["mix"] == "changed"  # another mixer stands there
+        assert "added" not in changed.values()
+    there = client.get(f"/api/programs/{program}/comparison", {"old": "1", "new": f"{made}:draft"})
+    assert there.json()["difference"]["constructs"]
+
+
+@pytest.mark.parametrize("side", ["{other}:", "{other}:x", "x:1", ":1", "{other}:0001x", "{other}:1:2", "{other}:-1"])
+def test_what_is_no_side_is_refused(hall: str, side: str) -> None:
+    program, made = make_pair()
+    asked = {"old": side.format(other=program), "new": "draft"}
+    assert signed_in("both").get(f"/api/programs/{made}/comparison", asked).status_code == 422
+
+
+def test_who_does_not_see_the_other_site_compares_nothing_of_it(hall: str) -> None:
+    program, made = make_pair()
+    add_person("local2")
+    registry.set_member(site="shed", email="local2@vipo.example", role="author")
+    for side in (f"{program}:1", f"{program}:draft", f"{program}:99"):
+        answer = signed_in("local2").get(f"/api/programs/{made}/comparison", {"old": side, "new": "draft"})
+        assert answer.status_code == 404
