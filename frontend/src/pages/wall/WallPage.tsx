@@ -9,8 +9,9 @@ import { useNow } from "@/design/useNow";
 import { formatAgo, formatTime } from "@/i18n/format";
 import { waitWords } from "@/i18n/waits";
 import { StaticMap } from "@/map/StaticMap";
+import { doingWords } from "./doingWords";
 import { useWall, type Wall } from "./useWall";
-import { countOnline, doingWords, type Picture, type WallAlert, type WallRun } from "./wall";
+import { countOnline, type Picture, type WallAlert, type WallRun } from "./wall";
 import styles from "./wall.module.css";
 
 function LineState({ line, heardAt }: Pick<Wall, "line" | "heardAt">) {

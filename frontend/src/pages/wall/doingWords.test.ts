@@ -1,7 +1,7 @@
 // @vitest-environment jsdom
 import { expect, test } from "vitest";
 import { startI18n } from "@/i18n";
-import { doingWords } from "./wall";
+import { doingWords } from "./doingWords";
 
 test("what is simulated in place of a real device says so", async () => {
   await startI18n();

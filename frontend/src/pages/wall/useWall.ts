@@ -7,7 +7,8 @@ import { LiveConnection } from "@/live/connection";
 import { statusOf } from "@/map/devices/device";
 import type { FloorPlan } from "@/map/floor/floor";
 import { interpolatePose, type RobotSource, type TimedPose } from "@/map/robots/robots";
-import { applyMessage, codeOf, doingWords, unpackMap, type Picture, type WallDevice, type WallMessage } from "./wall";
+import { doingWords } from "./doingWords";
+import { applyMessage, codeOf, unpackMap, type Picture, type WallDevice, type WallMessage } from "./wall";
 
 export type Line = "connecting" | "live" | "reconnecting" | "ended" | "many";
 

@@ -1,5 +1,4 @@
 /** What `/ws/wall` says, and what a wall screen knows by it; pure but for unpacking the map's cells. */
-import { activityWords } from "@/i18n/activity";
 import type { Activity, DeviceStatus, RunStatus, WaitReason } from "@/api/types";
 import type { MapDevice } from "@/map/devices/device";
 import type { FloorPlan } from "@/map/floor/floor";
@@ -50,11 +49,6 @@ export type WallMessage =
   | ({ readonly type: "map" } & PackedMap)
   | ({ readonly type: "picture" } & Picture)
   | { readonly type: "devices"; readonly devices: readonly (Partial<WallDevice> & { id: string })[] };
-
-/** What a device does, as a wall may say it; of what is simulated in place of a real one it says so. */
-export function doingWords({ activity, stand_in = false }: Pick<WallDevice, "activity" | "stand_in">): string {
-  return activityWords({ doing: "", activity, stand_in });
-}
 
 /** The picture after a message; those about the map change nothing of it. */
 export function applyMessage(picture: Picture | null, message: WallMessage): Picture | null {
