@@ -26,21 +26,23 @@ MOST_PEOPLE, MOST_COMMENTS, MOST_LETTERS = 50, 30, 400
 
 
 def note_comment(comment: Comment, origin: str) -> None:
-    """Note whom a comment is for: those it mentions and those who have written in its thread, without its writer.
+    """Note whom a new comment is for: those it mentions and those who have written in its thread, without its writer.
 
     In the caller's transaction. Nothing is noted where the server sends no mail.
     """
+    talking = set(comment.thread.comments.exclude(author=None).values_list("author", flat=True))
+    note_people(comment, talking | set(comment.mentions), origin, comment.written_at)
+
+
+def note_people(comment: Comment, people: Iterable[int], origin: str, at: datetime) -> None:
+    """Note that a comment is for these people since a moment, as where it was changed and mentions them now."""
     if not registry.can_mail():
         return
-    talking = set(comment.thread.comments.exclude(author=None).values_list("author", flat=True))
-    people = (talking | set(comment.mentions)) - {comment.author_id}
-    CommentNotice.objects.bulk_create(
-        [
-            CommentNotice(comment=comment, person_id=person, origin=origin, made_at=comment.written_at)
-            for person in sorted(people)
-        ],
-        ignore_conflicts=True,
-    )
+    rows = [
+        CommentNotice(comment=comment, person_id=person, origin=origin, made_at=at)
+        for person in sorted(set(people) - {comment.author_id})
+    ]
+    CommentNotice.objects.bulk_create(rows, ignore_conflicts=True)
 
 
 def is_mail_due(*, now: datetime) -> bool:
@@ -90,7 +92,7 @@ def _worth_telling(rows: Sequence[CommentNotice], user: Any) -> list[CommentNoti
         row
         for row in rows
         if row.comment.thread.program.site.slug in mine
-        and not (row.comment.thread_id in read and read[row.comment.thread_id] >= row.comment.written_at)
+        and not (row.comment.thread_id in read and read[row.comment.thread_id] >= row.made_at)
     ]
 
 

@@ -17,7 +17,7 @@ from django.db import transaction
 from django.db.models import Prefetch
 
 from editor.comments.anchors import Anchor, anchor_to_json, find_missing, is_drawn, stands_in
-from editor.comments.mail import note_comment
+from editor.comments.mail import note_comment, note_people
 from editor.documents.store import get_document
 from editor.errors import BadRequest, DocumentHole, EditorError, NoSuchProgram
 from editor.models import Comment, CommentThread, Program, ThreadReading
@@ -177,7 +177,9 @@ def change_comment(*, program: UUID, comment: UUID, user: Any, words: Words, now
     if row.author_id != user.pk:
         raise NotTheirs("Only who wrote a comment changes it. Write an answer.")
     mentions = _checked(words.mentions, row.thread.program.site.slug)
-    Comment.objects.filter(pk=row.pk).update(text=words.text, mentions=mentions, edited_at=now)
+    with transaction.atomic():
+        Comment.objects.filter(pk=row.pk).update(text=words.text, mentions=mentions, edited_at=now)
+        note_people(row, set(mentions) - set(row.mentions), words.origin, now)
     _tell(row.thread.program)
     return get_thread(program=program, thread=row.thread_id, user=user)
 

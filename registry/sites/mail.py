@@ -50,6 +50,6 @@ def send_mail(*, to: str, subject: str, text: str) -> bool:
     """Send a message, and tell whether the mail server took it; waits ten seconds for it at most."""
     try:
         return EmailMessage(subject=subject, body=text, to=[to], headers=_BY_ITSELF).send() == 1
-    except (SMTPException, OSError) as error:
+    except (SMTPException, OSError, ValueError) as error:  # the last: an address that cannot be written
         log.warning("Mail could not be sent: %s", error)
         return False

@@ -166,3 +166,38 @@ def test_of_several_processes_one_sends(program: str) -> None:
     with ThreadPoolExecutor(4) as pool:
         assert sum(pool.map(once, range(4))) == 1
     assert len(mail.outbox) == 1
+
+
+def test_who_is_mentioned_by_a_change_hears_of_it_and_the_others_not_again(program: str) -> None:
+    author, admin = find_person("author").pk, find_person("admin").pk
+    thread = write(program, "commenter", "Why, @Author?", mentions=[author])
+    assert send(LATER) == 1
+    signed_in("admin").post(f"/api/programs/{program}/threads/{thread['id']}/read")
+    changed = signed_in("commenter").patch(
+        f"/api/programs/{program}/comments/{thread['comments'][0]['id']}",
+        json.dumps({"text": "Why, @Author and @Admin?", "mentions": [author, admin]}),
+        content_type="application/json",
+    )
+    assert changed.status_code == 200, changed.content
+    assert send(LATER) == 1
+    assert told()[1] == (["admin@vipo.example"], "1 comment, 1 Kommentar (VIPO)")
+    assert "Why, @Author and @Admin?" in str(mail.outbox[1].body)
+
+
+def test_an_address_that_cannot_be_written_keeps_nobody_else_from_hearing(
+    program: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    people = [find_person(who) for who in ("viewer", "author", "admin")]
+    write(program, "commenter", mentions=[person.pk for person in people])
+    sent: list[str] = []
+
+    def send_messages(_backend: EmailBackend, messages: Any) -> int:
+        (message,) = messages
+        if message.to == [people[0].email]:
+            raise UnicodeEncodeError("idna", message.to[0], 0, 1, "label too long")
+        sent.extend(message.to)
+        return 1
+
+    monkeypatch.setattr(EmailBackend, "send_messages", send_messages)
+    assert send(LATER) == 2
+    assert sorted(sent) == sorted(person.email for person in people[1:])
