@@ -1,5 +1,5 @@
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 import react from "@vitejs/plugin-react";
@@ -53,6 +53,46 @@ function compressed(): Plugin {
   };
 }
 
+/** What hands on the parts of a library: whoever imports from it needs the parts that it names, and not all of them. */
+const INDEX = /\/(@mantine\/(core|hooks|notifications)\/esm\/index|lucide-react\/dist\/esm\/lucide-react)\.mjs$/;
+const NAMED_IMPORT = /import\s*\{([^}]*)\}\s*from\s*["']([^"']+)["']/g;
+const HANDED_ON = /(?:import|export)\s*\{([^}]*)\}\s*from\s*["'](\.[^"']+)["']/g;
+
+/** Which module holds each name that an index hands on. */
+function heldBy(index: string, code: string): Map<string, string> {
+  const found = new Map<string, string>();
+  for (const [, names = "", path = ""] of code.matchAll(HANDED_ON))
+    for (const name of names.split(",")) found.set(name.trim().replace(/^.* as /, ""), join(dirname(index), path));
+  return found;
+}
+
+/** The names that a module imports from a library. */
+function namedImports(code: string, library: string): string[] {
+  const found = [...code.matchAll(NAMED_IMPORT)].filter(([, , from]) => from === library);
+  return found.flatMap(([, names = ""]) => names.split(",").map((name) => name.trim().replace(/ as .*$/, "")));
+}
+
+interface Graph {
+  importsOf: (id: string) => readonly string[];
+  codeOf: (id: string) => string;
+}
+
+/** What a module imports, with the parts that it names in the place of an index. */
+function importedParts({ importsOf, codeOf }: Graph): (id: string) => string[] {
+  const parts = new Map<string, Map<string, string>>();
+  const partsOf = (index: string) => {
+    const known = parts.get(index) ?? heldBy(index, codeOf(index));
+    parts.set(index, known);
+    return known;
+  };
+  return (id) =>
+    importsOf(id).flatMap((imported) => {
+      if (!INDEX.test(imported)) return [imported];
+      const library = /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(imported)?.[1] ?? "";
+      return namedImports(codeOf(id), library).flatMap((name) => partsOf(imported).get(name) ?? []);
+    });
+}
+
 /** All that a module needs at once: what it imports, but for what it imports when it is asked for. */
 function needed(start: string, ids: Iterable<string>, importsOf: (id: string) => readonly string[]): Set<string> {
   const found = new Set<string>();
@@ -83,15 +123,21 @@ function scripts() {
     apply: "build",
     buildEnd() {
       const ids = [...this.getModuleIds()];
-      const importsOf = (id: string) => this.getModuleInfo(id)?.importedIds ?? [];
+      const importsOf = importedParts({
+        importsOf: (id) => this.getModuleInfo(id)?.importedIds ?? [],
+        codeOf: (id) => this.getModuleInfo(id)?.code ?? "",
+      });
       first = needed("/src/main.tsx", ids, importsOf);
       opening = needed("/src/editor/EditorScreen.tsx", ids, importsOf);
     },
   };
   const groups = [
-    { name: "first", test: (id: string) => first.has(id), priority: 3 },
-    { name: "common", test: (id: string) => opening.has(id), minShareCount: MANY, priority: 2 },
-    { name: "drawing", test: (id: string) => opening.has(id), minShareCount: 2, priority: 1 },
+    { name: "first", test: (id: string) => first.has(id), priority: 4 },
+    { name: "common", test: (id: string) => opening.has(id), minShareCount: MANY, priority: 3 },
+    { name: "drawing", test: (id: string) => opening.has(id), minShareCount: 2, priority: 2 },
+    { name: "EditorScreen", test: (id: string) => opening.has(id), priority: 1 },
+    // Joined with whatever is small, an icon would bring pages along.
+    { name: "icons", test: /\/lucide-react\//, minShareCount: 2, priority: 1 },
     { name: "shared", minShareCount: 2, entriesAware: true, entriesAwareMergeThreshold: SMALL },
   ];
   const chunkFileNames = ({ name }: { name: string }) => `assets/${name.split("~", 1)[0]}-[hash].js`;
@@ -99,10 +145,13 @@ function scripts() {
 }
 
 const { plugin, output } = scripts();
+const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+/** What Yjs writes to the console in colours brings a library of schemas along in browsers; this variant does not. */
+const PLAIN_LOG = { "lib0/logging": here("./node_modules/lib0/logging.node.js") };
 
 export default defineConfig({
   plugins: [react(), VitePWA(worker), compressed(), plugin],
-  resolve: { alias: { "@": fileURLToPath(new URL("./src", import.meta.url)) } },
+  resolve: { alias: { "@": here("./src"), ...PLAIN_LOG } },
   build: { target: "es2022", sourcemap: false, chunkSizeWarningLimit: 1500, rolldownOptions: { output } },
   test: { testTimeout: 60_000 }, // for what hangs: beside the other tests, a first drawing takes seconds
   server: { proxy: { "/api": backend, "/ws": { target: backend.replace("http", "ws"), ws: true } } },

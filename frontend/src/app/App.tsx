@@ -1,8 +1,7 @@
 /** Everything that every screen needs around it. */
 import { MantineProvider } from "@mantine/core";
-import { Notifications } from "@mantine/notifications";
 import { QueryClientProvider } from "@tanstack/react-query";
-import { useEffect, useMemo } from "react";
+import { lazy, Suspense, useEffect, useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import { RouterProvider } from "react-router-dom";
 import { makeQueryClient } from "@/api/queries";
@@ -16,6 +15,9 @@ import { useKeepOnlyOwn } from "@/shell/waitingCopies";
 const queries = makeQueryClient();
 const router = makeRouter();
 
+/** What is told before they are there waits in their store. */
+const Notifications = lazy(async () => ({ default: (await import("./Notifications")).Notifications }));
+
 export function App() {
   const { t } = useTranslation();
   const scheme = useTheme();
@@ -25,7 +27,9 @@ export function App() {
   return (
     <QueryClientProvider client={queries}>
       <MantineProvider theme={theme} cssVariablesResolver={variablesResolver} forceColorScheme={scheme}>
-        <Notifications position="bottom-right" />
+        <Suspense fallback={null}>
+          <Notifications position="bottom-right" />
+        </Suspense>
         <KeepOnlyOwn />
         <NewVersion />
         <RouterProvider router={router} />

@@ -1,14 +1,5 @@
 /** Mantine dressed in our tokens: its variables point at the CSS variables of tokens.css, so both themes follow. */
-import {
-  Button,
-  createTheme,
-  Menu,
-  Modal,
-  Notification,
-  Tooltip,
-  type CSSVariablesResolver,
-  type MantineColorsTuple,
-} from "@mantine/core";
+import { createTheme, type CSSVariablesResolver, type MantineColorsTuple } from "@mantine/core";
 
 const brand: MantineColorsTuple = [
   "#EEEDFE",
@@ -57,14 +48,12 @@ export const makeTheme = (close: string) =>
     shadows: { xs: "var(--sh-1)", sm: "var(--sh-1)", md: "var(--sh-2)", lg: "var(--sh-3)", xl: "var(--sh-3)" },
     respectReducedMotion: true,
     components: {
-      Button: Button.extend({ defaultProps: { size: "sm" } }),
-      // Fields are named only: they are loaded with the forms that have them.
+      // Named only: each is loaded with the screens and forms that have it.
+      Button: { defaultProps: { size: "sm" } },
       TextInput: { defaultProps: { size: "sm" } },
       Select: { defaultProps: { size: "sm", checkIconPosition: "right" } },
-      Menu: Menu.extend({
-        defaultProps: { shadow: "lg", radius: "lg", withinPortal: true, withInitialFocusPlaceholder: false },
-      }),
-      Modal: Modal.extend({
+      Menu: { defaultProps: { shadow: "lg", radius: "lg", withinPortal: true, withInitialFocusPlaceholder: false } },
+      Modal: {
         // A tap beside a dialog does not throw away what was typed into it.
         defaultProps: {
           radius: "lg",
@@ -73,11 +62,9 @@ export const makeTheme = (close: string) =>
           closeOnClickOutside: false,
           closeButtonProps: { "aria-label": close },
         },
-      }),
-      Notification: Notification.extend({
-        defaultProps: { radius: "lg", closeButtonProps: { "aria-label": close } },
-      }),
-      Tooltip: Tooltip.extend({ defaultProps: { openDelay: 400, withinPortal: true } }),
+      },
+      Notification: { defaultProps: { radius: "lg", closeButtonProps: { "aria-label": close } } },
+      Tooltip: { defaultProps: { openDelay: 400, withinPortal: true } },
     },
   });
 

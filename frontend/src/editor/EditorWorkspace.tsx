@@ -1,15 +1,15 @@
 /** Where things stand on the editor's screen. */
 import { useMediaQuery } from "@mantine/hooks";
 import { type CSSProperties, lazy, Suspense, useEffect, useMemo } from "react";
+import { useFetchLater } from "@/design/useFetchLater";
 import type { Insets } from "@/map/plane/projection";
-import { EmptyProgram } from "./beginning/EmptyProgram";
-import { NextSteps } from "./beginning/NextSteps";
 import { useTour } from "./beginning/tourStops";
 import { Announcer } from "./keyboard/Announcer";
 import { ModeBar } from "./keyboard/ModeBar";
 import { useOthersEdits } from "./keyboard/othersEdits";
 import { useModeKeys } from "./keyboard/useModeKeys";
 import classes from "./editor.module.css";
+import { loadCorners } from "./canvas/CornerHandles";
 import { ContextMenu } from "./commands/ContextMenu";
 import { useCommandKeys } from "./commands/keys";
 import { usePaletteOffer } from "./commands/offer";
@@ -32,17 +32,21 @@ import { useUi } from "./state/ui";
 import { useRunning } from "./state/useRunning";
 
 const loadZoneForm = () => import("./zones/ZoneForm");
+const loadEmptyProgram = () => import("./beginning/EmptyProgram");
+const loadNextSteps = () => import("./beginning/NextSteps");
+const EmptyProgram = lazy(async () => ({ default: (await loadEmptyProgram()).EmptyProgram }));
+const NextSteps = lazy(async () => ({ default: (await loadNextSteps()).NextSteps }));
 const Tour = lazy(async () => ({ default: (await import("./beginning/Tour")).Tour }));
 const loadComments = () => import("./comments/CommentsPanel");
 const ZoneForm = lazy(async () => ({ default: (await loadZoneForm()).ZoneForm }));
-/** So long after the program has come its forms are fetched, so that the first one opens at once. */
-const FETCH_AFTER_MS = 2000;
+/** Fetched once the program has come, so that the first form opens at once. */
+const LATER = [loadPanels, loadZoneForm, loadComments, loadCorners];
 
 const FITTED: Insets = { left: 100, right: 336, top: 34, bottom: 300 };
 
 export function EditorWorkspace() {
   useGestureInput();
-  useFormsLater();
+  useFetchLater(LATER);
   const small = useMediaQuery("(max-width: 1179px)") ?? false;
   const drawerOpen = useUi((ui) => ui.drawer.open);
   const selected = useUi((ui) => ui.selected.length > 0);
@@ -78,9 +82,13 @@ export function EditorWorkspace() {
         {loaded ? (
           <>
             <ToolRail />
-            <EmptyProgram />
+            <Suspense fallback={null}>
+              <EmptyProgram />
+            </Suspense>
             <HelpSentence />
-            <NextSteps />
+            <Suspense fallback={null}>
+              <NextSteps />
+            </Suspense>
             <ModeBar />
             <Toast />
             <NotTaken />
@@ -106,14 +114,6 @@ export function EditorWorkspace() {
       <Announcer />
     </div>
   );
-}
-
-function useFormsLater(): void {
-  useEffect(() => {
-    const fetchAll = () => [loadPanels, loadZoneForm, loadComments].forEach((load) => void load().catch(() => {}));
-    const timer = setTimeout(fetchAll, FETCH_AFTER_MS);
-    return () => clearTimeout(timer);
-  }, []);
 }
 
 /** The keys and the clipboard of the gestures, for as long as the editor is on the screen. */

@@ -1,14 +1,19 @@
 import i18next from "i18next";
 import { beforeEach, expect, test } from "vitest";
 import de from "./de/device.json";
+import deLate from "./de/screens/device.json";
 import { deviceEventWords } from "./deviceEvents";
 import { activityWords } from "./activity";
 import en from "./en/device.json";
+import enLate from "./en/screens/device.json";
 
 beforeEach(() =>
   i18next.init({
     lng: "de",
-    resources: { de: { translation: { device: de } }, en: { translation: { device: en } } },
+    resources: {
+      de: { translation: { device: { ...de, ...deLate } } },
+      en: { translation: { device: { ...en, ...enLate } } },
+    },
     interpolation: { escapeValue: false },
   }),
 );

@@ -1,6 +1,5 @@
 /** The German texts of the screens beside the editor, which does not wait for them. */
-import { gatherAreas } from "./areas";
-
-export const texts = gatherAreas(
-  import.meta.glob<Record<string, unknown>>("./de/screens/*.json", { eager: true, import: "default" }),
-);
+export const texts = import.meta.glob<Record<string, unknown>>("./de/screens/*.json", {
+  eager: true,
+  import: "default",
+});

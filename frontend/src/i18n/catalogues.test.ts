@@ -1,9 +1,13 @@
 /** The languages say the same things, and every text that the screens ask for is there. */
 import { expect, test } from "vitest";
-import { texts as englishBase } from "./catalogue.en";
-import { texts as englishScreens } from "./catalogue.screens.en";
-import { texts as germanBase } from "./catalogue.de";
-import { texts as germanScreens } from "./catalogue.screens.de";
+import { gatherAreas } from "./areas";
+import * as enBase from "./catalogue.en";
+import * as enScreens from "./catalogue.screens.en";
+import * as deBase from "./catalogue.de";
+import * as deScreens from "./catalogue.screens.de";
+
+const [englishBase, englishScreens] = [gatherAreas(enBase.texts), gatherAreas(enScreens.texts)];
+const [germanBase, germanScreens] = [gatherAreas(deBase.texts), gatherAreas(deScreens.texts)];
 
 type Texts = Record<string, string>;
 const sources = import.meta.glob<string>(["../**/*.{ts,tsx}", "!../**/*.test.ts"], {

@@ -1,7 +1,7 @@
 /** The languages of the screens; the texts of one are loaded when it is chosen, those of most screens with the first. */
 import i18next from "i18next";
 import { initReactI18next } from "react-i18next";
-import type { Areas } from "./areas";
+import { type Areas, gatherAreas } from "./areas";
 
 export const LANGUAGES = ["en", "de"] as const;
 export type Language = (typeof LANGUAGES)[number];
@@ -10,15 +10,16 @@ const KEPT_AS = "vipo.language";
 type Catalogue = Record<Language, () => Promise<{ texts: Areas }>>;
 type Part = "base" | "screens";
 /** What the editor and all bars say, and what the other screens say. */
-export const CATALOGUES: Record<Part, Catalogue> = {
+const CATALOGUES: Record<Part, Catalogue> = {
   base: { en: () => import("./catalogue.en"), de: () => import("./catalogue.de") },
   screens: { en: () => import("./catalogue.screens.en"), de: () => import("./catalogue.screens.de") },
 };
 const wanted = new Set<Part>(["base"]);
 
-async function addTexts(language: Language, part: Part): Promise<void> {
+/** Done when a part of the texts of a language is there, beside what is there of it already. */
+export async function addTexts(language: Language, part: Part): Promise<void> {
   const { texts } = await CATALOGUES[part][language]();
-  i18next.addResourceBundle(language, "translation", texts, true, true);
+  i18next.addResourceBundle(language, "translation", gatherAreas(texts), true, true);
 }
 
 /** Done when the screens beside the editor have their texts, in the language that is spoken now. */
@@ -49,7 +50,7 @@ export async function startI18n(): Promise<void> {
   const { texts } = await CATALOGUES.base[language]();
   i18next.on("languageChanged", (chosen) => document.documentElement.setAttribute("lang", chosen));
   await i18next.use(initReactI18next).init({
-    resources: { [language]: { translation: texts } },
+    resources: { [language]: { translation: gatherAreas(texts) } },
     lng: language,
     // Each language has every text: a test holds that.
     fallbackLng: false,

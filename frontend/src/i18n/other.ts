@@ -3,7 +3,7 @@ import { useQuery } from "@tanstack/react-query";
 import i18next from "i18next";
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
-import { CATALOGUES, LANGUAGES } from ".";
+import { addTexts, LANGUAGES } from ".";
 
 const NOTHING = () => "";
 
@@ -14,8 +14,7 @@ export function useOtherLanguage(): (key: string) => string {
   const loaded = useQuery({
     queryKey: ["catalogue", other],
     queryFn: async () => {
-      const { texts } = await CATALOGUES.base[other]();
-      i18next.addResourceBundle(other, "translation", texts);
+      await addTexts(other, "base");
       return true;
     },
     staleTime: Infinity,

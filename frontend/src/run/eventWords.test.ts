@@ -1,7 +1,7 @@
 import i18next from "i18next";
 import { beforeAll, expect, test } from "vitest";
 import type { RunEvent } from "@/api/types";
-import reason from "@/i18n/de/reason.json";
+import reason from "@/i18n/de/screens/reason.json";
 import de from "@/i18n/de/run.json";
 import { waitWords } from "@/i18n/waits";
 import { eventWords } from "./eventWords";

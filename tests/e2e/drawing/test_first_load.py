@@ -15,7 +15,7 @@ from tests.e2e.screens import make_program, saved
 from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
-MOST_BYTES = 425_000
+MOST_BYTES = 350_000
 MOST_SCRIPTS = 12
 ENTRIES = ("EditorScreen", "catalogue.en")
 """What opening a program begins with, beside the page's own script. The editor of scripts comes beside the map, which

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import keyword
 from typing import Any
 
@@ -10,12 +11,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from editor.language import compile_document, parse_script, tree_to_document
-from editor.language.expressions.names import attribute_name, local_name, snake_case
+from editor.language.expressions.names import RESERVED_ATTRIBUTES, attribute_name, local_name, snake_case
 from tests.kit.demo_site import factory
+from tests.kit.files import ROOT
 
 NAMES = ["Über Nacht lüften", "名前", "Match", "match", "Ölofen", "ÖLOFEN", "ﬁlter", "mix²", "Straße", "İstanbul",
          "печь", "Печь", "φούρνος", "فرن", "เตา", "1. Ofen", "ⅷ", "é", "e\u0301", "run", "branch_a", "when_e1",
          "class", "__init__", "e\u200dx", "🤖", "", "range", "Wait", "wait", "ª", "\u0301x", "ΣΑΣ"]  # fmt: skip
+CASES = json.loads((ROOT / "tests" / "cases" / "names.json").read_text())
+"""What the names that the editor makes itself are held to, too."""
 names = st.one_of(st.sampled_from(NAMES), st.text(min_size=1, max_size=8))
 
 
@@ -73,24 +77,13 @@ def test_a_name_of_a_script_is_one_for_python_and_stays_what_it_is(name: str) ->
     assert local_name(local_name(name, ()), ()) == local_name(name, ())
 
 
-@pytest.mark.parametrize(
-    ("name", "called"),
-    [
-        ("Über Nacht lüften", "über_nacht_lüften"),
-        ("名前", "名前"),
-        ("ÖlOfen", "öl_ofen"),
-        ("ПечьДляКраски", "печь_для_краски"),
-        ("e\u0301", "é"),
-        ("ﬁlter", "filter"),
-        ("Match", "match_"),
-        ("1. Ofen", "n1_ofen"),
-        ("🤖", "unnamed"),
-        ("curePaint", "cure_paint"),
-        ("RFIDReader2", "rfid_reader2"),
-    ],
-)
+@pytest.mark.parametrize(("name", "called"), CASES["called"].items())
 def test_names_stay_readable_in_any_language(name: str, called: str) -> None:
     assert snake_case(name) == called
+
+
+def test_the_editor_knows_which_names_are_the_tasks_own() -> None:
+    assert set(CASES["reserved"]) == RESERVED_ATTRIBUTES
 
 
 def test_a_role_keeps_its_name_when_it_is_printed() -> None:

@@ -1,5 +1,6 @@
 /** Templates fit the devices that a site has; that the server draws their scripts without a finding, its own test shows. */
 import { expect, test } from "vitest";
+import pythonNames from "../../../../tests/cases/names.json";
 import scripts from "../../../../tests/cases/templates.json";
 import { exampleSite } from "./exampleSite";
 import { type Chosen, filled, lacking, TEMPLATES } from "./templates";
@@ -77,4 +78,15 @@ test("a method is filled in with what it takes for sure", () => {
     ["pick", 1],
     ["drop", 2],
   ]);
+});
+
+test("devices keep their names in every language, beside what a task has itself", () => {
+  const site = exampleSite({ itemInventory01: { name: "Lager Süd" }, paintMachine01: { name: "名前" } });
+  const { script } = byId("process").bind(site, {});
+  expect(script).toContain('self.lager_süd = ctx.get("itemInventory01")');
+  expect(script).toContain("self.名前.operate(");
+  for (const name of pythonNames.reserved) {
+    const own = exampleSite({ itemInventory01: { name } });
+    expect(byId("fetch").bind(own, {}).script).not.toContain(`self.${name} = ctx.get("itemInventory01")`);
+  }
 });

@@ -7,7 +7,7 @@ import type { MapPlace } from "@/map/floor/floor";
 import type { Place } from "@/program/document/document";
 import { operable } from "@/program/operation";
 import type { Method, MethodParameter, Property, SiteDevice } from "@/program/surroundings";
-import { pythonName } from "../script/completion";
+import { pythonName, RESERVED } from "../script/names";
 
 export interface TemplateSite {
   readonly devices: readonly SiteDevice[];
@@ -111,9 +111,6 @@ function chosenDevices(site: TemplateSite, slots: readonly Slot[], chosen: Chose
 type Named = SiteDevice | MapPlace;
 type NameOf = (thing: Named) => string;
 
-/** Words that mean something else behind `self.`. */
-const TAKEN = ["robot", "wait", "notify", "ask", "end", "fail", "limit", "release", "new_task", "run"];
-
 /** What each thing is called behind `self.`: by its name, and by its id, too, where the name alone is not enough. */
 function namesOf({ devices, places }: TemplateSite): NameOf {
   const all = [...devices.filter((each) => !isRobot(each)), ...places].map(({ name }) => pythonName(name));
@@ -121,7 +118,7 @@ function namesOf({ devices, places }: TemplateSite): NameOf {
   for (const name of all) counted.set(name, (counted.get(name) ?? 0) + 1);
   return ({ id, name }) => {
     const short = pythonName(name);
-    return TAKEN.includes(short) || (counted.get(short) ?? 0) > 1 ? `${short}_${pythonName(id)}` : short;
+    return RESERVED.has(short) || (counted.get(short) ?? 0) > 1 ? `${short}_${pythonName(id)}` : short;
   };
 }
 

@@ -1,59 +1,29 @@
 /** The menu over a step, an arrow, a machine or the floor, on the map and in the list of steps. */
-import { Menu } from "@mantine/core";
-import { Fragment, useCallback, useEffect } from "react";
-import { useTranslation } from "react-i18next";
-import { wordsOfKeys } from "@/shell/keys/keyNames";
+import { lazy, Suspense, useCallback, useEffect } from "react";
+import { useFetchLater } from "@/design/useFetchLater";
 import { useOpenProgram, type OpenProgram } from "../state/context";
-import { useGestures, type MenuItem } from "../state/gestures";
+import { useGestures } from "../state/gestures";
 import { useLongPress } from "../gestures/longPress";
 import { underPointer } from "../state/under";
 import { useUi } from "../state/ui";
-import classes from "../canvas/gestures.module.css";
 import { menuOver, showMenu } from "./menu";
 import { COMMANDS } from "./table";
+
+const loadItems = () => import("./MenuItems");
+const LOADS = [loadItems];
+const MenuItems = lazy(async () => ({ default: (await loadItems()).MenuItems }));
 
 export function ContextMenu() {
   const open = useOpenProgram();
   const menu = useGestures((ui) => ui.menu);
   useRightClick(open);
   useLongPress(useCallback((press) => void ask(open, press.target, { x: press.clientX, y: press.clientY }), [open]));
-  const close = () => useGestures.setState({ menu: null });
-  if (!menu) return null;
-  return (
-    <Menu opened onClose={close} position="bottom-start" shadow="md" trapFocus returnFocus width={280}>
-      <Menu.Target>
-        <span className={classes.anchor} style={{ left: menu.at.x, top: menu.at.y }} />
-      </Menu.Target>
-      <Menu.Dropdown aria-label={menu.label}>
-        {menu.items.map((item, index) => (
-          <Fragment key={item.id}>
-            {index > 0 && item.group !== menu.items[index - 1]?.group ? <Menu.Divider /> : null}
-            <Item item={item} close={close} />
-          </Fragment>
-        ))}
-      </Menu.Dropdown>
-    </Menu>
-  );
-}
-
-function Item({ item, close }: { item: MenuItem; close: () => void }) {
-  const { t } = useTranslation();
-  const { icon: Icon, keys } = item;
-  const run = () => {
-    close();
-    item.run();
-  };
-  return (
-    <Menu.Item
-      onClick={run}
-      leftSection={Icon ? <Icon size={16} /> : undefined}
-      rightSection={
-        keys ? <kbd className={classes.keys}>{wordsOfKeys(keys, (key) => t(`shell.keys.${key}`, key))}</kbd> : null
-      }
-    >
-      {item.label}
-    </Menu.Item>
-  );
+  useFetchLater(LOADS);
+  return menu ? (
+    <Suspense fallback={null}>
+      <MenuItems menu={menu} />
+    </Suspense>
+  ) : null;
 }
 
 /** With a tool in hand a right click steps back instead. */

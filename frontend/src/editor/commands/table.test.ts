@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
-import { texts as german } from "@/i18n/catalogue.de";
-import { texts as english } from "@/i18n/catalogue.en";
+import { gatherAreas } from "@/i18n/areas";
+import { texts as germanFiles } from "@/i18n/catalogue.de";
+import { texts as englishFiles } from "@/i18n/catalogue.en";
 import { keysOf, PLAIN_KEYMAP } from "@/shell/keys/keymap";
 import { isCharacterKey, nameOfKeys } from "@/shell/keys/keyNames";
 import { SHELL_COMMANDS } from "@/shell/keys/shellCommands";
@@ -10,6 +11,8 @@ import { GROUPS, SITUATIONS } from "./command";
 import { toolId } from "./drawing";
 import { commandOfKeys } from "./keys";
 import { COMMANDS, commandOf } from "./table";
+
+const [german, english] = [gatherAreas(germanFiles), gatherAreas(englishFiles)];
 
 function textAt(texts: object, key: string): unknown {
   return key.split(".").reduce<unknown>((part, name) => (part as Record<string, unknown> | undefined)?.[name], texts);

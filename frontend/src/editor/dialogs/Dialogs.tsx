@@ -1,5 +1,6 @@
 /** The dialogs of the editor; what they are made of is loaded once the program is on the screen. */
 import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
+import { useFetchLater } from "@/design/useFetchLater";
 import { loadScreenTexts } from "@/i18n";
 import { useOpenProgram } from "../state/context";
 import { type Dialog, useUi } from "../state/ui";
@@ -22,7 +23,8 @@ const LOAD = {
   strangers: () => import("./StrangersDialog").then(({ StrangersDialog }) => ({ default: StrangersDialog })),
   find: () => import("./FindDialog").then(({ FindDialog }) => ({ default: FindDialog })),
   shortcuts: () => import("./ShortcutsDialog").then(({ ShortcutsDialog }) => ({ default: ShortcutsDialog })),
-  templates: () => import("../beginning/TemplateDialog").then(({ TemplateDialog }) => ({ default: TemplateDialog })),
+  templates: () =>
+    withTexts(import("../beginning/TemplateDialog").then(({ TemplateDialog }) => ({ default: TemplateDialog }))),
 };
 const DIALOGS: Record<Name, ComponentType> = {
   run: lazy(LOAD.run),
@@ -35,8 +37,7 @@ const DIALOGS: Record<Name, ComponentType> = {
   shortcuts: lazy(LOAD.shortcuts),
   templates: lazy(LOAD.templates),
 };
-/** So long after the program has come its dialogs are fetched, so that the first one opens at once. */
-const FETCH_AFTER_MS = 2000;
+const LOADS = Object.values(LOAD);
 
 export function Dialogs() {
   const { canEdit } = useOpenProgram();
@@ -48,10 +49,7 @@ export function Dialogs() {
   useEffect(() => {
     if (asked) useUi.setState({ dialog: "library" });
   }, [asked]);
-  useEffect(() => {
-    const timer = setTimeout(() => Object.values(LOAD).forEach((load) => void load().catch(() => {})), FETCH_AFTER_MS);
-    return () => clearTimeout(timer);
-  }, []);
+  useFetchLater(LOADS);
   return opened.map((name) => {
     const Shown = DIALOGS[name];
     return (

@@ -73,3 +73,20 @@ test("a function that the program has already is not brought twice", () => {
   expect(again.match(/def tell\(/g)?.length).toBe(1);
   expect(again.match(/self\.tell\("hot"\)/g)?.length).toBe(2);
 });
+
+test("what is called and given in other letters comes along", () => {
+  const script = `class Task(object):
+    def new_task(self):
+        self.über_nacht()
+
+    def über_nacht(self):
+        self.öfen.lüften(3)
+
+    def run(self, ctx):
+        self.öfen = ctx.get("ofen1")
+        self.new_task()
+`;
+  const text = clippedScript({ script, lines: ["", "", "call"] }, ["call"]);
+  expect(text).toContain("    def über_nacht(self):\n        self.öfen.lüften(3)");
+  expect(text).toContain('        self.öfen = ctx.get("ofen1")');
+});

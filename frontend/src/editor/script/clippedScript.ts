@@ -2,8 +2,8 @@
 import { blockOf, functionsOf, indentOf, type Printed } from "./pastedScript";
 
 const INDENT = 8;
-const CALLED = /self\.(\w+)\(/g;
-const NAMED = /self\.(\w+)/g;
+const CALLED = /self\.(\p{ID_Continue}+)\(/gu;
+const NAMED = /self\.(\p{ID_Continue}+)/gu;
 
 /**
  * `outer` are the steps that stand in no other selected one, in reading order; what stands in them comes along, and so
@@ -51,5 +51,5 @@ function calledFunctions(script: readonly string[], body: readonly string[]): (r
 function givenNames(script: readonly string[], body: readonly string[]): string[] {
   const used = new Set([...body.join("\n").matchAll(NAMED)].map(([, name]) => name));
   const start = script.findIndex((line) => /^ {4}def run\(/.test(line));
-  return script.slice(start + 1).filter((line) => used.has(/^\s*self\.(\w+)\s*=/.exec(line)?.[1] ?? ""));
+  return script.slice(start + 1).filter((line) => used.has(/^\s*self\.(\p{ID_Continue}+)\s*=/u.exec(line)?.[1] ?? ""));
 }

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { optionsAt, pythonName, type NamedDevice } from "./completion";
+import { optionsAt, type NamedDevice } from "./completion";
 
 const OVEN: NamedDevice = {
   id: "curingOven01",
@@ -29,16 +29,6 @@ const SCRIPT = `class Task(object):
 function labels(line: string): string[] {
   return (optionsAt(`${SCRIPT}\n${line}`, SCRIPT, [OVEN, MIXER])?.options ?? []).map((option) => option.label);
 }
-
-test("names become Python names as the compiler makes them", () => {
-  expect(["Painting Machine", "curePaint", "RDFStore", "3D printer", "!"].map(pythonName)).toEqual([
-    "painting_machine",
-    "cure_paint",
-    "rdf_store",
-    "n3_d_printer",
-    "unnamed",
-  ]);
-});
 
 test("behind self stand what run gives, functions, variables and the site's other devices", () => {
   expect(labels("        self.")).toEqual([
@@ -117,4 +107,18 @@ test("behind a robot stand its own methods too, behind any robot those of all, e
     "open_gripper",
   ]);
   expect(behind("        self.first.")?.at(-1)).toEqual({ label: "honk", detail: "(times)", kind: "method" });
+});
+
+test("names of every language are completed", () => {
+  const oven = { ...OVEN, id: "ofen1", name: "Ofen Süd", methods: [{ name: "öffnen", parameters: [] }] };
+  const robot = '        self.träger = ctx.any("pick")';
+  const behind = (line: string, script = robot) => {
+    const here = optionsAt(`${script}\n${line}`, script, [oven]);
+    return [here?.start, here?.options.map(({ label }) => label)] as const;
+  };
+  expect(behind("        self.ofen_sü")[1]).toEqual(expect.arrayContaining(["träger", "ofen_süd"]));
+  expect(behind("        self.ofen_sü")[0]).toBe(robot.length + "\n        self.".length);
+  expect(behind("        self.träger.")[1]).toContain("move");
+  const given = '        self.ofen_süd = ctx.get("ofen1")';
+  expect(behind("        self.ofen_süd.ö", given)[1]).toEqual(["öffnen", "temperature", "location"]);
 });

@@ -2,6 +2,7 @@
 import type { Completion, CompletionContext, CompletionResult } from "@codemirror/autocomplete";
 import type { EditorView } from "@codemirror/view";
 import { STEP_KINDS } from "@/program/kinds";
+import { pythonName } from "./names";
 
 export interface NamedDevice {
   readonly id: string;
@@ -39,20 +40,10 @@ const WORDS = [
   "continue",
   "pass",
 ];
-const GIVEN = /self\.(\w+)\s*=\s*ctx\.(\w+)\(\s*(?:["']([^"']*)["'])?/g;
-const DEFINED = /^ {4}def (\w+)\(self(?:,\s*([^)]*))?\)/gm;
-const SET = /^\s+self\.(\w+)\s*=(?!=)/gm;
+const GIVEN = /self\.(\p{ID_Continue}+)\s*=\s*ctx\.(\w+)\(\s*(?:["']([^"']*)["'])?/gu;
+const DEFINED = /^ {4}def (\p{ID_Continue}+)\(self(?:,\s*([^)]*))?\)/gmu;
+const SET = /^\s+self\.(\p{ID_Continue}+)\s*=(?!=)/gmu;
 const NOT_FUNCTIONS = /^(run|new_task|branch_.*|when_.*)$/;
-
-/** The Python name that VIPO makes of a name: `Painting Machine` and `paintingMachine` are `painting_machine`. */
-export function pythonName(name: string): string {
-  const parted = name.replace(/([a-z0-9])(?=[A-Z])|([A-Z])(?=[A-Z][a-z])/g, "$1$2_");
-  const words = parted
-    .replace(/[^A-Za-z0-9]+/g, "_")
-    .replace(/^_+|_+$/g, "")
-    .toLowerCase();
-  return /^\d/.test(words) ? `n${words}` : words || "unnamed";
-}
 
 /** The options behind what stands before the cursor, and where the word begins that they complete; null: none. */
 export function optionsAt(
@@ -61,15 +52,15 @@ export function optionsAt(
   devices: readonly NamedDevice[],
 ): { readonly start: number; readonly options: readonly Option[] } | null {
   const line = before.slice(before.lastIndexOf("\n") + 1);
-  const member = /self\.(\w+)\.(\w*)$/.exec(line);
+  const member = /self\.(\p{ID_Continue}+)\.(\p{ID_Continue}*)$/u.exec(line);
   if (member) return found(before, member[2], membersOf(member[1] ?? "", script, devices));
-  const own = /self\.(\w*)$/.exec(line);
+  const own = /self\.(\p{ID_Continue}*)$/u.exec(line);
   if (own) return found(before, own[1], ownNames(script, devices));
   const giver = /ctx\.(\w*)$/.exec(line);
   if (giver) return found(before, giver[1], plain(GIVERS, "verb"));
-  const id = /ctx\.get\(["'](\w*)$/.exec(line);
+  const id = /ctx\.get\(["']([\w.-]*)$/.exec(line);
   if (id) return found(before, id[1], idsOf(devices));
-  const word = /^\s+(\w+)$/.exec(line);
+  const word = /^\s+(\p{ID_Continue}+)$/u.exec(line);
   return word ? found(before, word[1], plain(WORDS, "value")) : null;
 }
 
@@ -164,7 +155,7 @@ export function completeScript(devices: () => readonly NamedDevice[]) {
     const here = optionsAt(script.slice(0, context.pos), script, devices());
     if (!here || (here.start === context.pos && !context.explicit && !/\.$/.test(script.slice(0, context.pos))))
       return null;
-    return { from: here.start, options: here.options.map(asCompletion), validFor: /^\w*$/ };
+    return { from: here.start, options: here.options.map(asCompletion), validFor: /^\p{ID_Continue}*$/u };
   };
 }
 

@@ -68,3 +68,11 @@ test("of a whole script the steps are taken, with what its run gives them", () =
 test("an empty text is nothing to paste", () => {
   expect(scriptWith(" \n", EMPTY, null, [])).toBeNull();
 });
+
+test("names of every language are taken for script, and given to what is not known yet", () => {
+  expect(looksLikeScript("self.öfen_lüften(3)")).toBe(true);
+  const oven = { ...OVEN, id: "ofen1", name: "Ofen Süd" };
+  const text = scriptWith("self.ofen_süd.lüften(3)\nself.träger.move((1, 2))", EMPTY, null, [oven])?.split("\n");
+  expect(text).toContain('        self.ofen_süd = ctx.get("ofen1")');
+  expect(text).toContain("        self.träger = ctx.any()");
+});

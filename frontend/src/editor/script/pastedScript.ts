@@ -4,14 +4,15 @@ import { makeId } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { putWith } from "../state/putting";
 import { say, select, useUi } from "../state/ui";
-import { type NamedDevice, pythonName } from "./completion";
+import type { NamedDevice } from "./completion";
+import { pythonName } from "./names";
 import { type Chosen, withChosen } from "../edits/holes";
 import { differenceOf, withFreshIds } from "./difference";
 import { scriptWithChosen, strangersInScript } from "./strangers";
 import type { DrawnScript } from "./session";
 
-const SCRIPT = /^\s*(self\.\w+|if .*:|while .*:|for .*:|try:|class Task)/;
-const GIVEN = /self\.(\w+)\s*=\s*(ctx\.\w+\([^\n]*\))/g;
+const SCRIPT = /^\s*(self\.\p{ID_Start}|if .*:|while .*:|for .*:|try:|class Task)/u;
+const GIVEN = /self\.(\p{ID_Continue}+)\s*=\s*(ctx\.\w+\([^\n]*\))/gu;
 const CALL_OF_NEW_TASK = /^\s*self\.new_task\(\)\s*$/;
 
 export interface Printed {
@@ -106,7 +107,7 @@ export function functionsOf(script: readonly string[]): ReadonlyMap<string, read
   const found = new Map<string, string[]>();
   let current: string[] | null = null;
   for (const line of script) {
-    const name = /^ {4}def (\w+)\(/.exec(line)?.[1];
+    const name = /^ {4}def (\p{ID_Continue}+)\(/u.exec(line)?.[1];
     if (name) found.set(name, (current = []));
     current?.push(line);
   }
@@ -118,7 +119,9 @@ export function functionsOf(script: readonly string[]): ReadonlyMap<string, read
 function missingNames(body: string, script: string, pasted: string, devices: readonly NamedDevice[]): string[] {
   const known = new Set([...script.matchAll(GIVEN)].map(([, name]) => name));
   const theirs = new Map([...pasted.matchAll(GIVEN)].map(([, name, what]) => [name, what]));
-  const used = new Set([...body.matchAll(/self\.(\w+)(?!\w*\()/g)].map(([, name]) => name ?? ""));
+  const used = new Set(
+    [...body.matchAll(/self\.(\p{ID_Continue}+)(?!\p{ID_Continue}*\()/gu)].map(([, name]) => name ?? ""),
+  );
   return [...used].flatMap((name) => {
     const device = devices.find((each) => pythonName(each.name) === name);
     const drives = new RegExp(`self\\.${name}\\.(move|pick|drop)\\(`).test(body);

@@ -41,3 +41,11 @@ test("who was chosen stands in; what is left open is written so that it needs no
   expect(text).toContain("self.old_kiln.cure_paint(7)");
   expect(text).toContain("self.lamp = ctx.get('lamp99')");
 });
+
+test("strangers may have names of every language", () => {
+  const script = 'self.öfen_süd.lüften(3)\nself.öfen_süd.füllstand\nself.öfen_süd = ctx.get("ofen9")';
+  const [found] = strangersInScript(script, new Set());
+  expect([found?.id, found?.needs.methods, found?.needs.readings]).toEqual(["ofen9", ["lüften"], ["füllstand"]]);
+  const open = scriptWithChosen(script, new Map([["ofen9", null]]));
+  expect(open).toContain('self.öfen_süd.operate("lüften", {})');
+});

@@ -1,7 +1,7 @@
 /** Devices of another site in pasted script: who they are, and the script with others in their stead. Pure. */
 import type { Chosen, Stranger } from "../edits/holes";
 
-const GET = /self\.(\w+)\s*=\s*ctx\.get\(\s*["']([^"']+)["']\s*\)/g;
+const GET = /self\.(\p{ID_Continue}+)\s*=\s*ctx\.get\(\s*["']([^"']+)["']\s*\)/gu;
 /** Parts of a device that are written like readings, and that every device has. */
 const OWN_PARTS = ["location"];
 
@@ -14,7 +14,7 @@ export function strangersInScript(script: string, known: ReadonlySet<string>): S
 }
 
 function needsOf(script: string, name: string): Stranger["needs"] {
-  const members = [...script.matchAll(new RegExp(`self\\.${name}\\.(\\w+)(\\(?)`, "g"))];
+  const members = [...script.matchAll(new RegExp(`self\\.${name}\\.(\\p{ID_Continue}+)(\\(?)`, "gu"))];
   const called = unique(members.filter(([, , open]) => open !== "").map(([, member = ""]) => member));
   const read = unique(members.filter(([, , open]) => open === "").map(([, member = ""]) => member));
   const robot = ["move", "pick", "drop"].some((each) => called.includes(each));
@@ -41,7 +41,7 @@ export function scriptWithChosen(script: string, chosen: Chosen): string {
     const other = chosen.get(id);
     if (other === null)
       text = text.replace(
-        new RegExp(`self\\.${name}\\.(?!operate\\b)(\\w+)\\([^\\n]*\\)`, "g"),
+        new RegExp(`self\\.${name}\\.(?!operate\\()(\\p{ID_Continue}+)\\([^\\n]*\\)`, "gu"),
         `self.${name}.operate("$1", {})`,
       );
     else if (other !== undefined)

@@ -13,7 +13,7 @@ export interface Conflict {
   readonly theirs: readonly string[];
 }
 
-const GIVEN = /^\s*self\.\w+ = ctx\./;
+const GIVEN = /^\s*self\.\p{ID_Continue}+ = ctx\./u;
 
 /** Bring what they changed since `base` into my text; where both changed the same lines, the preferred ones stay.
  * Where both only added lines, theirs come before mine. */

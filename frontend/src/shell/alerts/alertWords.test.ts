@@ -4,7 +4,7 @@ import type { Alert } from "@/api/types";
 import type { DeviceEvent, Fault } from "@/api/types";
 import { ownWords } from "./alertWords";
 import problems from "@/i18n/de/problems.json";
-import device from "@/i18n/de/device.json";
+import device from "@/i18n/de/screens/device.json";
 import fault from "@/i18n/de/screens/fault.json";
 import { deviceEventWords } from "@/i18n/deviceEvents";
 import { faultWords, isKnownFault } from "@/i18n/faults";

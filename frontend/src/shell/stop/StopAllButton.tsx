@@ -1,12 +1,16 @@
 /** Stop all: acts at once, holds for everybody, says who pressed it. Needed in every bar of a site. */
 import { Tooltip } from "@mantine/core";
 import { OctagonX } from "lucide-react";
-import { useCallback, useState } from "react";
+import { lazy, Suspense, useCallback, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useSite } from "@/api/queries";
+import { useFetchLater } from "@/design/useFetchLater";
 import { useStopAll, useStopKey } from "./stop";
-import { StopDialog } from "./StopDialog";
 import styles from "./stop.module.css";
+
+const loadDialog = () => import("./StopDialog");
+const LOADS = [loadDialog];
+const StopDialog = lazy(async () => ({ default: (await loadDialog()).StopDialog }));
 
 export function StopAllButton({ slug }: { slug: string }) {
   const { t } = useTranslation();
@@ -18,6 +22,10 @@ export function StopAllButton({ slug }: { slug: string }) {
   const send = press.mutate;
   const pressStop = useCallback(() => (active ? setClosedAt(null) : send()), [active, send]);
   useStopKey(pressStop);
+  useFetchLater(LOADS);
+  const [shown, setShown] = useState(false);
+  // Once it was open it stays, so that it is seen to close.
+  if (active && !shown) setShown(true);
   return (
     <>
       <Tooltip label={active ? t("shell.stop.showWhy") : t("shell.stop.hint")}>
@@ -35,14 +43,16 @@ export function StopAllButton({ slug }: { slug: string }) {
       <span className="visually-hidden" role="alert">
         {active ? t("shell.stop.pressed", { who: site?.stop.by ?? t("shell.stop.somebody") }) : ""}
       </span>
-      {site ? (
-        <StopDialog
-          site={site}
-          opened={active && closedAt !== at}
-          busy={reset.isPending}
-          onReset={() => reset.mutate()}
-          onClose={() => setClosedAt(at)}
-        />
+      {site && shown ? (
+        <Suspense fallback={null}>
+          <StopDialog
+            site={site}
+            opened={active && closedAt !== at}
+            busy={reset.isPending}
+            onReset={() => reset.mutate()}
+            onClose={() => setClosedAt(at)}
+          />
+        </Suspense>
       ) : null}
     </>
   );

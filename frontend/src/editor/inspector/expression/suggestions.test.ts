@@ -63,3 +63,10 @@ test("what can be chosen is offered by its beginning, all of it in an opened lis
   const [chosen] = suggestChoices("re", choices, false);
   expect(chosen && take("re + 1", 2, chosen)).toEqual({ text: "red", caret: 3 });
 });
+
+test("names of every language are found by what is written of them", () => {
+  const oven = { name: "ofen_süd", kind: "device", id: "o", properties: [{ name: "Füllstand", written: "füllstand" }] };
+  const found = (text: string) => suggest(text, text.length, [oven]);
+  expect(found("1 + ofen_sü").map(({ insert, from }) => [insert, from])).toEqual([["ofen_süd", 4]]);
+  expect(found("ofen_süd.fü").map(({ insert, from }) => [insert, from])).toEqual([["füllstand", 9]]);
+});

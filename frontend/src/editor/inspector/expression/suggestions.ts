@@ -36,7 +36,7 @@ export const FUNCTIONS = [
   "text",
 ] as const;
 
-const BEFORE = /(?:([A-Za-z_]\w*)\.)?([A-Za-z_]\w*)?$/;
+const BEFORE = /(?:([\p{ID_Start}_]\p{ID_Continue}*)\.)?([\p{ID_Start}_]\p{ID_Continue}*)?$/u;
 const MOST = 50;
 
 export function suggest(text: string, caret: number, names: readonly LineName[]): readonly Suggestion[] {
@@ -50,7 +50,7 @@ export function suggest(text: string, caret: number, names: readonly LineName[])
       word,
       from,
     );
-  if (/[\w.]$/.test(before.slice(0, from))) return [];
+  if (/[\p{ID_Continue}.]$/u.test(before.slice(0, from))) return [];
   const all = [
     ...names.map((each) => entry(each.name, each.kind, each.name, from)),
     ...FUNCTIONS.map((name) => entry(name, "function", name === "now" ? "now()" : `${name}(`, from)),

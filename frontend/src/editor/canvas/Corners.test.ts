@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { nearestLeg, pushed, withCorner, withoutCorner } from "./CornerHandles";
+import { nearestLeg, pushed, withCorner, withoutCorner } from "./Corners";
 
 test("corners are pushed, added and taken away one at a time", () => {
   const square = [
