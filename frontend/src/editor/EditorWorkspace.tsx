@@ -1,5 +1,5 @@
 /** Where things stand on the editor's screen. */
-import { useMediaQuery } from "@mantine/hooks";
+import { useMediaQuery, useViewportSize } from "@mantine/hooks";
 import { type CSSProperties, lazy, Suspense, useEffect, useMemo } from "react";
 import { useFetchLater } from "@/design/useFetchLater";
 import type { Insets } from "@/map/plane/projection";
@@ -49,6 +49,8 @@ export function EditorWorkspace() {
   useFetchLater(LATER);
   const small = useMediaQuery("(max-width: 1179px)") ?? false;
   const drawerOpen = useUi((ui) => ui.drawer.open);
+  const tall = useUi((ui) => ui.drawer.open && ui.tallDrawer);
+  const half = useViewportSize().height / 2;
   const selected = useUi((ui) => ui.selected.length > 0);
   const resting = useUi((ui) => ui.gesture.tool === "select");
   // The program itself is shown beside a resting hand only: while something is drawn the map needs the room.
@@ -62,9 +64,9 @@ export function EditorWorkspace() {
   const insets = useMemo<Insets>(
     () =>
       small
-        ? { left: 40, right: 16, top: 36, bottom: lifted + (drawerOpen ? 420 : 148) }
-        : { left: 100, right: inspector ? 336 : 12, top: 34, bottom: drawerOpen ? 300 : 62 },
-    [small, inspector, drawerOpen, lifted],
+        ? { left: 40, right: 16, top: 36, bottom: lifted + (tall ? 100 + half : drawerOpen ? 420 : 148) }
+        : { left: 100, right: inspector ? 336 : 12, top: 34, bottom: tall ? 24 + half : drawerOpen ? 300 : 62 },
+    [small, inspector, drawerOpen, lifted, tall, half],
   );
   // The floor is fitted as if all panels were open: a selected step must not cover the machines.
   const fitInsets = useMemo<Insets>(() => (small ? insets : { ...FITTED }), [small, insets]);

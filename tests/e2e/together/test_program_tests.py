@@ -44,6 +44,7 @@ def test_a_test_is_written_mended_and_carried_out_by_keyboard(sign_in: SignIn, f
     shoot(page, "tests-empty")
     press(panel, "New test")
     page.get_by_role("menuitem", name="Empty").press("Enter")
+    panel.get_by_role("radio", name="Text").press("Space")
     text = panel.get_by_role("textbox", name="The test as YAML")
     text.focus()
     page.keyboard.press("Control+A")
@@ -97,6 +98,79 @@ def test_a_test_is_written_mended_and_carried_out_by_keyboard(sign_in: SignIn, f
     assert (last["number"], last["passed"], last["total"]) == (1, 1, 1)
     expect(page.get_by_text("1 of 1 test passes")).to_be_visible()
     shoot(page, "tests-history")
+
+
+def choose(page: Page, field: Locator, option: str) -> None:
+    """Choose in a list by typing a part of it."""
+    field.focus()
+    page.keyboard.type(option)
+    page.get_by_role("option").filter(has_text=option).first.click()
+
+
+def line(panel: Locator, part: str, number: int) -> Locator:
+    """Find a line of a part of the form."""
+    return panel.get_by_role("region", name=part).get_by_role("listitem", name=f"Line {number}", exact=True)
+
+
+def add(page: Page, panel: Locator, button: str, kind: str) -> None:
+    """Add a line to the form by the keyboard."""
+    panel.get_by_role("button", name=button).press("Enter")
+    page.get_by_role("menuitem", name=kind, exact=True).press("Enter")
+
+
+def test_a_test_is_filled_in_without_writing_text_and_its_fault_strikes(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "Tested with a form")
+    draw_task(page)
+    saved(page)
+    panel = open_tests(page)
+    press(panel, "New test")
+    page.get_by_role("menuitem", name="Empty").press("Enter")
+    panel.get_by_role("textbox", name="Name", exact=True).fill("The robot loses its box")
+    add(page, panel, "Something that is given", "A machine holds something")
+    given = line(panel, "Given", 1)
+    choose(page, given.get_by_role("combobox", name="Device"), "Item Inventory")
+    given.get_by_role("textbox", name="How many").fill("24")
+    given.get_by_role("combobox", name="What").fill("box")
+    page.keyboard.press("Escape")
+    press(panel, "Add a fault")
+    fault = panel.get_by_role("group", name="Fault 1")
+    shoot(page, "test-form")
+    fault.get_by_role("combobox", name="What goes wrong").focus()
+    page.keyboard.press("ArrowDown")
+    page.get_by_role("option", name="Something lies on the floor").click()
+    for field, metres in (("x", "10"), ("y", "-7.7"), ("Size", "2")):
+        fault.get_by_role("textbox", name=f"{field} (m)").fill(metres)
+    add(page, panel, "Something that holds", "A step is carried out")
+    choose(page, line(panel, "Then", 2).get_by_role("combobox", name="Step"), "Pick")
+    assert violations(page) == []
+    shoot(page, "test-form-filled")
+    press(panel, "Save")
+    press(panel, "Run this test")
+    ends, picks = (line(panel, "Then", number) for number in (1, 2))
+    expect(ends.get_by_label("Does not hold")).to_be_visible(timeout=60_000)
+    expect(picks.get_by_label("Holds", exact=True)).to_be_visible()
+    shoot(page, "test-form-failed")
+    assert violations(page) == []
+
+    panel.get_by_role("radio", name="Text").press("Space")
+    text = panel.get_by_role("textbox", name="The test as YAML")
+    expect(text).to_contain_text("fault: obstacle")
+    text.focus()
+    page.keyboard.press("Control+End")
+    page.keyboard.type("# in the morning things lie about\n")
+    panel.get_by_role("radio", name="Form").press("Space")
+    expect(fault.get_by_role("combobox", name="What goes wrong")).to_have_value("Something lies on the floor")
+    press(fault, "Remove fault 1")
+    press(panel, "Save")
+    program = program_named(page, "Tested with a form")
+    [kept] = ask(page, f"/api/programs/{program}/tests")["tests"]
+    written = ask(page, f"/api/programs/{program}/tests/{kept['id']}")["text"]
+    assert "fault" not in written
+    assert "# in the morning things lie about" in written
+    assert "box: 24" in written
+    press(panel, "Run this test")
+    expect(ends.get_by_label("Holds", exact=True)).to_be_visible(timeout=60_000)
 
 
 def missed(page: Page) -> str:

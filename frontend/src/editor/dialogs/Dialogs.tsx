@@ -20,8 +20,8 @@ const LOAD = {
   library: () => import("./LibraryDialog").then(({ LibraryDialog }) => ({ default: LibraryDialog })),
   save_function: () =>
     import("./SaveFunctionDialog").then(({ SaveFunctionDialog }) => ({ default: SaveFunctionDialog })),
-  strangers: () => import("./StrangersDialog").then(({ StrangersDialog }) => ({ default: StrangersDialog })),
-  find: () => import("./FindDialog").then(({ FindDialog }) => ({ default: FindDialog })),
+  strangers: () => withTexts(import("./StrangersDialog").then(({ StrangersDialog }) => ({ default: StrangersDialog }))),
+  find: () => withTexts(import("./FindDialog").then(({ FindDialog }) => ({ default: FindDialog }))),
   shortcuts: () => import("./ShortcutsDialog").then(({ ShortcutsDialog }) => ({ default: ShortcutsDialog })),
   templates: () =>
     withTexts(import("../beginning/TemplateDialog").then(({ TemplateDialog }) => ({ default: TemplateDialog }))),

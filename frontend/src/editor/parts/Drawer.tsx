@@ -1,5 +1,7 @@
 /** The drawer at the bottom: script, problems, steps, tests, comments. */
 import {
+  ChevronsDown,
+  ChevronsUp,
   Copy,
   FileCode2,
   FlaskConical,
@@ -23,10 +25,12 @@ const DrawerBody = lazy(async () => ({ default: (await import("./DrawerBody")).D
 export function Drawer({ small }: { small: boolean }) {
   const { t, diagnostics } = useOpenProgram();
   const drawer = useUi((ui) => ui.drawer);
+  const tall = useUi((ui) => ui.tallDrawer);
   return (
     <section
       className={classes.drawer}
       data-tour="drawer"
+      data-tall={tall || undefined}
       data-open={drawer.open || undefined}
       aria-label={t("drawer.label")}
     >
@@ -69,10 +73,22 @@ function Actions() {
           <Copy size={15} aria-hidden="true" />
         </IconButton>
       ) : null}
+      {drawer.open ? <Height /> : null}
       <IconButton label={t(drawer.open ? "drawer.hide" : "drawer.show")} aria-expanded={drawer.open} onClick={toggle}>
         <Sign size={16} aria-hidden="true" />
       </IconButton>
     </div>
+  );
+}
+
+function Height() {
+  const { t } = useOpenProgram();
+  const tall = useUi((ui) => ui.tallDrawer);
+  const Sign = tall ? ChevronsDown : ChevronsUp;
+  return (
+    <IconButton label={t("drawer.taller")} aria-pressed={tall} onClick={() => useUi.setState({ tallDrawer: !tall })}>
+      <Sign size={16} aria-hidden="true" />
+    </IconButton>
   );
 }
 

@@ -49,6 +49,8 @@ export interface EditorUi {
   /** The step made last, until something else is selected. */
   fresh: string | null;
   drawer: { readonly open: boolean; readonly tab: DrawerTab };
+  /** The drawer takes half of the screen. */
+  tallDrawer: boolean;
   inspector: boolean;
   /** On small screens: the sheet of the program itself. */
   programSheet: boolean;
@@ -75,6 +77,7 @@ const START: EditorUi = {
   into: null,
   fresh: null,
   drawer: { open: true, tab: "script" },
+  tallDrawer: false,
   inspector: true,
   programSheet: false,
   device: null,
@@ -96,8 +99,8 @@ export const useUi = create<EditorUi>(() => ({ ...START, drawer: { ...START.draw
 
 /** Another program: nothing selected, nothing in hand; what was copied stays. */
 export function resetUi(): void {
-  const { clipboard, drawer } = useUi.getState();
-  useUi.setState({ ...START, clipboard, drawer });
+  const { clipboard, drawer, tallDrawer } = useUi.getState();
+  useUi.setState({ ...START, clipboard, drawer, tallDrawer });
 }
 
 export function select(ids: readonly string[]): void {

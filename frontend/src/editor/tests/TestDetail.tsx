@@ -1,23 +1,22 @@
-/** One test: its text, what the parser says of it, and what came of it. */
+/** One test: what it says, and what came of it. */
 import { Button } from "@mantine/core";
 import { ArrowLeft, Check, Play, Save, Trash2, X } from "lucide-react";
-import { useEffect, useId, useRef, useState } from "react";
+import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { ApiProblem } from "@/api/client";
 import { mayOperate } from "@/api/roles";
 import type { ProgramTest, TestOdds, TestResult } from "@/api/types";
 import { formatNumber, formatSpan } from "@/i18n/format";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
-import drawer from "../parts/drawer.module.css";
 import { useOpenProgram } from "../state/context";
 import { say } from "../state/ui";
 import { formatShare } from "./odds";
 import { expectedWords, seenWords } from "@/program/words/testSentences";
 import classes from "./tests.module.css";
-import { keepDraft, lookAt, openTest, readTest, useTesting, useTestsUi, useTestText } from "./tests";
+import { keepDraft, openTest, readTest, useTesting, useTestsUi, useTestText } from "./tests";
 import { Status, staleWords } from "./TestList";
+import { Way, Written } from "./TestWriting";
 import { useRun } from "./useRun";
-import type { Fault, YamlView } from "./yamlView";
 
 interface DetailProps {
   /** The id of a test, or `new`. */
@@ -42,7 +41,7 @@ export function TestDetail({ opened, test, most }: DetailProps) {
       {saved.error ? <LoadProblem error={saved.error} again={() => void saved.refetch()} /> : null}
       {text === undefined ? null : (
         <div className={classes.halves}>
-          <YamlText text={text} readOnly={!canEdit} onType={type} />
+          <Written text={text} readOnly={!canEdit} result={draft ? null : (test?.result ?? null)} onType={type} />
           {test?.result ? <Result result={test.result} /> : null}
         </div>
       )}
@@ -68,6 +67,7 @@ function DetailHead({ opened, test, most }: DetailProps) {
           {t("tests.back")}
         </Button>
         <h2>{test?.name ?? t("tests.new")}</h2>
+        <Way />
         <div className={classes.acts}>
           {draft ? (
             <>
@@ -201,71 +201,6 @@ function Delete({ test, onDelete }: { test: ProgramTest; onDelete: () => void })
   );
 }
 
-const LOOK_AFTER_MS = 400;
-
-function YamlText({ text, readOnly, onType }: { text: string; readOnly: boolean; onType: (text: string) => void }) {
-  const { t } = useTranslation();
-  const { program } = useOpenProgram();
-  const place = useRef<HTMLDivElement>(null);
-  const [view, setView] = useState<YamlView | null>(null);
-  const typed = useRef(onType);
-  const told = useId();
-  const fault = useFault(program.id, text, readOnly);
-  const label = t("tests.text");
-  useEffect(() => {
-    typed.current = onType;
-  }, [onType]);
-  useEffect(() => {
-    let opened: YamlView | undefined;
-    const closing = new AbortController();
-    void import("./yamlView").then(({ openYaml }) => {
-      if (!place.current || closing.signal.aborted) return;
-      const onText = (next: string) => typed.current(next);
-      opened = openYaml(place.current, { label, describedBy: told, readOnly, onType: onText });
-      setView(opened);
-    });
-    return () => {
-      closing.abort();
-      setView(null);
-      opened?.destroy();
-    };
-  }, [label, told, readOnly]);
-  useEffect(() => view?.show(text), [view, text]);
-  useEffect(() => view?.mark(fault), [view, fault]);
-  return (
-    <div className={classes.yaml}>
-      <div ref={place} className={drawer.script} />
-      <p id={told} role="status" className={classes.fault} data-wrong={fault ? true : undefined}>
-        {fault ? (
-          <span lang="en">{`${fault.line > 0 ? `${t("tests.at_line", { line: fault.line })}: ` : ""}${fault.why}`}</span>
-        ) : readOnly ? null : (
-          t("tests.no_fault")
-        )}
-      </p>
-    </div>
-  );
-}
-
-/** What the parser says of a text, asked once nobody types. */
-function useFault(program: string, text: string, readOnly: boolean): Fault | null {
-  const [fault, setFault] = useState<Fault | null>(null);
-  useEffect(() => {
-    if (readOnly) return;
-    let latest = true;
-    const ask = () =>
-      void lookAt(program, text).then(
-        (answer) => latest && setFault(answer.fault),
-        () => {}, // who cannot be asked now is asked when it is saved
-      );
-    const timer = setTimeout(ask, LOOK_AFTER_MS);
-    return () => {
-      latest = false;
-      clearTimeout(timer);
-    };
-  }, [program, text, readOnly]);
-  return fault;
-}
-
 function Result({ result }: { result: TestResult }) {
   const { t } = useTranslation();
   const facts = [
@@ -275,7 +210,8 @@ function Result({ result }: { result: TestResult }) {
     staleWords(result, t),
   ];
   return (
-    <section className={classes.result} aria-label={t("tests.result")}>
+    // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- it scrolls, so the keyboard has to come to it
+    <section className={classes.result} aria-label={t("tests.result")} tabIndex={0}>
       <p>
         <Status status={result.status} /> {facts.filter(Boolean).join(", ")}
       </p>

@@ -22,6 +22,8 @@ export interface TestsUi {
   readonly marks: boolean;
   /** With so many seeds each test is carried out besides its own. */
   readonly seeds: number;
+  /** Tests are written as text instead of in a form. */
+  readonly asText: boolean;
   /** The panel is open, so its texts are here. */
   readonly shown: boolean;
 }
@@ -35,7 +37,7 @@ export interface Asked {
 }
 
 export const NEW = "new";
-const START: TestsUi = { opened: null, drafts: {}, marks: true, seeds: 0, shown: false };
+const START: TestsUi = { opened: null, drafts: {}, marks: true, seeds: 0, asText: false, shown: false };
 export const useTestsUi = create<TestsUi>(() => START);
 
 /** Another program: nothing opened, nothing written. */

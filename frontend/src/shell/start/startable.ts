@@ -25,7 +25,10 @@ export interface Choice {
 }
 
 /** The steps by their numbers, as one chooses among them; `say` is of the editor's texts. */
-export function stepChoices({ document, compiled, devices, places }: Startable, say: Translate): Choice[] {
+export function stepChoices(
+  { document, compiled, devices, places }: Pick<Startable, "document" | "compiled" | "devices" | "places">,
+  say: Translate,
+): Choice[] {
   const speaker = { t: say, document, surroundings: surroundingsOf(devices, places) };
   return (compiled?.order ?? []).flatMap((id) => {
     const step = document.steps[id];

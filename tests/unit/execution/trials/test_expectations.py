@@ -1,9 +1,12 @@
 """What holds in a rehearsal, and what is said of what does not."""
 
+from typing import get_args
+
 import pytest
 
 from execution.trials.expectations import Seen, judge
-from execution.trials.trial import Expectation
+from execution.trials.trial import Expectation, ExpectationKind
+from tests.kit.files import ROOT
 
 SQUARE = ((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0))
 
@@ -76,3 +79,8 @@ def test_a_failure_is_told_with_its_time_and_step(kind, says, holds):
 def test_a_rehearsal_in_which_robots_touch_does_not_end_well():
     verdict = judge(Expectation("ends", 1, "well"), seen(ok=False, collisions=[{"t": 4.0, "a": "r1", "b": "wall"}]))
     assert (verdict.ok, verdict.saw) == (False, "r1 touched wall at 4 s")
+
+
+def test_the_form_of_a_test_knows_every_expectation():
+    rows = (ROOT / "frontend" / "src" / "editor" / "tests" / "testRows.ts").read_text()
+    assert [kind for kind in get_args(ExpectationKind) if f'kind === "{kind}"' not in rows] == []
