@@ -41,7 +41,7 @@ SAVE_EVERY_S = 0.25
 PUBLISH_EVERY_S = 0.01
 READ_FOR_S = 5.0
 """So long a question after news waits for an answer: each is work, in a room where nothing happens too."""
-SPREAD_EVERY_S, SPREAD_AT_LEAST_EVERY_S = 0.01, 0.2
+SPREAD_EVERY_S, SPREAD_AT_LEAST_EVERY_S = 0.006, 0.2
 ADOPT_EVERY_S = 0.5
 LOST_FOR_S = 20.0
 """So long a room goes on by itself while the other processes cannot be reached."""
