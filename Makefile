@@ -4,7 +4,7 @@ BIN := .venv/bin
 SOURCES := vipo_site vipo_device registry editor simulation execution connectors firmware/robot_agent tests bench scripts manage.py
 FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 
-.PHONY: demo test test-python check check-beside check-static check-frontend check-units bench chaos mutation audit checks-page constructs openapi format frontend setup setup-dev servers clean
+.PHONY: demo test test-python check check-beside check-static check-frontend check-units bench chaos mutation audit checks-page pictures constructs openapi format frontend setup setup-dev servers clean
 
 demo: setup frontend
 	@exec $(BIN)/python -m vipo_site.demo
@@ -88,6 +88,9 @@ openapi: setup-dev
 
 checks-page: setup-dev
 	$(BIN)/python -m scripts.checks_page > docs/language/checks.md.new && mv docs/language/checks.md.new docs/language/checks.md
+
+pictures: setup-dev servers frontend
+	$(BIN)/python -m scripts.screenshots
 
 bench: setup-dev
 	$(BIN)/python -m bench

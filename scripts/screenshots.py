@@ -47,6 +47,7 @@ def window(browser: Browser, demo: Demo, state: Any, size: tuple[int, int], dark
         color_scheme="dark" if dark else "light",
         locale="en-GB",
         storage_state=state,
+        service_workers="block",
     )
     page = context.new_page()
     page.goto(demo.url)
@@ -67,8 +68,29 @@ def show_editor(page: Page, demo: Demo, camera: Camera, name: str) -> None:
     expect(page.get_by_text("self.parallel").first).to_be_visible()
     step.click(position={"x": 14, "y": 14})
     expect(page.get_by_role("complementary", name="Selected step")).to_be_visible()
-    page.wait_for_load_state("networkidle")
+    page.wait_for_timeout(1500)  # what is live never rests
     camera.take(page, name)
+
+
+def bring_tests(page: Page) -> None:
+    """Give the paint order the tests of the examples, and carry them out."""
+    program = paint_order(page)
+    if not ask(page, f"/api{program}/tests")["tests"]:
+        tell(page, f"/api{program}/tests/import", {"text": (ROOT / "examples/tests/paint-order.yaml").read_text()})
+        tell(page, f"/api{program}/test-runs", {})
+
+
+def show_tests(page: Page, demo: Demo, camera: Camera) -> None:
+    """The tests of the paint order, one of them open as a form."""
+    page.goto(demo.url + paint_order(page))
+    page.get_by_role("tab", name="Tests").click()
+    page.get_by_role("button", name="Make the drawer taller").click()
+    tests = page.get_by_role("list", name="Tests").get_by_role("listitem")
+    expect(tests.filter(has_text=re.compile("Passed|Failed")).first).to_be_visible(timeout=180_000)
+    tests.filter(has_text="scratched").get_by_role("button").first.click()
+    expect(page.get_by_role("region", name="Result")).to_be_visible()
+    page.wait_for_timeout(1000)
+    camera.take(page, "tests")
 
 
 def save_function(page: Page) -> None:
@@ -84,18 +106,22 @@ def save_function(page: Page) -> None:
 
 
 def show_pages(page: Page, demo: Demo, camera: Camera) -> None:
-    """Home, devices and library."""
+    """Home, devices, library and map."""
     site = f"{demo.url}/sites/painting-factory"
     page.goto(f"{site}/devices/paintMixer02")
     expect(page.get_by_role("complementary", name="Paint Mixer B")).to_contain_text("mixPaint")
-    page.wait_for_load_state("networkidle")
+    page.wait_for_timeout(1500)  # what is live never rests
     camera.take(page, "registry")
     page.goto(f"{site}/library/{ask(page, '/api/library?q=')[0]['id']}")
     expect(page.get_by_text("def ").first).to_be_visible()
     camera.take(page, "library")
+    page.goto(f"{site}/map")
+    expect(page.get_by_role("heading", name="Places")).to_be_visible()
+    page.wait_for_timeout(1500)  # what is live never rests
+    camera.take(page, "map")
     page.goto(demo.url)
     expect(page.get_by_role("region", name="Recent runs").get_by_role("listitem").first).to_be_visible()
-    page.wait_for_load_state("networkidle")
+    page.wait_for_timeout(1500)  # what is live never rests
     camera.take(page, "home")
 
 
@@ -115,7 +141,7 @@ def show_run(page: Page, demo: Demo, camera: Camera, run: str) -> None:
     page.goto(f"{demo.url}/runs/{run}")
     expect(the_map(page).locator("[data-state=running]").first).to_be_visible()
     expect(page.get_by_role("tabpanel").get_by_role("button").nth(1)).to_be_visible()
-    page.wait_for_load_state("networkidle")
+    page.wait_for_timeout(1500)  # what is live never rests
     page.wait_for_timeout(1500)
     camera.take(page, "run-monitor")
 
@@ -129,6 +155,7 @@ def photograph(browser: Browser, demo: Demo, tablet: Path | None) -> None:
         cameras["tablet-"] = Camera(tablet, "tablet-")
     with window(browser, demo, state, SIZES[""], dark=False) as page:
         save_function(page)
+        bring_tests(page)
         rehearsal = tell(page, f"/api{paint_order(page)}/rehearsals")["id"]
         run = tell(page, f"/api{paint_order(page)}/runs")["id"]
     for prefix, camera in cameras.items():
@@ -137,6 +164,7 @@ def photograph(browser: Browser, demo: Demo, tablet: Path | None) -> None:
             show_editor(page, demo, camera, "editor-light")
             show_pages(page, demo, camera)
             show_simulation(page, demo, camera, rehearsal)
+            show_tests(page, demo, camera)
         with window(browser, demo, state, SIZES[prefix], dark=True) as page:
             show_editor(page, demo, camera, "editor-dark")
 

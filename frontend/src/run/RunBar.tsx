@@ -7,16 +7,19 @@ import { api, ApiProblem } from "@/api/client";
 import type { Run } from "@/api/types";
 import { clock } from "@/design/clock";
 import { isPlanned } from "./terms";
+import { useUsualTime } from "./usualTime";
 import styles from "./RunScreen.module.css";
 
 /** How the run stands, with its clock. */
 export function RunPill({ run, elapsed_s, now }: { run: Run; elapsed_s: number; now: number }) {
   const { t } = useTranslation();
+  const usual = useUsualTime(run, run.ended_at !== null);
   const planned = isPlanned(run, now);
   return (
     <span className={styles.pill} data-status={run.status} role="status">
       <i aria-hidden="true" /> {t(planned ? "run.terms.planned" : `run.status.${run.status}`)}{" "}
       {planned ? null : <b>{clock(elapsed_s)}</b>}
+      {planned || usual === null ? null : <small>{t("run.usual", { time: clock(usual) })}</small>}
     </span>
   );
 }

@@ -83,7 +83,7 @@ def test_a_line_of_a_runs_journal_tells_why(kind: str, code: str, text: str, cau
 
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_the_screens_have_words_for_every_reason(language: str) -> None:
-    catalogue = ROOT / "frontend" / "src" / "i18n" / language / "reason.json"
+    catalogue = ROOT / "frontend" / "src" / "i18n" / language / "screens" / "reason.json"
     texts = json.loads(catalogue.read_text(encoding="utf-8"))["because"]
     assert set(texts) == {*SENTENCES, SAID}
     for code, sentence in SENTENCES.items():

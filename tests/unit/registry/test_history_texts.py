@@ -44,6 +44,6 @@ def test_of_a_description_that_is_all_new_only_some_parts_are_kept_apart() -> No
 
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_the_screens_have_words_for_every_line(language: str) -> None:
-    texts = json.loads((CATALOGUES / language / "device.json").read_text(encoding="utf-8"))
+    texts = json.loads((CATALOGUES / language / "screens" / "device.json").read_text(encoding="utf-8"))
     assert set(SENTENCES) <= set(texts["event"])
     assert set(texts["eventPart"]) == set(PARTS)
