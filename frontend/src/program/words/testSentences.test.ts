@@ -39,7 +39,7 @@ test.each([
   ["property", { device: "oven", name: "hot", word: "is", value: true }, "oven.hot is true"],
   ["property", { device: "oven", name: "t", word: "at_least", value: 40 }, "oven.t at least 40"],
   ["step", { step: "x", number: "7b" }, "step 7b is carried out"],
-  ["step", { step: "x", number: "7b", times: 0 }, "step 7b is carried out 0 times"],
+  ["step", { step: "x", number: "7b", times: 0 }, "step 7b is carried out 0×"],
 ])("%s is said", (kind, says, words) => {
   expect(expectedWords(of({ kind, says }), t)).toEqual({ text: words });
 });
