@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import os
 import re
+import time
 
 import pytest
 from playwright.sync_api import Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import address_of, ask, draw_task, make_program, run_state, saved, start_run, violations
+from tests.e2e.screens import address_of, ask, draw_task, make_program, run_state, saved, start_run, tell, violations
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
 SITE = "/api/sites/painting-factory"
 DEVICES = "/sites/painting-factory/devices"
 ROBOTS = ("robot01", "robot02", "robot03")
+CALM_S = 4.0
 
 
 def shoot(page: Page, name: str) -> None:
@@ -33,11 +35,29 @@ def switch(page: Page, robot: str, *, simulated: bool) -> None:
     wait_for(robot, lambda: ask(page, f"{SITE}/devices/{robot}")["status"] != "offline")
 
 
+def end_others(page: Page) -> None:
+    """End what tests before this one have begun, and wait until no robot does anything for it any more."""
+    for state in ("running", "paused"):
+        for run in ask(page, f"{SITE}/runs?state={state}"):
+            tell(page, f"/api/runs/{run['id']}/cancel")
+    calm_since = time.monotonic()
+
+    def are_calm() -> bool:
+        """Whether no robot does anything, for some seconds: between two ways it is idle, too."""
+        nonlocal calm_since
+        if any(ask(page, f"{SITE}/devices/{robot}")["status"] not in ("idle", "done") for robot in ROBOTS):
+            calm_since = time.monotonic()
+        return time.monotonic() - calm_since > CALM_S
+
+    wait_for("robots that rest", are_calm, 90.0, every_s=0.5)
+
+
 def test_a_robot_is_simulated_in_a_run(sign_in: SignIn, faults: list[str]) -> None:
     page, other = (
         sign_in("author", f"{DEVICES}/robot01"),
         sign_in("admin", f"{DEVICES}/robot01", width=820, height=1180),
     )
+    end_others(page)
     detail = page.get_by_role("complementary", name="TurtleBot 1")
     detail.get_by_role("button", name="Simulate this one").press("Enter")
     card = detail.get_by_role("region", name="Simulated in place of the real device")

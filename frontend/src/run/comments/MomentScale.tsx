@@ -43,7 +43,7 @@ export function MomentScale(props: MomentScaleProps) {
       aria-valuemin={0}
       aria-valuemax={Math.round(elapsed_s)}
       aria-valuenow={Math.round(now)}
-      aria-valuetext={clock(now)}
+      aria-valuetext={clock(Math.round(now))}
       onPointerDown={onPointer}
       onPointerMove={onPointer}
       onKeyDown={onKeyDown}
