@@ -13,7 +13,7 @@ import { say } from "../state/ui";
 import { formatShare } from "./odds";
 import { expectedWords, seenWords } from "@/program/words/testSentences";
 import classes from "./tests.module.css";
-import { keepDraft, openTest, readTest, useTesting, useTestsUi, useTestText } from "./tests";
+import { carryForm, keepDraft, openTest, readTest, useTesting, useTestsUi, useTestText } from "./tests";
 import { Status, staleWords } from "./TestList";
 import { Way, Written } from "./TestWriting";
 import { useRun } from "./useRun";
@@ -41,7 +41,13 @@ export function TestDetail({ opened, test, most }: DetailProps) {
       {saved.error ? <LoadProblem error={saved.error} again={() => void saved.refetch()} /> : null}
       {text === undefined ? null : (
         <div className={classes.halves}>
-          <Written text={text} readOnly={!canEdit} result={draft ? null : (test?.result ?? null)} onType={type} />
+          <Written
+            opened={opened}
+            text={text}
+            readOnly={!canEdit}
+            result={draft ? null : (test?.result ?? null)}
+            onType={type}
+          />
           {test?.result ? <Result result={test.result} /> : null}
         </div>
       )}
@@ -130,6 +136,7 @@ function useWriting(opened: string, test: ProgramTest | undefined, most: number)
       const now = useTestsUi.getState().drafts[opened];
       // What was typed while it was saved is of what is saved now.
       keepDraft(opened, null);
+      carryForm(opened, draft.text, made);
       if (now && now.text !== draft.text) keepDraft(made.id, { id: made.id, text: now.text, tag: made.tag });
       openTest(made.id);
       say(t("tests.saved"));

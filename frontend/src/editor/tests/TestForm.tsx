@@ -13,11 +13,14 @@ import { stepChoices } from "@/shell/start/startable";
 import { useStartable } from "../dialogs/startable";
 import { GivenLine } from "./GivenLine";
 import { ThenLine } from "./ThenLine";
-import { type FaultRow, freshGiven, freshThen, rowsOf, type TestRows, THEN, valuesOf } from "./testRows";
+import { type FaultRow, freshGiven, freshThen, isWhole, rowsOf, type TestRows, THEN, valuesOf } from "./testRows";
 import { GIVEN, readValues, type TestValues, writeValues } from "./testText";
+import { keepForm, useTestsUi } from "./tests";
 import classes from "./testForm.module.css";
 
 interface TestFormProps {
+  /** The id of the test, or `new`. */
+  opened: string;
   text: string;
   readOnly: boolean;
   /** What came of the test as it is written here. */
@@ -26,9 +29,9 @@ interface TestFormProps {
   onText: () => void;
 }
 
-export function TestForm({ text, readOnly, result, onType, onText }: TestFormProps) {
+export function TestForm({ opened, text, readOnly, result, onType, onText }: TestFormProps) {
   const { t } = useTranslation();
-  const form = useForm(text, onType);
+  const form = useForm(opened, text, onType);
   if (!form)
     return (
       <div className={classes.unread}>
@@ -64,7 +67,7 @@ interface FormProps {
 }
 
 /** The form of a text, kept while its own changes come back as the text; null where no form can show it. */
-function useForm(text: string, onType: (text: string) => void): FormProps | null {
+function useForm(opened: string, text: string, onType: (text: string) => void): FormProps | null {
   const about = useStartable();
   const { compiled, document, devices } = about;
   const steps = useMemo(() => new Set(Object.keys(document.steps)), [document]);
@@ -76,15 +79,16 @@ function useForm(text: string, onType: (text: string) => void): FormProps | null
     const values = readValues(text);
     return { text, values, rows: values && rowsOf(values, stepNamed) };
   };
-  const [kept, setKept] = useState(read);
+  const filled = useTestsUi((ui) => ui.forms[opened]);
+  const [known, setKnown] = useState(read);
   // What was written elsewhere, in the text or by somebody else, is read anew.
-  const now = kept.text === text ? kept : read();
-  if (now !== kept) setKept(now);
+  const now = [filled, known].find((each) => each?.text === text) ?? read();
+  if (now !== filled && now !== known) setKnown(now);
   const { values, rows } = now;
   if (!values || !rows) return null;
   const write = (change: Partial<TestValues>, next: TestRows) => {
     const written = writeValues(text, change);
-    setKept({ text: written, values: { ...values, ...change }, rows: next });
+    keepForm(opened, { text: written, values: { ...values, ...change }, rows: next });
     if (written !== text) onType(written);
   };
   return {
@@ -276,7 +280,8 @@ function ThenPart({ rows, setRows, about, result }: FormProps & { result: TestRe
   const { t } = useTranslation();
   const steps = useSteps(about);
   const set = (then: TestRows["then"]) => setRows({ ...rows, then });
-  const seen = result?.expectations.length === rows.then.length ? result.expectations : [];
+  const written = rows.then.filter(isWhole.then);
+  const seen = result?.expectations.length === written.length ? result.expectations : [];
   return (
     <Part title={t("tests.form.then")}>
       <ul>
@@ -287,7 +292,7 @@ function ThenPart({ rows, setRows, about, result }: FormProps & { result: TestRe
             number={at + 1}
             about={about}
             steps={steps}
-            holds={seen[at]?.ok ?? null}
+            holds={seen[written.indexOf(row)]?.ok ?? null}
             onChange={(changed) => set(withLine(rows.then, at, changed))}
             onRemove={rows.then.length > 1 ? () => set(withLine(rows.then, at, null)) : null}
           />

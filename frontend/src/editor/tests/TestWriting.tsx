@@ -14,6 +14,8 @@ const TestForm = lazy(async () => ({ default: (await import("./TestForm")).TestF
 const LOOK_AFTER_MS = 400;
 
 interface WrittenProps {
+  /** The id of the test, or `new`. */
+  opened: string;
   text: string;
   readOnly: boolean;
   /** What came of it as it is written here. */
@@ -22,7 +24,7 @@ interface WrittenProps {
 }
 
 /** The test in a form or as text, and what the parser says of it. */
-export function Written({ text, readOnly, result, onType }: WrittenProps) {
+export function Written({ opened, text, readOnly, result, onType }: WrittenProps) {
   const { t } = useTranslation();
   const { program } = useOpenProgram();
   const asText = useTestsUi((ui) => ui.asText);
@@ -34,7 +36,14 @@ export function Written({ text, readOnly, result, onType }: WrittenProps) {
         <YamlText text={text} readOnly={readOnly} fault={fault} told={told} onType={onType} />
       ) : (
         <Suspense fallback={null}>
-          <TestForm text={text} readOnly={readOnly} result={result} onType={onType} onText={() => write(true)} />
+          <TestForm
+            opened={opened}
+            text={text}
+            readOnly={readOnly}
+            result={result}
+            onType={onType}
+            onText={() => write(true)}
+          />
         </Suspense>
       )}
       <p id={told} role="status" className={classes.fault} data-wrong={fault ? true : undefined}>

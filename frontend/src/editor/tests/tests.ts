@@ -5,6 +5,8 @@ import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import { useOnce } from "@/api/once";
 import type { ProgramTest, ProgramTests, Rehearsal, TestRun, TestText, UnnoticedChange } from "@/api/types";
+import type { TestRows } from "./testRows";
+import type { TestValues } from "./testText";
 
 /** What somebody writes and has not saved; a new test has no `id`, and no `tag` of what was read. */
 export interface Draft {
@@ -13,11 +15,20 @@ export interface Draft {
   readonly tag: string;
 }
 
+/** What a form shows of a text, with the lines that lack something and so do not stand in it. */
+export interface FilledForm {
+  readonly text: string;
+  readonly values: TestValues;
+  readonly rows: TestRows;
+}
+
 export interface TestsUi {
   /** The test that is open, `new` for one that is not there yet. */
   readonly opened: string | null;
   /** By the ids of their tests, or `new`. They stay while the panel is closed. */
   readonly drafts: Readonly<Record<string, Draft>>;
+  /** What is filled in, by the ids of their tests, or `new`. */
+  readonly forms: Readonly<Record<string, FilledForm>>;
   /** What tests take is drawn on the map. */
   readonly marks: boolean;
   /** With so many seeds each test is carried out besides its own. */
@@ -37,12 +48,12 @@ export interface Asked {
 }
 
 export const NEW = "new";
-const START: TestsUi = { opened: null, drafts: {}, marks: true, seeds: 0, asText: false, shown: false };
+const START: TestsUi = { opened: null, drafts: {}, forms: {}, marks: true, seeds: 0, asText: false, shown: false };
 export const useTestsUi = create<TestsUi>(() => START);
 
 /** Another program: nothing opened, nothing written. */
 export function resetTests(): void {
-  useTestsUi.setState({ opened: null, drafts: {} });
+  useTestsUi.setState({ opened: null, drafts: {}, forms: {} });
 }
 
 export function openTest(opened: string | null): void {
@@ -56,6 +67,16 @@ export function keepDraft(key: string, draft: Draft | null): void {
   });
 }
 
+export function keepForm(key: string, form: FilledForm): void {
+  useTestsUi.setState(({ forms }) => ({ forms: { ...forms, [key]: form } }));
+}
+
+/** What was filled in belongs to the test as it is saved now, with the lines that are not in its text yet. */
+export function carryForm(from: string, written: string, made: TestText): void {
+  const form = useTestsUi.getState().forms[from];
+  if (form?.text === written) keepForm(made.id, { ...form, text: made.text });
+}
+
 const pathOf = (program: string) => `/programs/${program}`;
 export const exportPath = (program: string) => `/api${pathOf(program)}/tests/file`;
 
@@ -66,9 +87,11 @@ export const useTests = (program: string) =>
     staleTime: 0,
   });
 
+const textKey = (id: string | undefined, tag: string | undefined) => ["test-text", id, tag];
+
 export const useTestText = (program: string, test: ProgramTest | undefined) =>
   useQuery({
-    queryKey: ["test-text", test?.id, test?.tag],
+    queryKey: textKey(test?.id, test?.tag),
     queryFn: () => api.get<TestText>(`${pathOf(program)}/tests/${test?.id}`),
     enabled: test !== undefined,
     staleTime: Infinity,
@@ -98,13 +121,17 @@ export function useTesting(program: string) {
   });
   const path = pathOf(program);
   const done = <T>(act: () => Promise<T>) => mutateAsync(act) as Promise<T>;
+  const saved = (made: TestText) => {
+    queries.setQueryData(textKey(made.id, made.tag), made);
+    return made;
+  };
   return {
     isPending,
     first: (of: "nothing" | "rehearsal") =>
       api.get<{ text: string; of_rehearsal: boolean }>(`${path}/tests/first?of=${of}`),
-    add: (text: string) => done(() => api.post<TestText>(`${path}/tests`, { text })),
+    add: (text: string) => done(() => api.post<TestText>(`${path}/tests`, { text }).then(saved)),
     write: (id: string, text: string, tag: string) =>
-      done(() => api.put<TestText>(`${path}/tests/${id}`, { text }, tag)),
+      done(() => api.put<TestText>(`${path}/tests/${id}`, { text }, tag).then(saved)),
     remove: (id: string, tag: string) => done(() => api.delete(`${path}/tests/${id}`, tag)),
     bringIn: (text: string) => done(() => api.post<TestText[]>(`${path}/tests/import`, { text })),
     run: (asked: Asked) => done(() => begin<TestRun>(`${path}/test-runs`, asked)),
