@@ -1,0 +1,89 @@
+"""Edges of the interpreter and its domains, found by changing them and seeing that no test noticed."""
+
+from __future__ import annotations
+
+from typing import Any
+from unittest import mock
+
+import pytest
+
+from editor.language import compile_document
+from editor.language.analysis.domain import States
+from editor.language.analysis.walk import Walk
+from editor.language.compiler import EditedProgram
+from editor.language.tree.nodes import Block, Wait
+from tests.kit.demo_site import factory
+from tests.kit.programs import document, step
+from tests.unit.language.test_units_to_the_run import document_of, script, site
+
+BODY = ("program", "body")
+NEVER = "def never(self):\n    for n, t in enumerate([1, 2], 1):\n        self.notify(f'{1 / (n - 2)}')"
+ASKED = "self.zero = 0\nself.n = self.ask('?', type='number', minimum=0, maximum=5)\n"
+ZERO = "self.notify(f'{1 / self.zero}')"
+GROWS = "self.a = []\nwhile self.curing_oven.temperature > 40:\n    self.a = self.a + [1]\n    self.wait(60)\n"
+
+
+def told(body: str, functions: str = "") -> list[str]:
+    """Return the codes of what is said of a script."""
+    return [each.code for each in compile_document(document_of(script(body, functions)), site()).diagnostics]
+
+
+def test_a_function_that_nothing_calls_is_followed_too() -> None:
+    assert "divided_by_zero" in told("self.wait(1)", NEVER)
+
+
+@pytest.mark.parametrize(
+    ("body", "is_told"),
+    [
+        (f"{ASKED}if self.n != 5:\n    if self.n >= 5:\n        {ZERO}", False),
+        (f"{ASKED}if self.n != 5:\n    if self.n >= 4:\n        {ZERO}", True),
+        (f"{ASKED}if self.n != 0:\n    if self.n <= 0:\n        {ZERO}", False),
+        (f"{ASKED}if self.n != 3:\n    if self.n >= 5:\n        {ZERO}", True),
+        (f"{ASKED}if self.n != 0:\n    if self.n != 5:\n        if self.n <= 0:\n            {ZERO}", False),
+    ],
+)
+def test_a_number_that_is_not_at_an_end_of_its_range_is_beside_it(body: str, is_told: bool) -> None:
+    assert ("divided_by_zero" in told(body)) is is_told
+
+
+@pytest.mark.parametrize(
+    ("compared", "is_told"),
+    [("len(self.a) < 2", False), ("len(self.a) < 3", True), ("len(self.a) <= 1", False), ("len(self.a) <= 2", True)],
+)
+def test_a_list_shorter_than_a_length_has_one_item_less_at_most(compared: str, is_told: bool) -> None:
+    at_least = "if len(self.a) >= 2:\n        self.notify(f'{1 / (len(self.a) - 2)}')"
+    found = told(f"{GROWS}if {compared}:\n    {at_least}")
+    assert ("divided_by_zero" in found) is is_told
+
+
+def looks(steps: int) -> dict[str, Any]:
+    """Return a program of that many loops, each with a step."""
+    found: dict[str, Any] = {}
+    for number in range(steps):
+        found[f"r{number}"] = step("repeat", BODY, f"{number:03}V", times=2)
+        found[f"w{number}"] = step("wait", (f"r{number}", "body"), "1V", duration=number + 1)
+    return found
+
+
+def test_an_edit_follows_what_it_changes_and_no_more() -> None:
+    program, steps = EditedProgram(), looks(40)
+    program.compile(document(steps), factory())
+    followed: list[str] = []
+    block = Walk.block
+
+    def count(walk: Walk, nodes: Block, states: States) -> States | None:
+        followed.extend(node.step for node in nodes if isinstance(node, Wait))
+        return block(walk, nodes, states)
+
+    changed = {**steps, "w7": step("wait", ("r7", "body"), "1V", duration=99)}
+    with mock.patch.object(Walk, "block", count):
+        compiled = program.compile(document(changed), factory())
+    assert set(followed) == {"w7"}
+    assert compiled == compile_document(document(changed), factory())
+
+
+def test_what_a_failure_leaves_of_a_variable_may_be_what_it_was_before() -> None:
+    robot_fails = (
+        "try:\n    self.wait(1)\n    self.n = 1\n    self.wait(1)\nexcept TaskError:\n    self.notify(f'{1 / self.n}')"
+    )
+    assert "divided_by_zero" not in told(f"self.n = 0\n{robot_fails}")
