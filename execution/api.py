@@ -11,6 +11,7 @@ from ninja.responses import Status
 
 from execution import services
 from execution.errors import NotFound, NoWay
+from execution.floor.admission_routes import router as admission_router
 from execution.floor.exports.routes import router as exports_router
 from execution.floor.map_routes import router as map_router
 from execution.mirror.measurements import list_of_run
@@ -59,6 +60,7 @@ from registry.shapes import Stop
 from vipo_device.descriptions.thing_description import DEVICE_URN
 
 router = Router(tags=["execution"])
+router.add_router("", admission_router)
 router.add_router("", map_router)
 router.add_router("", exports_router)
 router.add_router("", mirror_router)

@@ -22,7 +22,7 @@ from vipo_device.protocol.description import Scalar
 
 ToFloor = (
     m.TaskAsked | m.TaskCancelled | m.RunPaused | m.RunResumed | m.RunOver
-    | m.CommandAnswered | m.CallSent | m.CallCancelled | m.StopPressed | m.StopReset
+    | m.CommandAnswered | m.CallSent | m.CallCancelled | m.StopPressed | m.StopReset | m.RobotLetIn
 )  # fmt: skip
 """What a floor is told: by runs, by devices' answers, by people. They are events of traffic as they stand."""
 
@@ -221,6 +221,7 @@ TO_FLOOR: Mapping[str, type[ToFloor]] = {
     "call_cancelled": m.CallCancelled,
     "stop_pressed": m.StopPressed,
     "stop_reset": m.StopReset,
+    "robot_let_in": m.RobotLetIn,
 }
 TO_RUN: Mapping[str, type[ToRun]] = {
     "mission_over": TaskEnded,

@@ -183,6 +183,22 @@ class RunEventShape(Schema):
     args: dict[str, Any]
 
 
+class AwaitedAdmission(Schema):
+    """A robot that waits to be let into a zone of its site; `run` is the id of the run that it works for, if any."""
+
+    zone: str
+    zone_name: str
+    robot: str
+    robot_name: str
+    run: str
+
+
+class LetRobotIn(Asked):
+    """Which robot is let in."""
+
+    robot: str = Field(max_length=64)
+
+
 class AnswerShape(Schema):
     """What a question may be answered with; `options` for a choice, limits for a number."""
 

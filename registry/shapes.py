@@ -103,7 +103,7 @@ class PlaceShape(Schema):
     label: tuple[float, float] | None
 
 
-ZoneRule = Literal["keep_out", "slow", "one_at_a_time", "one_way", "preferred"]
+ZoneRule = Literal["keep_out", "slow", "one_at_a_time", "one_way", "preferred", "release"]
 
 
 class SiteZoneShape(Schema):

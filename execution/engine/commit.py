@@ -19,7 +19,7 @@ from execution.engine.lease import Lease
 from execution.engine.rows import Guarded, insert_all, update_all
 from execution.engine.turn import ByHand, Turn
 from execution.fault_points import fault_point
-from execution.floor.fold import FloorWork
+from execution.floor.fold import FloorWork, publish_traffic
 from execution.floor_protocol import to_json
 from execution.machine import machine
 from execution.machine import messages as r
@@ -60,6 +60,7 @@ def commit(turn: Turn, lease: Lease) -> bool:
     is_beat = _is_beat_due(turn)
     if not turn.is_change and not is_beat:
         _remember(turn, is_floor=False)
+        _show_traffic(turn)
         return False
     is_floor = turn.has_new_floor or is_beat
     with transaction.atomic():
@@ -69,6 +70,7 @@ def commit(turn: Turn, lease: Lease) -> bool:
     fault_point("after_commit")
     _tell(turn)
     _remember(turn, is_floor=is_floor)
+    _show_traffic(turn)
     return turn.is_change
 
 
@@ -260,6 +262,12 @@ def _tell(turn: Turn) -> None:
     messages += [_dead_notice(each.run, each.error) for each in turn.dead]
     wakes = ("gateway",) if turn.floor is not None and turn.floor.commands else ()
     registry.publish_all([(slug, message) for message in messages], wakes)
+
+
+def _show_traffic(turn: Turn) -> None:
+    """Let people see where robots are about to drive, and why they wait."""
+    if turn.floor is not None:
+        publish_traffic(turn.site.slug, turn.site.layout, turn.floor.state)
 
 
 def _dead_notice(run: str, error: str) -> dict[str, Any]:

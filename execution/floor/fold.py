@@ -3,23 +3,37 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from execution.floor_protocol import ToFloor, ToRun, to_run
 from execution.traffic import floor
 from execution.traffic import messages as m
+from execution.traffic.admissions import why_waiting, zone_awaited
 from execution.traffic.doors import doors_of
 from execution.traffic.floor_state import FloorState as State
 from execution.traffic.floor_state import FloorTask
-from execution.traffic.layout import Layout
+from execution.traffic.layout import Layout, Node
 from registry import services as registry
 
 TRAFFIC_EVERY_S = 0.2
 AFTERWARDS_S = 20.0
 """A floor is looked after this long after its last robot has come to rest."""
-_published: dict[str, tuple[float, str]] = {}
+TRAFFIC_AGAIN_S = 5.0
+"""After so long all is shown once more: to browsers that have come since."""
+
+
+@dataclass(slots=True)
+class _Published:
+    """What browsers have been shown of a site's floor: when last, when the whole of it, and each robot's part."""
+
+    at: float = float("-inf")
+    whole_at: float = float("-inf")
+    robots: dict[str, Mapping[str, Any]] = field(default_factory=dict)
+
+
+_published: dict[str, _Published] = {}
 
 
 @dataclass
@@ -96,14 +110,20 @@ def _reports(slug: str, before: State, told: Sequence[ToFloor]) -> list[m.Event]
     return [m.RobotsReport({robot: one.values for robot, one in readings.items()})]
 
 
-def publish_traffic(slug: str, layout: Layout, state: State) -> None:
-    """Show browsers the paths and reserved cells, at most five times a second and only when they have changed."""
-    robots = {robot.id: _shown(layout, state, robot.id) for robot in state.robots.values() if robot.path}
-    last_at, last = _published.get(slug, (0.0, ""))
-    now = time.monotonic()
-    seen = repr(robots)
-    if seen != last and now - last_at >= TRAFFIC_EVERY_S:
-        _published[slug] = (now, seen)
+def publish_traffic(slug: str, layout: Layout, state: State, now: float | None = None) -> None:
+    """Show browsers the paths, what is reserved of them and why robots wait: what has changed, five times a second.
+
+    `now` is a monotonic clock's time in seconds.
+    """
+    now = time.monotonic() if now is None else now
+    last = _published.setdefault(slug, _Published())
+    if now - last.at < TRAFFIC_EVERY_S:
+        return
+    shown = {robot.id: _shown(layout, state, robot.id) for robot in state.robots.values() if robot.path}
+    is_whole = now - last.whole_at >= TRAFFIC_AGAIN_S
+    robots = {name: robot for name, robot in shown.items() if is_whole or robot != last.robots.get(name)}
+    if robots:
+        _published[slug] = _Published(now, now if is_whole else last.whole_at, shown)
         registry.publish(slug, {"type": "traffic", "robots": robots})
 
 
@@ -111,12 +131,17 @@ def _shown(layout: Layout, state: State, name: str) -> Mapping[str, Any]:
     robot = state.robots[name]
     ahead = robot.path[robot.passed :]
     reason = next((task.wait for task in state.tasks if task.robot == name and task.wait), None)
+    if reason is None and (zone := zone_awaited(layout, state, name)) is not None:
+        reason = why_waiting(layout.name(name), name, zone)
     moving = len(ahead) > 1
     return {
-        "route": [list(layout.point(node)) for node in ahead] if moving else [],
-        "reserved": [list(layout.point(node)) for node in robot.path[robot.passed : robot.released + 1]]
-        if moving
-        else [],
+        "route": _points(layout, ahead) if moving else [],
+        "reserved": _points(layout, robot.path[robot.passed : robot.released + 1]) if moving else [],
         "wait": reason.text if reason else None,
         "why": {"code": reason.code, "args": dict(reason.args)} if reason else None,
     }
+
+
+def _points(layout: Layout, nodes: Iterable[Node]) -> list[list[float]]:
+    """Return where nodes are, in metres to the centimetre."""
+    return [[round(x, 2), round(y, 2)] for x, y in map(layout.point, nodes)]

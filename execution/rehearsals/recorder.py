@@ -147,6 +147,11 @@ class Recorder:
         shown = in_words(answer) or "nothing"
         self._say(t_s, step, "", f"The rehearsal answers by itself: {shown}", "answered_itself", value=answer)
 
+    def note_admission(self, t_s: float, robot: str, zone: str) -> None:
+        """Take down that a robot was let into a zone in people's stead."""
+        name = self._layout.name(robot)
+        self._say(t_s, "", robot, f"The rehearsal lets {name} into {zone} by itself", "let_in_itself", zone=zone)
+
     def note_floor(self, t_s: float, action: m.Action) -> None:
         """Take down what traffic does."""
         match action:

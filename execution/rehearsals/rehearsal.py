@@ -21,6 +21,7 @@ from execution.rehearsals.course import Course, has_known_end
 from execution.rehearsals.recorder import Recorder
 from execution.traffic import floor
 from execution.traffic import messages as m
+from execution.traffic.admissions import zone_awaited
 from execution.traffic.layout import Layout, make_layout
 from simulation.services import DriverName, make_world
 from simulation.world import Ack, PropertyChanged, Scene, World, WorldEvent
@@ -108,6 +109,8 @@ class _Rehearsal:
         self.asking = AskingRun(RUN, "this rehearsal", plan.roles, m.floor_zones(RUN, plan.zones))
         self.looked_at = 0.0
         self.replies: list[tuple[float, r.Answered]] = []
+        self.admissions: dict[str, tuple[float, m.RobotLetIn]] = {}
+        """By robot: when somebody lets it into a zone, who would be asked in a run."""
         self.floor = floor.start(layout, NAMESPACE)
         self.run_events: list[r.Event] = []
         self.floor_events: list[m.Event] = []
@@ -155,6 +158,7 @@ class _Rehearsal:
             self.looked_at = self.world.time_s
             happened.append(self._look_round())
         happened += [self._reply() for due_s, _ in list(self.replies) if due_s <= self.world.time_s + 1e-9]
+        happened += [self._let_in(robot) for robot, (due_s, _) in list(self.admissions.items()) if due_s <= now]
         while self.timers and self.timers[0][0] <= self.world.time_s + 1e-9:
             _, timer = heapq.heappop(self.timers)
             if timer not in self.dropped_timers:
@@ -176,6 +180,14 @@ class _Rehearsal:
     def _reply(self) -> bool:
         self.run_events.append(self.replies.pop(0)[1])
         return True
+
+    def _let_in(self, robot: str) -> bool:
+        _, admission = self.admissions.pop(robot)
+        zone = zone_awaited(self.layout, self.floor, robot)
+        if zone is not None:
+            self.recorder.note_admission(self.world.time_s, robot, zone.name)
+            self.floor_events.append(admission)
+        return zone is not None
 
     def _stations(self) -> Facts:
         """Return where machines and places are, which never changes."""
@@ -215,6 +227,8 @@ class _Rehearsal:
         events, self.floor_events = [*self._reports(), *self.floor_events], []
         now = self.world.time_s
         self.floor, actions = floor.step(self.layout, self.floor, events, now)
+        for robot, zone in self.floor.awaiting.items():
+            self.admissions.setdefault(robot, (now + REPLY_S, m.RobotLetIn(zone, robot)))
         for action in actions:
             self.recorder.note_floor(now, action)
             if isinstance(action, m.SendCommand):

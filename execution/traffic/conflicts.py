@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import hypot
 
+from execution.traffic.admissions import closed_cells, wait_for_admission, zone_before
 from execution.traffic.covering import go_round_lanes
 from execution.traffic.doors import report_stuck, shut_door, why_not_waited_for
 from execution.traffic.floor_state import Door, Robot
@@ -34,7 +35,7 @@ def resolve(turn: Turn) -> None:
         if not stands or robot.released + 1 >= len(robot.path) or robot.blocked_since is None or turn.stopped:
             continue
         door = shut_door(turn, robot, robot.released + 1)
-        if robot.evading and _is_let_out(turn, robot):
+        if robot.evading and (_is_let_out(turn, robot) or _waits_on_its_way_home(turn, robot)):
             continue
         if robot.evading:
             limit_s = GIVE_UP_EVADING_S if door is None or why_not_waited_for(turn, door) else BLOCKED_LIMIT_S
@@ -44,6 +45,14 @@ def resolve(turn: Turn) -> None:
             _wait_for_door(turn, robot, door)
         elif not robot.yields_to and robot.run not in turn.paused:
             _unblock(turn, robot)
+
+
+def _waits_on_its_way_home(turn: Turn, robot: Robot) -> bool:
+    """Let a robot wait on its way home that people have to let in: nobody needs it elsewhere; tell if it does."""
+    closed = zone_before(turn, robot, robot.released + 1) if robot.evading == "home" else None
+    if closed is not None:
+        wait_for_admission(turn, robot, closed)
+    return closed is not None
 
 
 def _is_let_out(turn: Turn, robot: Robot) -> bool:
@@ -94,6 +103,11 @@ def _unblock(turn: Turn, robot: Robot) -> None:
     taken = in_the_way(turn, robot, index)
     if taken is not None:
         _wait_for_zone(turn, robot, taken[0], taken[1])
+        return
+    if (closed := zone_before(turn, robot, index)) is not None:
+        wait_for_admission(turn, robot, closed)
+        if turn.node(robot) in turn.layout.stations:
+            _evade(turn, robot, robot)
         return
     if not may_enter(turn, robot, index):
         if turn.node(robot) in turn.layout.stations:
@@ -209,7 +223,7 @@ def _evade(turn: Turn, robot: Robot, other: Robot) -> bool:
     taken_zone = in_the_way(turn, other, min(other.released + 1, len(other.path) - 1))
     if taken_zone is not None and robot.id in {holder.id for holder in taken_zone[1]}:
         own_path |= cells_of(layout, taken_zone[0])
-    taken |= kept_out(turn, robot) - {layout.cell(turn.node(robot))}
+    taken |= (kept_out(turn, robot) | closed_cells(turn, robot)) - {layout.cell(turn.node(robot))}
     others_paths = {c for r in turn.robots.values() if r.id not in {robot.id, other.id} for c in _ahead(turn, r)}
     start = layout.cell(turn.node(robot))
     reach = layout.lattice.distances(start, closed=taken, closed_links=layout.against)

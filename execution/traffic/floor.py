@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import assert_never
 
 from execution.traffic import messages as m
+from execution.traffic.admissions import keep_admissions, let_in
 from execution.traffic.conflicts import resolve, send_home
 from execution.traffic.dispatch import ABSENCE_S, CALL_LIMIT_S, bind_roles, dispatch, limit_of, release_roles
 from execution.traffic.doors import keep_doors, learn_passages, note_users, take_door_answer
@@ -64,6 +65,7 @@ def step(
     _check_limits(turn)
     keep_stations(turn)
     keep_zones(turn)
+    keep_admissions(turn)
     release_roles(turn)
     bind_roles(turn)
     dispatch(turn)
@@ -141,7 +143,7 @@ def _take(turn: Turn, event: m.Event) -> None:
             _take_call(turn, event)
         case m.CallCancelled():
             _end_call(turn, event)
-        case m.RunPaused() | m.RunResumed() | m.RunOver() | m.StopPressed() | m.StopReset():
+        case m.RunPaused() | m.RunResumed() | m.RunOver() | m.StopPressed() | m.StopReset() | m.RobotLetIn():
             _take_order(turn, event)
         case m.RobotsReport(readings=readings):
             turn.readings = readings
@@ -169,9 +171,14 @@ def _take_report(turn: Turn, event: m.RobotMoved | m.CommandAnswered | m.DeviceO
                 turn.put(robot_state, online=False)
 
 
-def _take_order(turn: Turn, event: m.RunPaused | m.RunResumed | m.RunOver | m.StopPressed | m.StopReset) -> None:
-    """Take in what people want of runs and of the whole site."""
+Order = m.RunPaused | m.RunResumed | m.RunOver | m.StopPressed | m.StopReset | m.RobotLetIn
+
+
+def _take_order(turn: Turn, event: Order) -> None:
+    """Take in what people want of runs, of robots that wait and of the whole site."""
     match event:
+        case m.RobotLetIn(zone=zone, robot=robot):
+            let_in(turn, zone, robot)
         case m.RunPaused(run=run):
             turn.paused.add(run)
         case m.RunResumed(run=run):

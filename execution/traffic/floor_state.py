@@ -121,6 +121,15 @@ class Door:
 
 
 @dataclass(frozen=True, slots=True)
+class Admission:
+    """A person has let a robot into a zone, by their keys; `entered` once it is or was in it since."""
+
+    zone: str
+    robot: str
+    entered: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class FloorState:
     """All that traffic knows. `namespace` makes the command ids of this floor its own."""
 
@@ -149,6 +158,9 @@ class FloorState:
     passages: tuple[FloorZone, ...] = ()
     """The passages of doors that runs have told of; they hold for every robot."""
     doors: Mapping[str, Door] = field(default_factory=dict)
+    admissions: tuple[Admission, ...] = ()
+    awaiting: Mapping[str, str] = field(default_factory=dict)
+    """By robot: the key of the zone that it waits to be let into."""
 
 
 STORED_AS: Mapping[type, Mapping[str, str]] = {
@@ -159,6 +171,8 @@ STORED_AS: Mapping[type, Mapping[str, str]] = {
 """What kept states call the parts that have got another name since; the tasks themselves they call `jobs`."""
 
 
+LATER = frozenset({"passages", "doors", "admissions", "awaiting"})
+"""Parts that states did not have at first: they are written where they say something."""
 WRITTEN_WHERE_SET = frozenset(
     {
         "where",
@@ -196,8 +210,10 @@ def to_json(state: FloorState) -> dict[str, Any]:
         "locks": dict(state.locks),
         "passages": [zone_to_json(zone) for zone in state.passages],
         "doors": [asdict(door) for door in state.doors.values()],
+        "admissions": [asdict(admission) for admission in state.admissions],
+        "awaiting": dict(state.awaiting),
     }
-    return {name: value for name, value in stored.items() if value or name not in {"passages", "doors"}}
+    return {name: value for name, value in stored.items() if value or name not in LATER}
 
 
 def from_json(data: Mapping[str, Any]) -> FloorState:
@@ -214,6 +230,7 @@ def from_json(data: Mapping[str, Any]) -> FloorState:
         "zones": {run: tuple(map(zone_from_json, zones)) for run, zones in data.get("zones", {}).items()},
         "passages": tuple(map(zone_from_json, data.get("passages", ()))),
         "doors": {item["id"]: Door(**{**item, "robots": tuple(item["robots"])}) for item in data.get("doors", ())},
+        "admissions": tuple(Admission(**item) for item in data.get("admissions", ())),
     }
     return FloorState(**{**{key: value for key, value in data.items() if key not in {"format", "jobs"}}, **more})
 

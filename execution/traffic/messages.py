@@ -174,6 +174,14 @@ class RunOver:
 
 
 @dataclass(frozen=True, slots=True)
+class RobotLetIn:
+    """A person lets a robot into a zone of the site, by its key, for one visit."""
+
+    zone: str
+    robot: str
+
+
+@dataclass(frozen=True, slots=True)
 class CallSent:
     """A person has told a device to do something, outside of any run; `name` is what others wait for meanwhile."""
 
@@ -194,7 +202,7 @@ class CallCancelled:
 
 Event = (
     CallSent | CallCancelled | TaskAsked | TaskCancelled | RobotMoved | RobotsReport | CommandAnswered | DeviceOnline
-    | DeviceOffline | Tick | StopPressed | StopReset | RunPaused | RunResumed | RunOver
+    | DeviceOffline | Tick | StopPressed | StopReset | RunPaused | RunResumed | RunOver | RobotLetIn
 )  # fmt: skip
 
 

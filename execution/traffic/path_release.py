@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from math import hypot
 
+from execution.traffic.admissions import zone_before
 from execution.traffic.doors import shut_door
 from execution.traffic.floor_state import Robot, Sent
 from execution.traffic.layout import Node
@@ -168,8 +169,8 @@ def _may_drive(turn: Turn, robot: Robot) -> bool:
 
 def may_enter(turn: Turn, robot: Robot, index: int) -> bool:
     """Tell whether the robot may go to that node as far as machines, zones and doors are concerned."""
-    is_let_in = _machine_is_ready(turn, robot, index) and in_the_way(turn, robot, index) is None
-    return is_let_in and shut_door(turn, robot, index) is None
+    is_free = _machine_is_ready(turn, robot, index) and in_the_way(turn, robot, index) is None
+    return is_free and zone_before(turn, robot, index) is None and shut_door(turn, robot, index) is None
 
 
 def _machine_is_ready(turn: Turn, robot: Robot, index: int) -> bool:
@@ -231,16 +232,19 @@ def heed_zones(turn: Turn) -> None:
     """Let robots under way heed zones of the floor that are new or another since the last step.
 
     A path that leads into a keep-out, or against a one-way zone, is cut before it; what of it was released already is
-    called off, and the robot plans anew from where it comes to stand. So is what was released with too high a speed.
+    called off, and the robot plans anew from where it comes to stand. So is what was released with too high a speed, or
+    into a zone that a person lets robots into.
     """
     before, now = turn.zones.get(SITE, ()), (*turn.layout.zones, *turn.layout.bodies)
     if before == now:
         return
-    slow = [zone for zone in now if zone.rule == "slow" and zone not in before]
+    stricter = [zone for zone in now if zone.rule in {"slow", "release"} and zone not in before]
     for robot in [robot for robot in turn.robots.values() if robot.path]:
         released = robot.path[robot.passed : robot.released + 1] if turn.is_driving(robot) else ()
         enters = enters_at(turn, robot)
-        if (enters is not None and released and enters <= robot.released) or leads_through(turn.layout, released, slow):
+        if (enters is not None and released and enters <= robot.released) or leads_through(
+            turn.layout, released, stricter
+        ):
             _stand_here(turn, robot)
         elif enters is not None:
             cut_path(turn, robot)

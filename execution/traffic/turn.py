@@ -35,6 +35,8 @@ class Turn:
         self.locks = dict(state.locks)
         self.passages = state.passages
         self.doors = dict(state.doors)
+        self.admissions = {(each.zone, each.robot): each for each in state.admissions}
+        self.awaiting: dict[str, str] = {}
         self.readings: Mapping[str, Mapping[str, Scalar]] = {}
         self.waits: dict[tuple[str, int], Reason] = {}
         self.actions: list[Action] = []
@@ -59,6 +61,8 @@ class Turn:
             locks=self.locks,
             passages=self.passages,
             doors=self.doors,
+            admissions=tuple(self.admissions.values()),
+            awaiting=self.awaiting,
         )
         return state, tuple(self.actions)
 
@@ -101,7 +105,11 @@ class Turn:
 
     def wait(self, task: FloorTask, code: str, text: str, **arguments: str | float) -> None:
         """Say what a task waits for."""
-        self.waits[task.run, task.number] = Reason(code, text, arguments)
+        self.wait_for(task, Reason(code, text, arguments))
+
+    def wait_for(self, task: FloorTask, reason: Reason) -> None:
+        """Say what a task waits for."""
+        self.waits[task.run, task.number] = reason
 
     def announce_waits(self) -> None:
         """Tell the runs whose tasks now wait for something else."""

@@ -78,6 +78,7 @@ class SiteZone(models.Model):
         ONE_AT_A_TIME = "one_at_a_time"
         ONE_WAY = "one_way"
         PREFERRED = "preferred"
+        RELEASE = "release"
 
     site = models.ForeignKey(Site, on_delete=models.CASCADE, related_name="zones")
     key = models.CharField(max_length=64)

@@ -69,7 +69,8 @@ DEEDS = (
         show_map_version show_version_cells show_place show_zone current probe sample current_of_device probe_device
         sample_of_device list_programs ask post_query list_things watch_things show_thing read_expression
         show_values show_value watch_value await_next_value query_action list_threads show_thread mark_thread_read
-        list_tests export_tests show_test show_version_tests show_test_run compare_function_sides""",
+        list_tests export_tests show_test show_version_tests show_test_run compare_function_sides
+        list_awaited_admissions""",
     ),
     _deed("stop", "viewer", "operate", "press_stop"),
     _deed("own", "viewer", "session", "list_tokens show_token create_token revoke_token list_members leave_site"),
@@ -92,7 +93,7 @@ DEEDS = (
         "operator",
         "run",
         """start_rehearsal cancel_rehearsal start_run pause_run resume_run cancel_run answer_question arm_program
-        run_tests take_pace drop_pace begin_stand_in end_stand_in""",
+        run_tests take_pace drop_pace begin_stand_in end_stand_in let_robot_in""",
     ),
     _deed("ask_review", "operator", "run", "ask_for_review"),
     _deed("review", "operator", "session", "give_verdict"),

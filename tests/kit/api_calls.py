@@ -52,6 +52,7 @@ BODIES: dict[str, dict[str, Any]] = {
     "read_expression": {"value": None, "step": ""},
     "draw_script": {"text": ""},
     "answer_question": {"value": True},
+    "let_robot_in": {"robot": "nobody"},
     "call_method": {"method": "none"},
     "plan_route": {"from": [1, 1], "to": [2, 2]},
     "plan_routes": {"pairs": []},

@@ -9,7 +9,7 @@ from typing import Final, Literal, Protocol
 from editor.language.site.signature import Signature
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
 
-ZoneRule = Literal["keep_out", "one_at_a_time", "slow", "one_way", "preferred"]
+ZoneRule = Literal["keep_out", "one_at_a_time", "slow", "one_way", "preferred", "release"]
 Lifecycle = Literal["pending", "approved", "retired"]
 
 

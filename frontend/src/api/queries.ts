@@ -47,6 +47,7 @@ export const keys = {
   runs: (slug: string) => ["runs", slug] as const,
   run: (id: string) => ["run", id] as const,
   questions: (slug: string) => ["questions", slug] as const,
+  admissions: (slug: string) => ["admissions", slug] as const,
   armed: (slug: string) => ["armed", slug] as const,
   alerts: (slug: string) => ["alerts", slug] as const,
   overAlerts: (slug: string) => ["over-alerts", slug] as const,

@@ -1759,6 +1759,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site}/admissions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Awaited Admissions
+         * @description Return which robots wait to be let into which zone of a site.
+         */
+        get: operations["list_awaited_admissions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site}/armed": {
         parameters: {
             query?: never;
@@ -2256,6 +2276,26 @@ export interface paths {
          * @description Ask the device to end an action; one that is over stays as it is.
          */
         delete: operations["cancel_action"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/zones/{zone_id}/admissions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Let Robot In
+         * @description Let a robot that waits before a zone into it, for one visit; it waits anew before the next.
+         */
+        post: operations["let_robot_in"];
+        delete?: never;
         options?: never;
         head?: never;
         patch?: never;
@@ -4094,6 +4134,14 @@ export interface components {
             initials: string;
             name: string;
         };
+        /** @description A robot that waits to be let into a zone of its site; `run` is the id of the run that it works for, if any. */
+        AwaitedAdmission: {
+            robot: string;
+            robot_name: string;
+            run: string;
+            zone: string;
+            zone_name: string;
+        };
         /** @description A device or place that a program names, with who may stand for it, the best first; null: nobody fits. */
         BindingShape: {
             candidates: components["schemas"]["CandidateShape"][];
@@ -4761,6 +4809,10 @@ export interface components {
             holder: string;
             job: string;
         };
+        /** @description Which robot is let in. */
+        LetRobotIn: {
+            robot: string;
+        };
         /**
          * @description Which functions are asked for: those that all words of `q` fit, by name or by what they do; of one site if named.
          *
@@ -5207,7 +5259,7 @@ export interface components {
             ][];
             robots?: number | null;
             /** @enum {string} */
-            rule: "keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred";
+            rule: "keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred" | "release";
             speed_m_s?: number | null;
         };
         /**
@@ -6169,7 +6221,7 @@ export interface components {
             ][];
             robots: number | null;
             /** @enum {string} */
-            rule: "keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred";
+            rule: "keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred" | "release";
             speed_m_s: number | null;
         };
         /** @description Metres. */
@@ -6634,7 +6686,7 @@ export interface components {
                 number
             ][] | null;
             robots?: number | null;
-            rule?: ("keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred") | null;
+            rule?: ("keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred" | "release") | null;
             speed_m_s?: number | null;
         };
         /** @description A named area of the map: a polygon in metres, and what it asks of robots. */
@@ -11243,6 +11295,45 @@ export interface operations {
             };
         };
     };
+    list_awaited_admissions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AwaitedAdmission"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_armed: {
         parameters: {
             query?: never;
@@ -12432,6 +12523,52 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["ActionStatus"];
                 };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    let_robot_in: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                site: string;
+                zone_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LetRobotIn"];
+            };
+        };
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];

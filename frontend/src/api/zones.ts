@@ -5,7 +5,7 @@ import { staleWithSiteMap } from "./robotMaps";
 import type { MapZone } from "./types";
 
 export type ZoneRule = MapZone["rule"];
-export const ZONE_RULES: readonly ZoneRule[] = ["keep_out", "slow", "one_at_a_time", "one_way", "preferred"];
+export const ZONE_RULES: readonly ZoneRule[] = ["keep_out", "release", "slow", "one_at_a_time", "one_way", "preferred"];
 
 export type ZoneFields = Partial<Omit<MapZone, "id" | "points">> & { points?: readonly (readonly [number, number])[] };
 

@@ -31,7 +31,7 @@ import {
   isUrgent,
   joinChanges,
 } from "./messages";
-import type { DeviceChange, LiveMessage } from "./messages";
+import type { DeviceChange, LiveMessage, RobotTraffic } from "./messages";
 import { recordDevice } from "./readings";
 import { useLiveStore } from "./store";
 
@@ -87,8 +87,7 @@ export class SiteFeed {
       case "stop":
         return this.#stop({ active: message.active, by: message.by, at: message.at });
       case "traffic":
-        useLiveStore.setState((state) => ({ traffic: { ...state.traffic, ...message.robots } }));
-        return;
+        return this.#traffic(message.robots);
       case "copies":
         useLiveStore.setState({ copies: Object.fromEntries(message.copies.map((copy) => [copy.device, copy])) });
         return;
@@ -123,6 +122,7 @@ export class SiteFeed {
 
   /** After each (new) greeting the state is fetched anew: what happened meanwhile was missed. */
   #refresh(): void {
+    useLiveStore.setState({ traffic: {} }); // all of it is told again within seconds
     const stale = [
       keys.devices,
       keys.site,
@@ -130,6 +130,7 @@ export class SiteFeed {
       keys.runs,
       keys.programs,
       keys.questions,
+      keys.admissions,
       keys.armed,
       keys.alerts,
     ].map((key) => key(this.slug) as readonly string[]);
@@ -193,6 +194,14 @@ export class SiteFeed {
   #run(run: RunSummary): void {
     this.#caches.write<RunSummary[]>(keys.runs(this.slug), (runs) => applyRun(runs, run));
     this.#caches.write<Run>(keys.run(run.id), (full) => ({ ...full, ...run }));
+  }
+
+  #traffic(robots: Readonly<Record<string, RobotTraffic>>): void {
+    const known = useLiveStore.getState().traffic;
+    useLiveStore.setState({ traffic: { ...known, ...robots } });
+    const waits = (robot: RobotTraffic | undefined) => robot?.why?.code === "not_let_in";
+    if (Object.entries(robots).some(([id, robot]) => waits(robot) !== waits(known[id])))
+      this.#caches.refresh(keys.admissions(this.slug));
   }
 
   #question(question: Question): void {

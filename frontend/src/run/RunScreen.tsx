@@ -2,9 +2,11 @@ import { useQueryClient } from "@tanstack/react-query";
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
+import { useAwaitedAdmissions } from "@/api/admissions";
 import { missing } from "@/api/failed";
 import { keys, useMeasurements, useQuestions, useRun, useSite } from "@/api/queries";
 import type { Run } from "@/api/types";
+import { AdmissionCard } from "@/shell/admissions/AdmissionCard";
 import { QuestionCard } from "@/shell/questions/QuestionCard";
 import { shownQuestions } from "@/shell/questions/openQuestions";
 import { LoadProblem } from "@/shell/LoadProblem";
@@ -63,11 +65,15 @@ function Notes({ run, now, problem }: { run: Run; now: number; problem: string |
 function RunQuestions({ run, allowed }: { run: Run; allowed: boolean }) {
   const questions = (useQuestions(run.site).data ?? []).filter((question) => question.run === run.id);
   const shown = shownQuestions(questions);
-  if (shown.length === 0) return null;
+  const awaited = useAwaitedAdmissions(run.site).filter((each) => each.run === run.id);
+  if (shown.length + awaited.length === 0) return null;
   return (
     <div className={styles.questions}>
       {shown.map((question) => (
         <QuestionCard key={question.id} question={question} allowed={allowed} />
+      ))}
+      {awaited.map((each) => (
+        <AdmissionCard key={each.robot} slug={run.site} awaited={each} allowed={allowed} />
       ))}
     </div>
   );

@@ -1,6 +1,7 @@
 /** The frame of the management pages: side bar, title bar with Stop all, page, and a pane for details. */
 import { useEffect, type ReactNode } from "react";
 import { useSiteLive } from "@/live/site";
+import { LateBell } from "./admissions/LateBell";
 import { AlertsBell } from "./alerts/AlertsBell";
 import { ConnectionStrip } from "./ConnectionStrip";
 import { useCurrentSite } from "./currentSite";
@@ -38,6 +39,7 @@ export function PageShell({ title, chips, actions, detail, children }: PageShell
           <div className={styles.spring} />
           <div className={styles.actions}>{actions}</div>
           {slug ? <QuestionsBell slug={slug} /> : null}
+          {slug ? <LateBell slug={slug} /> : null}
           {slug ? <ReviewsBell slug={slug} /> : null}
           {slug ? <AlertsBell slug={slug} /> : null}
           {slug ? <StopAllButton slug={slug} /> : null}

@@ -4,6 +4,7 @@ import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { Logo } from "@/design/Logo";
 import { ConnectionStrip } from "./ConnectionStrip";
+import { LateBell } from "./admissions/LateBell";
 import { AlertsBell } from "./alerts/AlertsBell";
 import { FindingsStrip } from "./findings/FindingsStrip";
 import { PaletteButton } from "./palette/PaletteButton";
@@ -48,6 +49,7 @@ export function TopBar({ site, crumbs, chips, children, presence, actions }: Top
         {presence ? <div className={styles.presence}>{presence}</div> : null}
         {actions ? <div className={`${styles.group} ${styles.last}`}>{actions}</div> : null}
         {site ? <QuestionsBell slug={site} /> : null}
+        {site ? <LateBell slug={site} /> : null}
         {site ? <ReviewsBell slug={site} /> : null}
         {site ? <AlertsBell slug={site} /> : null}
         {site ? <StopAllButton slug={site} /> : null}

@@ -43,6 +43,7 @@ TO_FLOOR = [
     ({"type": "call_cancelled", "command": COMMAND, "given_up": True}, m.CallCancelled(COMMAND, given_up=True)),
     ({"type": "stop_pressed"}, m.StopPressed()),
     ({"type": "stop_reset"}, m.StopReset()),
+    ({"type": "robot_let_in", "zone": "site/z", "robot": "robot01"}, m.RobotLetIn("site/z", "robot01")),
 ]  # fmt: skip
 BUSY = {"code": "machine_busy", "text": "It is busy.", "args": {"device": "mixer"}}
 TO_RUN = [

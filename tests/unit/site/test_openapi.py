@@ -78,6 +78,7 @@ def test_every_answer_has_a_shape(described):
         ("delete", "/api/programs/{program}/tests/{test}", "204"),
         ("post", "/api/programs/{program}/threads/{thread}/read", "204"),
         ("post", "/api/sign-in/providers/{provider}/logout", "204"),
+        ("post", "/api/sites/{site}/zones/{zone_id}/admissions", "204"),
         ("delete", "/api/sites/{slug}/invitations/{invitation}", "204"),
         ("post", "/api/sites/{slug}/leave", "204"),
         ("delete", "/api/sites/{slug}/members/{person}/second-factor", "204"),

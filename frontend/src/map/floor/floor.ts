@@ -16,7 +16,7 @@ export interface MapPlace {
 export interface MapZone {
   readonly id: string;
   readonly name: string;
-  readonly rule: "keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred";
+  readonly rule: "keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred" | "release";
   readonly points: readonly Point[];
   readonly speed_m_s: number | null;
   /** How many may be in it at once, where its rule is that. */

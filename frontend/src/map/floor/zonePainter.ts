@@ -37,6 +37,7 @@ const LOOKS: Readonly<Record<MapZone["rule"], Look>> = {
   slow: { line: "warn-fill", dash: [7, 4], filling: "lines", gap: 18, stroke: 1.2, alpha: 0.5, tint: 0.08 },
   one_at_a_time: { line: "brand", dash: [], filling: "none", gap: 0, stroke: 0, alpha: 0, tint: 0.07 },
   one_way: { line: "motion", dash: [], filling: "chevrons", gap: 45, stroke: 2.6, alpha: 1, tint: 0.07 },
+  release: { line: "error", dash: [3, 4], filling: "lines", gap: 26, stroke: 1.2, alpha: 0.5, tint: 0.06 },
   preferred: { line: "done", dash: [12, 4], filling: "dots", gap: 16, stroke: 1.2, alpha: 0.5, tint: 0.07 },
 };
 const FONT = "600 11.5px 'Inter Variable', Inter, sans-serif";
@@ -169,13 +170,18 @@ function paintTag(canvas: Canvas, palette: Palette, { zone, words, box }: ZoneSi
   canvas.fillText(said, left + TAG.pad + TAG.icon + TAG.gap, middle + 0.5);
 }
 
-/** A barred circle, a dial, an arrow, a tick, one head: what each rule says without words. */
+/** A barred circle, a gate, a dial, an arrow, a tick, one head: what each rule says without words. */
 function iconOf({ rule, heading_deg }: MapZone, x: number, y: number): Path2D {
   const path = new Path2D();
   if (rule === "keep_out") {
     path.arc(x, y, 5.5, 0, 2 * Math.PI);
     path.moveTo(x - 3.9, y - 3.9);
     path.lineTo(x + 3.9, y + 3.9);
+  } else if (rule === "release") {
+    path.rect(x - 4, y - 1, 8, 6.5);
+    path.moveTo(x - 2.6, y - 1);
+    path.arc(x, y - 2.4, 2.6, Math.PI, 2 * Math.PI);
+    path.lineTo(x + 2.6, y - 1);
   } else if (rule === "slow") {
     path.arc(x, y + 2, 6, Math.PI, 2 * Math.PI);
     path.moveTo(x, y + 2);

@@ -1,0 +1,169 @@
+"""Zones that a person lets robots into: each waits outside until it is let in, each time anew."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from execution.traffic import floor as traffic
+from execution.traffic import messages as m
+from tests.unit.execution.traffic.simulated_floor import PretendFloor
+from tests.unit.execution.traffic.test_site_zones import (
+    CORRIDOR,
+    EAST,
+    WEST,
+    change,
+    drive,
+    floor_with,
+    go,
+    near,
+    usual_way,
+    zone,
+)
+
+POSES = {"robot01": WEST, "robot02": (18.0, -7.6)}
+CLOSED = zone("release")
+
+
+def wait(floor: PretendFloor, seconds: float = 120) -> None:
+    for _ in range(int(seconds / 0.1)):
+        floor.pass_time()
+
+
+def let_in(floor: PretendFloor, robot: str = "robot01", key: str = "site/z") -> None:
+    floor.tell(m.RobotLetIn(key, robot))
+
+
+def reasons(floor: PretendFloor) -> list[str]:
+    return [each.reason.code for each in floor.waits if each.reason]
+
+
+def test_a_robot_waits_outside_until_it_is_let_in_and_then_drives_through() -> None:
+    floor = floor_with(CLOSED, poses=POSES)
+    go(floor, "r", EAST, "robot01")
+    wait(floor)
+    assert not near(floor, "robot01", CORRIDOR)
+    assert floor.state.awaiting == {"robot01": "site/z"}
+    assert reasons(floor)[-1] == "not_let_in"
+    assert floor.waits[-1].reason.text == f"{floor.layout.name('robot01')} waits to be let into The crossing."
+    let_in(floor)
+    drive(floor, ("r", 1))
+    assert floor.over["r", 1] == ("", "")
+    assert floor.state.awaiting == {}
+    assert floor.state.admissions == ()
+
+
+def test_each_visit_needs_its_own_admission_and_one_robot_s_is_not_another_s() -> None:
+    floor = floor_with(CLOSED, poses=POSES)
+    go(floor, "a", EAST, "robot01")
+    go(floor, "b", (3.0, -7.6), "robot02")
+    wait(floor)
+    assert floor.state.awaiting == {"robot01": "site/z", "robot02": "site/z"}
+    let_in(floor, "robot02")
+    drive(floor, ("b", 1))
+    assert ("a", 1) not in floor.over
+    let_in(floor)
+    drive(floor, ("a", 1))
+    go(floor, "a", WEST, "robot01", task=2)
+    wait(floor)
+    assert floor.state.awaiting["robot01"] == "site/z"
+    assert ("a", 2) not in floor.over
+
+
+def test_a_robot_on_its_way_home_waits_to_be_let_in_too() -> None:
+    floor = floor_with(CLOSED, poses={"robot01": WEST})
+    wait(floor)
+    assert floor.state.awaiting == {"robot01": "site/z"}
+    assert not near(floor, "robot01", CORRIDOR)
+    let_in(floor)
+    wait(floor, 60)
+    assert floor.state.awaiting == {}
+    assert floor.at["robot01"][0] > 10
+
+
+def test_an_admission_for_a_robot_that_does_not_wait_there_changes_nothing() -> None:
+    floor = floor_with(CLOSED, poses=POSES)
+    go(floor, "r", EAST, "robot01")
+    for robot, key in (("robot01", "site/z"), ("robot03", "site/z"), ("nobody", "site/z"), ("robot01", "site/gone")):
+        let_in(floor, robot, key)
+    wait(floor)
+    assert floor.state.admissions == ()
+    assert floor.state.awaiting == {"robot01": "site/z"}
+
+
+def test_two_people_who_let_a_robot_in_at_once_let_it_in_once() -> None:
+    floor = floor_with(CLOSED, poses=POSES)
+    go(floor, "r", EAST, "robot01")
+    wait(floor)
+    let_in(floor)
+    let_in(floor)
+    drive(floor, ("r", 1))
+    let_in(floor)
+    go(floor, "r", WEST, "robot01", task=2)
+    wait(floor)
+    assert ("r", 2) not in floor.over
+
+
+def test_an_admission_ends_with_the_run_that_wanted_in() -> None:
+    floor = floor_with(CLOSED, poses={**POSES, "robot01": (5.0, -8.0)})
+    go(floor, "r", EAST, "robot01")
+    wait(floor)
+    let_in(floor)
+    floor.tell(m.RunOver("r"))
+    wait(floor)
+    assert floor.state.admissions == ()
+    assert not near(floor, "robot01", CORRIDOR)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.5])
+def test_a_zone_made_ahead_of_a_robot_under_way_stops_it_outside(share: float) -> None:
+    track = usual_way()
+    floor = floor_with(poses={"robot01": WEST})
+    go(floor, "r", EAST, "robot01")
+    inside = next(index for index, at in enumerate(track) if at[0] > 6.0)
+    for _ in range(int(inside * share)):
+        floor.pass_time()
+    change(floor, CLOSED)
+    wait(floor)
+    assert not near(floor, "robot01", CORRIDOR)
+    assert floor.state.awaiting == {"robot01": "site/z"}
+
+
+def test_a_robot_that_is_in_a_zone_when_it_is_made_leaves_it() -> None:
+    floor = floor_with(CLOSED, poses={"robot01": (8.0, -8.0)})
+    go(floor, "r", EAST, "robot01")
+    drive(floor, ("r", 1))
+    assert floor.over["r", 1] == ("", "")
+
+
+def test_who_waits_to_be_let_in_makes_room_for_who_wants_past() -> None:
+    floor = floor_with(CLOSED, poses={"robot01": WEST, "robot02": (12.0, -8.0)})
+    go(floor, "r", EAST, "robot01")
+    wait(floor)
+    go(floor, "s", WEST, "robot02")
+    wait(floor, 30)
+    let_in(floor, "robot02")
+    drive(floor, ("s", 1))
+    assert ("r", 1) not in floor.over
+
+
+def test_the_floor_is_kept_with_who_waits_and_who_was_let_in() -> None:
+    floor = floor_with(CLOSED, poses=POSES)
+    go(floor, "r", EAST, "robot01")
+    go(floor, "b", (3.0, -7.6), "robot02")
+    wait(floor)
+    let_in(floor)
+    floor.pass_time()
+    kept = traffic.from_json(traffic.to_json(floor.state))
+    assert kept == floor.state
+    assert kept.awaiting == {"robot02": "site/z"}
+    assert [(each.zone, each.robot) for each in kept.admissions] == [("site/z", "robot01")]
+
+
+def test_states_of_before_are_read() -> None:
+    floor = floor_with(poses=POSES)
+    kept = traffic.to_json(floor.state)
+    assert "awaiting" not in kept
+    assert "admissions" not in kept
+    assert replace(traffic.from_json(kept), now=floor.state.now) == floor.state
