@@ -87,3 +87,49 @@ def test_what_a_failure_leaves_of_a_variable_may_be_what_it_was_before() -> None
         "try:\n    self.wait(1)\n    self.n = 1\n    self.wait(1)\nexcept TaskError:\n    self.notify(f'{1 / self.n}')"
     )
     assert "divided_by_zero" not in told(f"self.n = 0\n{robot_fails}")
+
+
+CHOSEN = "self.zero = 0\nself.c = self.ask('?', type='choice', options=['red', 'blue'])\n"
+
+
+@pytest.mark.parametrize(
+    ("body", "is_told"),
+    [
+        (f"{CHOSEN}if self.c == 'red':\n    if self.c == 'blue':\n        {ZERO}", False),
+        (f"{CHOSEN}if self.c == 'red':\n    if self.c == 'red':\n        {ZERO}", True),
+        (f"{CHOSEN}if self.c != 'red':\n    if self.c == 'blue':\n        {ZERO}", True),
+        (f"{CHOSEN}if self.c != 'red':\n    self.wait(1)\nelse:\n    if self.c == 'blue':\n        {ZERO}", False),
+        (f"{CHOSEN}if not (self.c != 'red'):\n    if self.c == 'blue':\n        {ZERO}", False),
+    ],
+)
+def test_a_text_is_what_a_condition_says_that_it_is(body: str, is_told: bool) -> None:
+    assert ("divided_by_zero" in told(body)) is is_told
+
+
+def beside(other: str, body: str) -> list[str]:
+    """Return what is said where two branches run at once."""
+    lines = "self.zero = 0\nself.x = 5\nself.parallel(self.branch_1a, self.branch_1b)"
+    return told(lines, f"def branch_1a(self):\n    {other}\n\ndef branch_1b(self):\n    {body}")
+
+
+def test_what_another_branch_sets_meanwhile_may_be_so_and_need_not() -> None:
+    shares = "self.notify(f'{1 / self.x}')"
+    assert "divided_by_zero" not in beside("self.x = 0", shares)
+    assert "divided_by_zero" in beside("self.x = 0", f"self.x = 0\n    {shares}")
+
+
+def test_a_condition_says_nothing_that_lasts_of_what_another_branch_sets() -> None:
+    body = f"if self.x == 5:\n        if self.x == 0:\n            {ZERO}"
+    assert "divided_by_zero" in beside("self.x = 0", body)
+    assert "divided_by_zero" not in beside("self.wait(1)", body)
+
+
+def test_half_a_box_is_told_and_what_is_carried_then_is_not_known() -> None:
+    at = {"role": "robot", "object": "box", "at": {"device": "itemInventory01"}}
+    steps = {
+        "a": step("pick", BODY, "1V", **at, quantity=1.5),
+        "b": step("drop", BODY, "2V", **at, quantity=2),
+    }
+    found = [each.code for each in compile_document(document(steps), factory()).diagnostics]
+    assert "drops_nothing" not in found
+    assert found
