@@ -10,8 +10,10 @@ import pytest
 from editor.language.expressions.nodes import PlaceRef
 from editor.language.plan.instructions import End, Instruction, Move, Plan, RoleBinding
 from execution import services
+from execution.floor import fold
 from execution.floor.admissions import list_awaited
 from execution.models import FloorState
+from registry import services as registry
 from registry.maps.zones import ZoneChange, add_zone
 from registry.models import AuditLine
 from tests.integration.execution.conftest import SITE
@@ -29,12 +31,16 @@ def going() -> Plan:
     return Plan((move, Instruction(End())), {"robot": RoleBinding("robot", "robot01", ("move",))})
 
 
-@pytest.fixture
-def waiting(factory: Any) -> Any:
-    """The factory with a robot of a run that waits before the zone round the shelf."""
+def make_zone() -> None:
     shelf = next(d.pose for d in demo_floor.devices() if d.id == "paintInventory01")
     corners = [(shelf.x + x, shelf.y + y) for x, y in ((-1.5, -1.5), (1.5, -1.5), (1.5, 1.5), (-1.5, 1.5))]
     add_zone(site=SITE, zone_id="shelf", zone=ZoneChange(name="The shelf", rule="release", points=corners))
+
+
+@pytest.fixture
+def waiting(factory: Any) -> Any:
+    """The factory with a robot of a run that waits before the zone round the shelf."""
+    make_zone()
     factory.run = factory.start(going())
     factory.go(lambda: bool((FloorState.objects.get().state or {}).get("awaiting")))
     return factory
@@ -113,3 +119,24 @@ def test_a_run_that_is_cancelled_waits_no_more(waiting: Any) -> None:
 
 def test_a_site_without_a_floor_has_nobody_waiting(factory: Any) -> None:
     assert shown() == []
+
+
+def test_browsers_hear_where_a_robot_is_about_to_drive_and_that_it_waits(
+    factory: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(fold, "TRAFFIC_EVERY_S", 0.0)  # time passes faster here than for browsers
+    heard: list[dict[str, Any]] = []
+    end = registry.listen(lambda site, message: heard.append(dict(message)))
+    try:
+        make_zone()
+        factory.start(going())
+        factory.go(lambda: bool(shown()))
+    finally:
+        end()
+    told = [
+        message["robots"]["robot01"]
+        for message in heard
+        if message["type"] == "traffic" and "robot01" in message["robots"]
+    ]
+    assert any(len(robot["route"]) > 2 and robot["why"] is None for robot in told)
+    assert told[-1]["why"]["code"] == "not_let_in"
