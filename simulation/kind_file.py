@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import fields
@@ -35,10 +36,29 @@ class BadKinds(VipoError):
     status = 422
 
 
+OWN_FILE = "VIPO_KINDS"
+"""The setting that names a file of more kinds; processes without Django have it in their environment, too."""
+
+
 @cache
 def default_kinds() -> tuple[Kind, ...]:
-    """Return the kinds that VIPO comes with."""
-    return read_kinds(_FILE.read_text())
+    """Return the kinds that VIPO comes with, and after them, so that they know better, those of the server's own file.
+
+    Raises BadKinds with the setting's name where that file cannot be read.
+    """
+    return (*read_kinds(_FILE.read_text()), *_own_kinds(os.environ.get(OWN_FILE, "")))
+
+
+def _own_kinds(path: str) -> tuple[Kind, ...]:
+    if not path:
+        return ()
+    try:
+        return read_kinds(Path(path).read_text())
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is no text"
+        raise BadKinds(f"{OWN_FILE} names {path}, which cannot be read: {reason}.") from error
+    except BadKinds as error:
+        raise BadKinds(f"{OWN_FILE} names {path}. {error.detail}") from error
 
 
 def read_kinds(text: str) -> tuple[Kind, ...]:

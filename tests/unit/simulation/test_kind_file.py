@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
 import pytest
 
-from simulation.kind_file import BadKinds, default_kinds, read_kinds
+from simulation.behaviour import behaviour_of
+from simulation.kind_file import OWN_FILE, BadKinds, default_kinds, read_kinds
+from tests.kit import demo_floor
 
 HEAD = 'version = 1\n[[kinds]]\nname = "saw"\n'
 
@@ -59,3 +65,38 @@ def test_what_cannot_be_understood_is_refused_with_a_sentence(text: str, why: st
 def test_what_is_no_toml_is_refused_with_the_line() -> None:
     with pytest.raises(BadKinds, match=r"^The kinds are no TOML: .*line 3"):
         read_kinds("version = 1\n[[kinds]]\nname = saw\n")
+
+
+@pytest.fixture
+def own_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A file of kinds that the server is told of."""
+    path = tmp_path / "kinds.toml"
+    monkeypatch.setenv(OWN_FILE, str(path))
+    default_kinds.cache_clear()
+    yield path
+    default_kinds.cache_clear()
+
+
+def test_a_server_s_own_kinds_know_better_than_those_of_vipo(own_file: Path) -> None:
+    own_file.write_text('version = 1\n[[kinds]]\nname = "slow robots"\nwhen = { kind = "robot" }\nspeed_m_s = 0.125\n')
+    robot = next(device for device in demo_floor.devices() if device.kind == "robot")
+    assert default_kinds()[-1].name == "slow robots"
+    assert behaviour_of(replace(robot, speed_m_s=None), default_kinds()).speed_m_s == 0.125
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        (None, "which cannot be read: No such file or directory."),
+        (b"\xff\xfe", "which cannot be read: it is no text."),
+        (b"[[kinds]]", "The kinds have the version None; write version = 1 in the first line."),
+        (HEAD.encode() + b'slots = "many"\n', "saw: slots must be a number"),
+    ],
+)
+def test_a_file_of_one_s_own_that_cannot_be_read_is_named(own_file: Path, text: bytes | None, why: str) -> None:
+    if text is not None:
+        own_file.write_bytes(text)
+    with pytest.raises(BadKinds) as refused:
+        default_kinds()
+    assert refused.value.detail.startswith(f"VIPO_KINDS names {own_file}")
+    assert why in refused.value.detail

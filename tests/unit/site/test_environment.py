@@ -263,3 +263,12 @@ def test_files_of_this_machine_are_its_owners_alone(tmp_path: Path) -> None:
     database = dict.fromkeys(("vipo.sqlite3", "vipo.sqlite3-shm", "vipo.sqlite3-wal"), "600")
     assert json.loads(done.stdout) == {**database, "secrets": "700"}, done.stderr
     assert oct(state.stat().st_mode)[-3:] == "700"
+
+
+def test_a_file_of_kinds_that_cannot_be_read_stops_the_start(tmp_path: Path) -> None:
+    own = {name: value for name, value in os.environ.items() if not name.startswith(("VIPO_", "DJANGO_"))}
+    told = {**own, "VIPO_STATE_DIR": str(tmp_path), "VIPO_KINDS": str(tmp_path / "kinds.toml")}
+    command = [sys.executable, "manage.py", "check"]
+    started = subprocess.run(command, cwd=ROOT, env=told, capture_output=True, text=True, timeout=60, check=False)
+    assert started.returncode != 0
+    assert f"VIPO_KINDS names {tmp_path / 'kinds.toml'}, which cannot be read" in started.stderr
