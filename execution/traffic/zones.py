@@ -61,8 +61,10 @@ def _zones(turn: Turn, robot: Robot, rule: str) -> Iterator[FloorZone]:
 
 
 def is_in(layout: Layout, node: Node, zone: FloorZone) -> bool:
-    """Tell whether a node lies in a zone."""
-    return layout.cell(node) in cells_of(layout, zone) or lies_in(layout.point(node), zone.points)
+    """Tell whether a node lies in a zone; a cell whose middle does is among the zone's cells."""
+    if layout.cell(node) in cells_of(layout, zone):
+        return True
+    return not isinstance(node, int) and lies_in(layout.point(node), zone.points)
 
 
 def kept_out(turn: Turn, robot: Robot) -> frozenset[int]:
