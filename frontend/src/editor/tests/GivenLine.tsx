@@ -1,10 +1,11 @@
 /** One thing that is given when a test begins: what a machine holds, what a robot carries, what a reading shows. */
-import { Autocomplete, NumberInput, Select, TextInput } from "@mantine/core";
+import { Autocomplete, NumberInput, Select } from "@mantine/core";
 import { Trash2 } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import type { Device } from "@/api/types";
 import { IconButton } from "@/design/IconButton";
 import { unitText } from "@/program/words/stepWords";
+import { ScalarInput } from "@/shell/start/ScalarInput";
 import { type GivenRow, isWhole } from "./testRows";
 import classes from "./testForm.module.css";
 
@@ -102,58 +103,32 @@ function Reading({ row, devices, set }: ReadingProps) {
         disabled={row.device === null}
         onChange={(name) => set({ name, value: null })}
       />
-      <ScalarField
-        type={property?.type ?? typeof row.value}
-        unit={unitText(property?.unit)}
-        value={row.value}
-        onChange={(value) => set({ value })}
-      />
+      <ReadingValue property={property} value={row.value} onChange={(value) => set({ value })} />
     </>
   );
 }
 
-interface ScalarProps {
-  type: string;
-  unit: string;
+interface ValueProps {
+  /** What the device says of the reading, if it has it. */
+  property: Device["properties"][number] | undefined;
   value: GivenRow["value"];
   onChange: (value: GivenRow["value"]) => void;
 }
 
 /** A value of a reading: a number with its unit, yes or no, or a text. */
-export function ScalarField({ type, unit, value, onChange }: ScalarProps) {
+export function ReadingValue({ property, value, onChange }: ValueProps) {
   const { t } = useTranslation();
+  const type = property?.type ?? typeof value;
+  const unit = unitText(property?.unit);
   const label = t("tests.form.value");
-  if (type === "number")
-    return (
-      <NumberInput
-        size="xs"
-        className={classes.short}
-        aria-label={label}
-        placeholder={label}
-        suffix={unit ? ` ${unit}` : ""}
-        value={typeof value === "number" ? value : ""}
-        onChange={(next) => onChange(typeof next === "number" ? next : null)}
-      />
-    );
-  if (type === "boolean")
-    return (
-      <Select
-        size="xs"
-        className={classes.short}
-        aria-label={label}
-        placeholder={label}
-        data={["true", "false"].map((each) => ({ value: each, label: t(`editor.value.${each}`) }))}
-        value={value === null ? null : String(value)}
-        onChange={(next) => onChange(next === null ? null : next === "true")}
-      />
-    );
   return (
-    <TextInput
+    <ScalarInput
       size="xs"
+      className={type === "number" || type === "boolean" ? classes.short : undefined}
       aria-label={label}
       placeholder={label}
-      value={typeof value === "string" ? value : ""}
-      onChange={(event) => onChange(event.currentTarget.value || null)}
+      suffix={unit ? ` ${unit}` : ""}
+      {...{ type, value, onChange }}
     />
   );
 }

@@ -3,9 +3,8 @@ import { Autocomplete, NumberInput, Select, TagsInput, TextInput } from "@mantin
 import { Check, Trash2, X } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { IconButton } from "@/design/IconButton";
-import { unitText } from "@/program/words/stepWords";
 import type { Choice, Startable } from "@/shell/start/startable";
-import { objectsOf, ScalarField } from "./GivenLine";
+import { objectsOf, ReadingValue } from "./GivenLine";
 import { COMPARISONS, isWhole, type ThenRow } from "./testRows";
 import type { Scalar } from "./testText";
 import classes from "./testForm.module.css";
@@ -273,9 +272,8 @@ function Property({ row, set, about }: FieldsProps) {
         allowDeselect={false}
         onChange={(compared) => set({ compared })}
       />
-      <ScalarField
-        type={property?.type ?? typeof value}
-        unit={unitText(property?.unit)}
+      <ReadingValue
+        property={property}
         value={Array.isArray(value) ? null : (value as Scalar | null)}
         onChange={(next) => set({ value: next })}
       />

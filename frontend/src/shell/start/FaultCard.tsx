@@ -16,6 +16,7 @@ import {
   propertyOf,
   wordsOf,
 } from "./faults";
+import { ScalarInput } from "./ScalarInput";
 import type { Choice } from "./startable";
 import classes from "./start.module.css";
 
@@ -194,32 +195,14 @@ function Reading(props: PartProps) {
         error={wrongProperty}
         onChange={(name) => set({ property: name, value: null })}
       />
-      {property?.type === "number" ? (
-        <NumberInput
-          label={label}
-          value={typeof draft.value === "number" ? draft.value : ""}
-          error={wrongValue}
-          onChange={(next) => set({ value: typeof next === "number" ? next : null })}
-        />
-      ) : property?.type === "boolean" ? (
-        <Select
-          label={label}
-          data={["true", "false"].map((value) => ({ value, label: t(`editor.value.${value}`) }))}
-          value={draft.value === null ? null : String(draft.value)}
-          placeholder={t("editor.field.choose")}
-          error={wrongValue}
-          onChange={(next) => set({ value: next === null ? null : next === "true" })}
-        />
-      ) : (
-        <TextInput
-          label={label}
-          disabled={!property}
-          maxLength={200}
-          value={typeof draft.value === "string" ? draft.value : ""}
-          error={wrongValue}
-          onChange={(event) => set({ value: event.currentTarget.value })}
-        />
-      )}
+      <ScalarInput
+        type={property?.type ?? ""}
+        label={label}
+        disabled={!property}
+        value={draft.value}
+        error={wrongValue}
+        onChange={(value) => set({ value })}
+      />
     </>
   );
 }

@@ -1,10 +1,13 @@
 /** What a run or a rehearsal is told when it starts: the program's parameters, with their defaults. */
-import { NumberInput, Select, TextInput } from "@mantine/core";
+import { Select } from "@mantine/core";
 import { useTranslation } from "react-i18next";
 import type { Device } from "@/api/types";
 import type { MapPlace } from "@/map/floor/floor";
 import type { Parameter } from "@/program/document/document";
 import { unitText } from "@/program/words/stepWords";
+import { ScalarInput } from "./ScalarInput";
+
+const SCALARS = ["number", "boolean", "text", "object"];
 
 export type Given = Readonly<Record<string, unknown>>;
 
@@ -48,26 +51,12 @@ function ParameterInput(props: InputProps) {
   const { parameter, value, error, onChange } = props;
   const unit = unitText(parameter.unit);
   const label = unit ? `${parameter.name} (${unit})` : parameter.name;
-  if (parameter.type === "number")
-    return (
-      <NumberInput
-        {...{ label, error }}
-        value={typeof value === "number" ? value : ""}
-        onChange={(next) => onChange(typeof next === "number" ? next : null)}
-      />
-    );
-  if (parameter.type === "text" || parameter.type === "object")
-    return (
-      <TextInput
-        {...{ label, error }}
-        value={typeof value === "string" ? value : ""}
-        onChange={(event) => onChange(event.currentTarget.value || null)}
-      />
-    );
+  if (SCALARS.includes(parameter.type))
+    return <ScalarInput type={parameter.type} {...{ label, value, error, onChange }} />;
   return <OneOf {...props} label={label} />;
 }
 
-/** Yes or no, a machine, or a place. */
+/** A machine, or a place. */
 function OneOf({
   label,
   parameter: { type },
@@ -78,10 +67,6 @@ function OneOf({
   places,
 }: InputProps & { label: string }) {
   const { t } = useTranslation();
-  const yesNo = [
-    { value: "true", label: t("editor.value.true") },
-    { value: "false", label: t("editor.value.false") },
-  ];
   const named = type === "place" ? places.map((place) => ({ value: place.id, label: place.name })) : [];
   const machines = devices
     .filter((device) => device.kind !== "robot")
@@ -89,11 +74,11 @@ function OneOf({
   return (
     <Select
       {...{ label, error }}
-      data={type === "boolean" ? yesNo : [...machines, ...named]}
-      value={typeof value === "boolean" ? String(value) : typeof value === "string" ? value : null}
-      onChange={(next) => onChange(type === "boolean" && next !== null ? next === "true" : next)}
+      data={[...machines, ...named]}
+      value={typeof value === "string" ? value : null}
+      onChange={onChange}
       placeholder={t("editor.field.choose")}
-      searchable={type !== "boolean"}
+      searchable
     />
   );
 }
