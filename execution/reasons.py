@@ -6,10 +6,10 @@ kept as they are. Each of VIPO's own has a code and a pattern here, and is taken
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
-from functools import cache
 from typing import Any
+
+from execution.sentences import Sentences
 
 SAID = "said"
 SENTENCES: Mapping[str, str] = {
@@ -91,22 +91,13 @@ SENTENCES: Mapping[str, str] = {
 }
 
 
+_sentences = Sentences(SENTENCES)
+
+
 def cause_of(reason: str) -> dict[str, Any] | None:
     """Return `{code, args}` of a reason; other words, such as a device's own, have the code `said`. None for none."""
     if not reason:
         return None
-    for code, pattern in _patterns().items():
-        if found := pattern.fullmatch(reason):
-            return {"code": code, "args": found.groupdict()}
+    if found := _sentences.find(reason):
+        return {"code": found[0], "args": found[1]}
     return {"code": SAID, "args": {"words": reason}}
-
-
-@cache
-def _patterns() -> Mapping[str, re.Pattern[str]]:
-    return {code: re.compile(_pattern(sentence), re.DOTALL) for code, sentence in SENTENCES.items()}
-
-
-def _pattern(sentence: str) -> str:
-    """Return the regular expression for a sentence with `{names}` in it."""
-    parts = re.split(r"\{(\w+)\}", sentence)
-    return "".join(f"(?P<{part}>.+?)" if index % 2 else re.escape(part) for index, part in enumerate(parts))

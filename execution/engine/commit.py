@@ -266,7 +266,7 @@ def _tell(turn: Turn) -> None:
 
 def _show_traffic(turn: Turn) -> None:
     """Let people see where robots are about to drive, and why they wait."""
-    if turn.floor is not None:
+    if turn.floor is not None and turn.site.has_layout:
         publish_traffic(turn.site.slug, turn.site.layout, turn.floor.state)
 
 

@@ -99,6 +99,11 @@ class SiteMemory:
         assert self._layout is not None
         return self._layout
 
+    @property
+    def has_layout(self) -> bool:
+        """Tell whether somebody has looked at the site yet, as its floor does and runs alone do not."""
+        return self._layout is not None
+
     def names_of(self, ids: Iterable[str]) -> dict[str, str]:
         """Return what devices are called, by id; what is no device's id is left out."""
         if time.monotonic() - self._named_at > NAMES_KEPT_S:

@@ -18,6 +18,7 @@ from execution.program_tests.stored_tests import MOST_TESTS, tag_of
 from execution.reasons import cause_of
 from execution.rehearsals.rehearsals import HEAVY
 from execution.trials.coverage import Way, coverage_to_json
+from execution.trials.refusals import cause_of_refusal
 
 MOST_RUNS = 500
 RUNS_LOOKED_AT = 20
@@ -98,7 +99,11 @@ def show_run(*, program: UUID, run: UUID, asker: int) -> dict[str, Any]:
 
 def _line_of_run(result: TrialResult) -> dict[str, Any]:
     told = {"id": result.test_id, "name": result.test.name, "status": result.status}
-    return {**told, "seed": result.seed, "duration_s": result.duration_s, **result.detail}
+    return {**told, "seed": result.seed, "duration_s": result.duration_s, **_detail(result)}
+
+
+def _detail(result: TrialResult) -> dict[str, Any]:
+    return {**result.detail, "cause": cause_of_refusal(result.detail["why"])}
 
 
 def _test_to_json(test: ProgramTest, result: TrialResult | None, digest: str, site: Digests) -> dict[str, Any]:
@@ -124,7 +129,7 @@ def _result_to_json(result: TrialResult, test: ProgramTest, digest: str, site: D
         "seed": result.seed,
         "duration_s": result.duration_s,
         "at": result.at,
-        **result.detail,
+        **_detail(result),
     }
 
 

@@ -31,6 +31,7 @@ from execution.program_tests.shapes import (
     WholeTestRunShape,
 )
 from execution.program_tests.test_runs import Asker, Extent, Update, start_tests
+from execution.trials.refusals import cause_of_refusal
 from registry.requests import refuses, sends, signed_in
 from registry.services import NotAMember, require
 
@@ -74,7 +75,10 @@ def look_at_test(request: HttpRequest, program: UUID, body: TestToWrite) -> dict
     """Tell whether a text is a test, and else where it is wrong; nothing is kept."""
     _program(request, program, "author")
     fault = stored_tests.find_fault(text=body.text)
-    return {"fault": None if fault is None else {"line": fault[0], "why": fault[1]}}
+    if fault is None:
+        return {"fault": None}
+    line, why = fault
+    return {"fault": {"line": line, "why": why, "cause": cause_of_refusal(why)}}
 
 
 @router.get("/programs/{uuid:program}/tests/first", response=FirstTextShape)

@@ -98,6 +98,7 @@ class TestResultShape(Schema):
     errors: list[str]
     line: int
     why: str
+    cause: Cause | None
     odds: OddsShape | None = None
 
 
@@ -156,6 +157,7 @@ class TestRunResultShape(Schema):
     errors: list[str]
     line: int
     why: str
+    cause: Cause | None
 
 
 class WholeTestRunShape(TestRunShape):
@@ -253,10 +255,11 @@ class TestsToImport(Asked):
 
 
 class LineFault(Schema):
-    """Why a text is no test, and on which line (0: unknown)."""
+    """Why a text is no test, and on which line (0: unknown); `cause` says it in other languages."""
 
     line: int
     why: str
+    cause: Cause | None
 
 
 class TestLookShape(Schema):

@@ -17,6 +17,7 @@ from django.db.models import F
 from editor import services as editor
 from execution.errors import BadTest, NotFound, TestChanged, TestNameTaken, TestsFull, TestTagNeeded
 from execution.models import ProgramTest
+from execution.trials.refusals import cause_of_refusal
 from execution.trials.trial_file import read_trial
 from execution.trials.trial_texts import put_together, take_apart
 from execution.trials.yaml_lines import BadTrialFile
@@ -153,7 +154,7 @@ def _as_read(program: UUID, test: UUID, tag: str) -> Any:
 def _read(text: str) -> str:
     """Return the name of the test in a text."""
     if len(text) > MOST_TEXT:
-        raise BadTest(TOO_LONG, {"line": 0})
+        raise _bad(BadTrialFile(0, TOO_LONG))
     try:
         return read_trial(text.encode()).name
     except BadTrialFile as error:
@@ -162,7 +163,9 @@ def _read(text: str) -> str:
 
 def _bad(error: BadTrialFile) -> BadTest:
     where = f"Line {error.line}: " if error.line else ""
-    return BadTest(f"{where}{error.why}", {"line": error.line})
+    cause = cause_of_refusal(error.why)
+    told = {"why": cause["code"], **cause["args"]} if cause else {}
+    return BadTest(f"{where}{error.why}", {**told, "line": error.line})
 
 
 def _taken(name: str) -> TestNameTaken:

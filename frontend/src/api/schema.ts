@@ -4871,8 +4871,9 @@ export interface components {
             number: number;
             reasons: components["schemas"]["ReasonShape"][] | null;
         };
-        /** @description Why a text is no test, and on which line (0: unknown). */
+        /** @description Why a text is no test, and on which line (0: unknown); `cause` says it in other languages. */
         LineFault: {
+            cause: components["schemas"]["Cause"] | null;
             line: number;
             why: string;
         };
@@ -6334,6 +6335,7 @@ export interface components {
         TestResultShape: {
             /** Format: date-time */
             at: string;
+            cause: components["schemas"]["Cause"] | null;
             digest: string;
             duration_s: number;
             errors: string[];
@@ -6350,6 +6352,7 @@ export interface components {
         };
         /** @description What came of a test in one run of tests: what was expected and not seen, or what there is not. */
         TestRunResultShape: {
+            cause: components["schemas"]["Cause"] | null;
             duration_s: number;
             errors: string[];
             expectations: components["schemas"]["ExpectationShape"][];

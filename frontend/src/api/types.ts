@@ -122,6 +122,7 @@ export type RunStep = Schemas["RunStepShape"];
 export type StepStatus = RunStep["status"];
 export type RunEvent = Schemas["RunEventShape"];
 export type Question = Schemas["QuestionShape"];
+export type TestFault = Schemas["LineFault"];
 export type AwaitedAdmission = Schemas["AwaitedAdmission"];
 export type AnswerSpec = Schemas["AnswerShape"];
 export type ArmedProgram = Schemas["ArmedShape"];

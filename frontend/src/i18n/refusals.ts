@@ -9,7 +9,26 @@ export function refusalWords(code: string, args: Readonly<Record<string, unknown
   const key = `refusal.${code}.${String(args?.why)}`;
   const count = typeof args?.count === "number" ? args.count : undefined;
   if (!args || !i18next.exists(key, { count })) return plainWords(code);
-  return i18next.t(key, { ...args, count, first: inLanguage(args.first) }).trim();
+  return placed(i18next.t(key, { ...args, count, first: inLanguage(args.first) }).trim(), args);
+}
+
+interface TextFault {
+  readonly line: number;
+  readonly why: string;
+  readonly cause: { readonly code: string; readonly args: Readonly<Record<string, string>> } | null;
+}
+
+/** What is wrong with the text of a test and where, with the language that it is said in. */
+export function textFaultWords({ line, why, cause }: TextFault): { text: string; lang?: string } {
+  const key = `refusal.bad_test.${cause?.code ?? ""}`;
+  if (!cause || !i18next.exists(key)) return { text: placed(why, { line }), lang: "en" };
+  return { text: placed(i18next.t(key, { ...cause.args }), { ...cause.args, line }) };
+}
+
+/** Words about a text, with the line and the fault on purpose that they are about, where they are about one. */
+function placed(words: string, { line, fault }: Readonly<Record<string, unknown>>): string {
+  const inFault = typeof fault === "string" ? i18next.t("refusal.at_fault", { fault, words }) : words;
+  return typeof line === "number" && line > 0 ? i18next.t("refusal.at_line", { line, words: inFault }) : inFault;
 }
 
 /** What is said of a refusal whatever it is made of. */

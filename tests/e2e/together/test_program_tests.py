@@ -180,6 +180,28 @@ def test_a_test_is_filled_in_without_writing_text_and_its_fault_strikes(sign_in:
     expect(ends.get_by_label("Holds", exact=True)).to_be_visible(timeout=60_000)
 
 
+def test_what_is_wrong_with_a_test_is_told_in_the_reader_s_language(sign_in: SignIn, faults: list[str]) -> None:
+    page = sign_in("author", at=make_program(sign_in("author"), "Gestörter Test"), language="de")
+    panel = open_tests(page)
+    press(panel, "Neuer Test")
+    page.get_by_role("menuitem", name="Leer").press("Enter")
+    shoot(page, "test-form-german")
+    panel.get_by_role("radio", name="Text").press("Space")
+    text = panel.get_by_role("textbox", name="Der Test als YAML")
+    text.focus()
+    page.keyboard.press("Control+a")
+    page.keyboard.insert_text("name: Zu lang\nthen:\n  - within_s: ewig\n")
+    told = "„within_s“ ist eine Zahl, nicht 'ewig'."
+    expect(panel.get_by_role("status").filter(has_text=f"Zeile 3: {told}")).to_be_visible()
+    expect(text).to_contain_text(told)
+    shoot(page, "test-text-german")
+    press(panel, "Speichern")
+    expect(panel.get_by_role("alert")).to_have_text(f"Zeile 3: {told}")
+    assert all("422" in fault for fault in faults)
+    faults.clear()
+    assert violations(page) == []
+
+
 def missed(page: Page) -> str:
     """Make a program with a check that its only test does not look at, try its changes, and return its address."""
     steps = {

@@ -7,6 +7,7 @@ import { ApiProblem } from "@/api/client";
 import { mayOperate } from "@/api/roles";
 import type { ProgramTest, TestOdds, TestResult } from "@/api/types";
 import { formatNumber, formatSpan } from "@/i18n/format";
+import { textFaultWords } from "@/i18n/refusals";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
 import { useOpenProgram } from "../state/context";
 import { say } from "../state/ui";
@@ -223,9 +224,7 @@ function Result({ result }: { result: TestResult }) {
         <Status status={result.status} /> {facts.filter(Boolean).join(", ")}
       </p>
       {result.status === "stopped" ? <p>{t("tests.stopped_why")}</p> : null}
-      {result.why ? (
-        <p lang="en">{`${result.line > 0 ? `${t("tests.at_line", { line: result.line })}: ` : ""}${result.why}`}</p>
-      ) : null}
+      {result.why ? <p lang={textFaultWords(result).lang}>{textFaultWords(result).text}</p> : null}
       <ul className={classes.expectations}>
         {result.expectations.map((each, index) => (
           <li key={index} data-ok={each.ok || undefined}>

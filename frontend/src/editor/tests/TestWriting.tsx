@@ -2,12 +2,13 @@
 import { SegmentedControl } from "@mantine/core";
 import { lazy, Suspense, useEffect, useId, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
-import type { TestResult } from "@/api/types";
+import type { TestFault, TestResult } from "@/api/types";
+import { textFaultWords } from "@/i18n/refusals";
 import drawer from "../parts/drawer.module.css";
 import { useOpenProgram } from "../state/context";
 import classes from "./tests.module.css";
 import { lookAt, useTestsUi } from "./tests";
-import type { Fault, YamlView } from "./yamlView";
+import type { YamlView } from "./yamlView";
 
 const TestForm = lazy(async () => ({ default: (await import("./TestForm")).TestForm }));
 
@@ -48,7 +49,7 @@ export function Written({ opened, text, readOnly, result, onType }: WrittenProps
       )}
       <p id={told} role="status" className={classes.fault} data-wrong={fault ? true : undefined}>
         {fault ? (
-          <span lang="en">{`${fault.line > 0 ? `${t("tests.at_line", { line: fault.line })}: ` : ""}${fault.why}`}</span>
+          <span lang={textFaultWords(fault).lang}>{textFaultWords(fault).text}</span>
         ) : readOnly ? null : (
           t("tests.no_fault")
         )}
@@ -79,7 +80,7 @@ export function Way() {
 interface YamlProps {
   text: string;
   readOnly: boolean;
-  fault: Fault | null;
+  fault: TestFault | null;
   /** The id of what says the fault. */
   told: string;
   onType: (text: string) => void;
@@ -115,8 +116,8 @@ function YamlText({ text, readOnly, fault, told, onType }: YamlProps) {
 }
 
 /** What the parser says of a text, asked once nobody types. */
-function useFault(program: string, text: string, readOnly: boolean): Fault | null {
-  const [fault, setFault] = useState<Fault | null>(null);
+function useFault(program: string, text: string, readOnly: boolean): TestFault | null {
+  const [fault, setFault] = useState<TestFault | null>(null);
   useEffect(() => {
     if (readOnly) return;
     let latest = true;

@@ -4,7 +4,7 @@ import { create } from "zustand";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import { useOnce } from "@/api/once";
-import type { ProgramTest, ProgramTests, Rehearsal, TestRun, TestText, UnnoticedChange } from "@/api/types";
+import type { ProgramTest, ProgramTests, Rehearsal, TestFault, TestRun, TestText, UnnoticedChange } from "@/api/types";
 import type { TestRows } from "./testRows";
 import type { TestValues } from "./testText";
 
@@ -107,7 +107,7 @@ export const useTestProgress = (rehearsal: string | null) =>
 
 /** What is wrong with a text, as the parser says it. */
 export const lookAt = (program: string, text: string) =>
-  api.post<{ fault: { line: number; why: string } | null }>(`${pathOf(program)}/tests/look`, { text });
+  api.post<{ fault: TestFault | null }>(`${pathOf(program)}/tests/look`, { text });
 
 export const readTest = (program: string, id: string) => api.get<TestText>(`${pathOf(program)}/tests/${id}`);
 

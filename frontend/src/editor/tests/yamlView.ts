@@ -1,17 +1,13 @@
 /** CodeMirror with the text of a test: Tab leaves it, the line that the parser refuses says why. */
 import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
 import { EditorState, StateEffect, StateField, type Extension } from "@codemirror/state";
+import type { TestFault } from "@/api/types";
+import { textFaultWords } from "@/i18n/refusals";
 import { Decoration, EditorView, keymap, lineNumbers, WidgetType, type DecorationSet } from "@codemirror/view";
-
-export interface Fault {
-  /** 0 where it is not known. */
-  readonly line: number;
-  readonly why: string;
-}
 
 export interface YamlView {
   show(text: string): void;
-  mark(fault: Fault | null): void;
+  mark(fault: TestFault | null): void;
   destroy(): void;
 }
 
@@ -39,9 +35,9 @@ class Why extends WidgetType {
   }
 }
 
-const setFault = StateEffect.define<Fault | null>();
+const setFault = StateEffect.define<TestFault | null>();
 
-const fault = StateField.define<Fault | null>({
+const fault = StateField.define<TestFault | null>({
   create: () => null,
   update: (value, transaction) =>
     transaction.effects.reduce((now, effect) => (effect.is(setFault) ? effect.value : now), value),
@@ -53,7 +49,7 @@ const marked = EditorView.decorations.compute([fault, "doc"], (state): Decoratio
   const line = state.doc.line(now.line);
   return Decoration.set([
     Decoration.line({ class: "vipo-line-error" }).range(line.from),
-    Decoration.widget({ widget: new Why(now.why), side: 1 }).range(line.to),
+    Decoration.widget({ widget: new Why(textFaultWords({ ...now, line: 0 }).text), side: 1 }).range(line.to),
   ]);
 });
 

@@ -109,7 +109,8 @@ def test_a_file_is_brought_in_whole_or_not_at_all_and_goes_out_as_vipo_test_read
     again = post_json(client, f"{path}/import", {"text": file.replace("'In: one line'", "New")})
     assert (again.status_code, again.json()["args"]) == (409, {"name": "It ends"})
     bad = post_json(client, f"{path}/import", {"text": file.replace("within_s", "within")})
-    assert (bad.json()["code"], bad.json()["args"]) == ("bad_test", {"line": 9})
+    known = "commands, ends, fails, item, never_two_in, property, step, within_s"
+    assert (bad.json()["code"], bad.json()["args"]) == ("bad_test", {"why": "one_of", "known": known, "line": 9})
     assert ProgramTest.objects.count() == 2
 
 
