@@ -6,21 +6,13 @@ the robot has to do leads there any more. Who is in such a zone already drives o
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 
 from execution.traffic.floor_state import Admission, FloorState, Robot
 from execution.traffic.layout import Layout, Node
 from execution.traffic.messages import FloorZone, Reason
 from execution.traffic.turn import Turn
-from execution.traffic.zones import cells_of, is_in
-
-RULE = "release"
-
-
-def zones_with_admission(zones: Iterable[FloorZone]) -> list[FloorZone]:
-    """Return those of the zones that a person lets robots into."""
-    return [zone for zone in zones if zone.rule == RULE]
+from execution.traffic.zones import is_in, zones_with_admission
 
 
 def zone_before(turn: Turn, robot: Robot, index: int) -> FloorZone | None:
@@ -58,16 +50,6 @@ def _leads_to(turn: Turn, robot: Robot, zone: FloorZone) -> bool:
     """Tell whether a robot may still come to a zone: on its path, or on one that its task will have."""
     ahead = robot.path[robot.passed + 1 :]
     return turn.task_of(robot) is not None or any(is_in(turn.layout, node, zone) for node in ahead)
-
-
-def closed_cells(turn: Turn, robot: Robot) -> frozenset[int]:
-    """Return the cells of the zones that a robot is outside of and that nobody has let it into."""
-    return frozenset(
-        cell
-        for zone in zones_with_admission(turn.layout.zones)
-        if (zone.key, robot.id) not in turn.admissions and not is_in(turn.layout, turn.node(robot), zone)
-        for cell in cells_of(turn.layout, zone)
-    )
 
 
 def wait_for_admission(turn: Turn, robot: Robot, zone: FloorZone) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import hypot
 
-from execution.traffic.admissions import closed_cells, wait_for_admission, zone_before
+from execution.traffic.admissions import wait_for_admission, zone_before
 from execution.traffic.covering import go_round_lanes
 from execution.traffic.doors import report_stuck, shut_door, why_not_waited_for
 from execution.traffic.floor_state import Door, Robot
@@ -13,7 +13,7 @@ from execution.traffic.messages import FloorZone
 from execution.traffic.path_release import cut_path, may_enter, set_path
 from execution.traffic.route_points import path_along, points_ahead, set_points
 from execution.traffic.turn import Turn
-from execution.traffic.zones import cells_of, in_the_way, kept_out, path_for
+from execution.traffic.zones import cells_of, closed_cells, in_the_way, kept_out, path_for
 
 ROUND_AFTER_S = 2.0
 """How long a blocked robot waits before it looks for a path round."""

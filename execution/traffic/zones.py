@@ -72,6 +72,21 @@ def kept_out(turn: Turn, robot: Robot) -> frozenset[int]:
     return shut_cells(turn.layout, _zones(turn, robot, "keep_out"))
 
 
+def zones_with_admission(zones: Iterable[FloorZone]) -> list[FloorZone]:
+    """Return those of the zones that a person lets robots into."""
+    return [zone for zone in zones if zone.rule == "release"]
+
+
+def closed_cells(turn: Turn, robot: Robot) -> frozenset[int]:
+    """Return the cells of the zones that a robot is outside of and that nobody has let it into."""
+    return frozenset(
+        cell
+        for zone in zones_with_admission(turn.layout.zones)
+        if (zone.key, robot.id) not in turn.admissions and not is_in(turn.layout, turn.node(robot), zone)
+        for cell in cells_of(turn.layout, zone)
+    )
+
+
 def shut_cells(layout: Layout, zones: Iterable[FloorZone]) -> frozenset[int]:
     """Return the cells of those of the zones that robots keep out of."""
     return frozenset(chain.from_iterable(cells_of(layout, zone) for zone in zones if zone.rule == "keep_out"))
@@ -101,10 +116,16 @@ def path_for(
 ) -> tuple[Node, ...] | None:
     """Return a robot's path that keeps out of all zones it must; one that stands in such a zone may leave it.
 
-    It leads from where the robot is, or from `start`.
+    It leads from where the robot is, or from `start`, and round the zones that people let robots into, where it can.
     """
     zones = tuple(_zones(turn, robot, "keep_out"))
-    return path_outside(turn.layout, zones, (turn.node(robot) if start is None else start, goal), closed, extra)
+    ends = (turn.node(robot) if start is None else start, goal)
+    waits = closed_cells(turn, robot)
+    if waits.isdisjoint(map(turn.layout.cell, ends)):
+        round_them = path_outside(turn.layout, zones, ends, {*closed, *waits}, extra) if waits else None
+        if round_them is not None:
+            return round_them
+    return path_outside(turn.layout, zones, ends, closed, extra)
 
 
 def path_outside(

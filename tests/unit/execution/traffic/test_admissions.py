@@ -10,7 +10,6 @@ from execution.traffic import floor as traffic
 from execution.traffic import messages as m
 from tests.unit.execution.traffic.simulated_floor import PretendFloor
 from tests.unit.execution.traffic.test_site_zones import (
-    CORRIDOR,
     EAST,
     WEST,
     change,
@@ -23,7 +22,9 @@ from tests.unit.execution.traffic.test_site_zones import (
 )
 
 POSES = {"robot01": WEST, "robot02": (18.0, -7.6)}
-CLOSED = zone("release")
+GATE = ((6.0, -13.0), (10.0, -13.0), (10.0, 0.0), (6.0, 0.0))
+"""From wall to wall: no way leads round it."""
+CLOSED = zone("release", GATE)
 
 
 def wait(floor: PretendFloor, seconds: float = 120) -> None:
@@ -43,7 +44,7 @@ def test_a_robot_waits_outside_until_it_is_let_in_and_then_drives_through() -> N
     floor = floor_with(CLOSED, poses=POSES)
     go(floor, "r", EAST, "robot01")
     wait(floor)
-    assert not near(floor, "robot01", CORRIDOR)
+    assert not near(floor, "robot01", GATE)
     assert floor.state.awaiting == {"robot01": "site/z"}
     assert reasons(floor)[-1] == "not_let_in"
     assert floor.waits[-1].reason.text == f"{floor.layout.name('robot01')} waits to be let into The crossing."
@@ -75,7 +76,7 @@ def test_a_robot_on_its_way_home_waits_to_be_let_in_too() -> None:
     floor = floor_with(CLOSED, poses={"robot01": WEST})
     wait(floor)
     assert floor.state.awaiting == {"robot01": "site/z"}
-    assert not near(floor, "robot01", CORRIDOR)
+    assert not near(floor, "robot01", GATE)
     let_in(floor)
     wait(floor, 60)
     assert floor.state.awaiting == {}
@@ -105,6 +106,17 @@ def test_two_people_who_let_a_robot_in_at_once_let_it_in_once() -> None:
     assert ("r", 2) not in floor.over
 
 
+def test_a_robot_goes_round_a_zone_where_it_can_and_waits_for_nobody() -> None:
+    bench = ((8.0, -8.4), (9.0, -8.4), (9.0, -7.6), (8.0, -7.6))
+    floor = floor_with(zone("release", bench), poses={"robot01": WEST})
+    go(floor, "r", EAST, "robot01")
+    beside: list[bool] = []
+    drive(floor, ("r", 1), look=lambda: beside.append(near(floor, "robot01", bench)))
+    assert floor.over["r", 1] == ("", "")
+    assert reasons(floor) == []
+    assert not any(beside)
+
+
 def test_an_admission_ends_with_the_run_that_wanted_in() -> None:
     floor = floor_with(CLOSED, poses={**POSES, "robot01": (5.0, -8.0)})
     go(floor, "r", EAST, "robot01")
@@ -113,7 +125,7 @@ def test_an_admission_ends_with_the_run_that_wanted_in() -> None:
     floor.tell(m.RunOver("r"))
     wait(floor)
     assert floor.state.admissions == ()
-    assert not near(floor, "robot01", CORRIDOR)
+    assert not near(floor, "robot01", GATE)
 
 
 @pytest.mark.parametrize("share", [0.3, 0.5])
@@ -126,7 +138,7 @@ def test_a_zone_made_ahead_of_a_robot_under_way_stops_it_outside(share: float) -
         floor.pass_time()
     change(floor, CLOSED)
     wait(floor)
-    assert not near(floor, "robot01", CORRIDOR)
+    assert not near(floor, "robot01", GATE)
     assert floor.state.awaiting == {"robot01": "site/z"}
 
 
