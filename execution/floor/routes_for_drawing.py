@@ -9,7 +9,7 @@ from execution.floor.layouts import get_layout
 from execution.machine.floor_task import Target
 from execution.traffic.layout import Layout, NoSuchSpot
 from execution.traffic.routes import drawn, length_m
-from execution.traffic.zones import path_outside
+from execution.traffic.zones import path_round, waiting_cells
 from execution.views import RouteView
 
 SPEED_M_S = 0.5
@@ -27,7 +27,8 @@ def plan_routes(*, site: str, pairs: Sequence[tuple[Any, Any]]) -> tuple[RouteVi
 
 def _route(layout: Layout, start: Any, end: Any, speed_m_s: float) -> RouteView | None:
     try:
-        nodes = path_outside(layout, layout.zones, (_node(layout, start), _node(layout, end)))
+        ends = (_node(layout, start), _node(layout, end))
+        nodes = path_round(layout, layout.zones, ends, waiting_cells(layout, layout.zones, ends[0]))
     except NoSuchSpot:
         return None
     if nodes is None:

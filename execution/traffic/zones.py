@@ -79,11 +79,17 @@ def zones_with_admission(zones: Iterable[FloorZone]) -> list[FloorZone]:
 
 def closed_cells(turn: Turn, robot: Robot) -> frozenset[int]:
     """Return the cells of the zones that a robot is outside of and that nobody has let it into."""
+    zones = (zone for zone in turn.layout.zones if (zone.key, robot.id) not in turn.admissions)
+    return waiting_cells(turn.layout, zones, turn.node(robot))
+
+
+def waiting_cells(layout: Layout, zones: Iterable[FloorZone], start: Node) -> frozenset[int]:
+    """Return the cells of those of the zones that people let robots into, but for zones where one is already."""
     return frozenset(
         cell
-        for zone in zones_with_admission(turn.layout.zones)
-        if (zone.key, robot.id) not in turn.admissions and not is_in(turn.layout, turn.node(robot), zone)
-        for cell in cells_of(turn.layout, zone)
+        for zone in zones_with_admission(zones)
+        if not is_in(layout, start, zone)
+        for cell in cells_of(layout, zone)
     )
 
 
@@ -120,12 +126,23 @@ def path_for(
     """
     zones = tuple(_zones(turn, robot, "keep_out"))
     ends = (turn.node(robot) if start is None else start, goal)
-    waits = closed_cells(turn, robot)
-    if waits.isdisjoint(map(turn.layout.cell, ends)):
-        round_them = path_outside(turn.layout, zones, ends, {*closed, *waits}, extra) if waits else None
-        if round_them is not None:
-            return round_them
-    return path_outside(turn.layout, zones, ends, closed, extra)
+    return path_round(turn.layout, zones, ends, closed_cells(turn, robot), closed, extra)
+
+
+def path_round(
+    layout: Layout,
+    zones: Collection[FloorZone],
+    ends: tuple[Node, Node],
+    waits: frozenset[int],
+    closed: Collection[int] = (),
+    extra: Mapping[int, float] | None = None,
+) -> tuple[Node, ...] | None:
+    """Return a path as `path_outside` does, round the cells where a robot would have to wait, if one leads there."""
+    if waits and waits.isdisjoint(map(layout.cell, ends)):
+        found = path_outside(layout, zones, ends, {*closed, *waits}, extra)
+        if found is not None:
+            return found
+    return path_outside(layout, zones, ends, closed, extra)
 
 
 def path_outside(

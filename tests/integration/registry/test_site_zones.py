@@ -207,6 +207,19 @@ def test_a_route_on_the_drawing_goes_round_a_zone_to_keep_out_of_and_there_is_no
     assert route([5.25, 5.25]) is None
 
 
+def test_a_route_on_the_drawing_goes_round_a_zone_that_people_let_robots_into_and_leads_into_it(admin: Client) -> None:
+    services.save_map(site="hall", grid=Grid(100, 100, 0.1, 0.0, 0.0, bytes(10_000)))
+    post_json(admin, ZONES, {**AISLE, "rule": "release", "points": [[4, 4], [6, 4], [6, 6], [4, 6]]})
+
+    def path(start: list[float], to: list[float]) -> Any:
+        found = post_json(admin, "/api/sites/hall/routes", {"pairs": [{"from": start, "to": to}]}).json()[0]
+        return [3.8 < x < 6.2 and 3.8 < y < 6.2 for x, y in found["path"]]
+
+    assert not any(path([2.25, 5.25], [8.25, 5.25]))
+    assert any(path([2.25, 5.25], [5.25, 5.25]))
+    assert any(path([5.25, 5.25], [8.25, 5.25]))
+
+
 def test_a_route_on_the_drawing_goes_round_a_zone_that_leads_against_it(admin: Client) -> None:
     services.save_map(site="hall", grid=Grid(100, 100, 0.1, 0.0, 0.0, bytes(10_000)))
 

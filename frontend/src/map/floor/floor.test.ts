@@ -86,6 +86,7 @@ test("routes are planned anew on another map and for other zones that lead robot
   expect(floorMark({ ...plan, zones: [{ ...zone, rule: "slow", speed_m_s: 0.3 }] })).toBe("1");
   const ways = [0, 90].map((heading_deg) => floorMark({ ...plan, zones: [{ ...zone, rule: "one_way", heading_deg }] }));
   ways.push(floorMark({ ...plan, zones: [{ ...zone, rule: "preferred" }] }));
-  expect(new Set([...marks, ...ways]).size).toBe(7);
+  ways.push(floorMark({ ...plan, zones: [{ ...zone, rule: "release" }] }));
+  expect(new Set([...marks, ...ways]).size).toBe(8);
   expect(floorMark(null)).toBeUndefined();
 });

@@ -124,6 +124,8 @@ export function cellAt(plan: FloorPlan, point: Point): number {
   return plan.cells[row * plan.width + column] ?? 255;
 }
 
+/** The rules of zones that lead robots elsewhere. */
+const LEADING: readonly MapZone["rule"][] = ["keep_out", "one_way", "preferred", "release"];
 const marks = new WeakMap<FloorPlan, string>();
 
 /** Differs whenever robots would drive over another floor: another map, or other zones that lead them elsewhere. */
@@ -132,7 +134,7 @@ export function floorMark(plan: FloorPlan | null | undefined): string | undefine
   const known = marks.get(plan);
   if (known !== undefined) return known;
   const leading = (plan.zones ?? [])
-    .filter(({ rule }) => rule === "keep_out" || rule === "one_way" || rule === "preferred")
+    .filter(({ rule }) => LEADING.includes(rule))
     .map(({ rule, points, heading_deg }) => [rule, points, heading_deg]);
   const mark = String(plan.version) + (leading.length > 0 ? `-${hashOf(JSON.stringify(leading))}` : "");
   marks.set(plan, mark);
