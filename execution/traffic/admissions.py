@@ -1,7 +1,8 @@
 """Zones that a person lets robots into: a robot waits before one until somebody has let it in, each time anew.
 
-An admission is for one robot and one visit. It is over when the robot has left the zone again, or when nothing that
-the robot has to do leads there any more. Who is in such a zone already drives on in it, and leaves it.
+An admission is for one robot and one visit. It is over when the robot has left the zone again, when nothing that the
+robot has to do leads there any more, or when the robot has not come in for a minute, since whoever has looked is gone
+by then. Who is in such a zone already drives on in it, and leaves it.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from execution.traffic.layout import Layout, Node
 from execution.traffic.messages import FloorZone, Reason
 from execution.traffic.turn import Turn
 from execution.traffic.zones import is_in, zones_with_admission
+
+ENTERS_WITHIN_S = 60.0
 
 
 def zone_before(turn: Turn, robot: Robot, index: int) -> FloorZone | None:
@@ -30,7 +33,7 @@ def _enters(layout: Layout, path: tuple[Node, ...], index: int, zone: FloorZone)
 def let_in(turn: Turn, zone_key: str, robot_id: str) -> None:
     """A person lets a robot into a zone before which it waits; for one that does not wait there nothing changes."""
     if turn.before.awaiting.get(robot_id) == zone_key:
-        turn.admissions[zone_key, robot_id] = Admission(zone_key, robot_id)
+        turn.admissions[zone_key, robot_id] = Admission(zone_key, robot_id, turn.now)
 
 
 def keep_admissions(turn: Turn) -> None:
@@ -42,8 +45,12 @@ def keep_admissions(turn: Turn) -> None:
             del turn.admissions[key]
         elif is_in(turn.layout, turn.node(robot), zone):
             turn.admissions[key] = replace(admission, entered=True)
-        elif admission.entered or not _leads_to(turn, robot, zone):
+        elif admission.entered or _is_stale(turn, admission) or not _leads_to(turn, robot, zone):
             del turn.admissions[key]
+
+
+def _is_stale(turn: Turn, admission: Admission) -> bool:
+    return turn.now - admission.at > ENTERS_WITHIN_S
 
 
 def _leads_to(turn: Turn, robot: Robot, zone: FloorZone) -> bool:

@@ -122,10 +122,11 @@ class Door:
 
 @dataclass(frozen=True, slots=True)
 class Admission:
-    """A person has let a robot into a zone, by their keys; `entered` once it is or was in it since."""
+    """A person has let a robot into a zone, by their keys, at a time (s); `entered` once it is or was in it since."""
 
     zone: str
     robot: str
+    at: float = 0.0
     entered: bool = False
 
 

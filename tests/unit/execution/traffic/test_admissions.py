@@ -117,6 +117,20 @@ def test_a_robot_goes_round_a_zone_where_it_can_and_waits_for_nobody() -> None:
     assert not any(beside)
 
 
+def test_who_does_not_come_in_for_a_minute_has_to_be_let_in_anew() -> None:
+    floor = floor_with(CLOSED, poses=POSES)
+    go(floor, "r", EAST, "robot01")
+    wait(floor)
+    floor.tell(m.RunPaused("r"))
+    let_in(floor)
+    wait(floor, 70)
+    assert floor.state.admissions == ()
+    floor.tell(m.RunResumed("r"))
+    wait(floor, 30)
+    assert floor.state.awaiting["robot01"] == "site/z"
+    assert not near(floor, "robot01", GATE)
+
+
 def test_an_admission_ends_with_the_run_that_wanted_in() -> None:
     floor = floor_with(CLOSED, poses={**POSES, "robot01": (5.0, -8.0)})
     go(floor, "r", EAST, "robot01")
