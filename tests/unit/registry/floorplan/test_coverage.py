@@ -156,6 +156,10 @@ def test_too_many_lanes_are_an_error_before_they_are_worked_out(lane_m, why):
     with pytest.raises(CannotCover, match=why) as told:
         plan_lanes(*site, ((-5000, -5000), (5000, -5000), (5000, 5000), (-5000, 5000)), lane_m)
     assert told.value.code == "too_many"
+
+
+def test_as_many_lanes_as_a_hundred_metres_take_are_worked_out():
+    site = floor(side_m=99, resolution_m=0.5)
     assert 100 < len(flat(plan_lanes(*site, ((1, 1), (98, 1), (98, 98), (1, 98)), 0.95))) <= MOST_LANES
 
 
