@@ -16,6 +16,10 @@ from execution.traffic.admissions import zone_awaited
 from execution.traffic.messages import RobotLetIn
 from registry import services as registry
 
+NOT_WAITING = (
+    "{robot} does not wait before {zone}. Somebody may have let it in, or it drives elsewhere; look at the map."
+)
+
 
 @dataclass(frozen=True, slots=True)
 class AwaitedAdmission:
@@ -60,8 +64,9 @@ def let_in(*, site: str, zone_id: str, robot_id: str) -> None:
             (each for each in list_awaited(site=site) if (each.zone, each.robot) == (zone.id, robot_id)), None
         )
         if awaited is None:
-            told = f"{robot_id[:64]!r} does not wait before {zone.name}."
-            raise NotPossibleNow(f"{told} Somebody may have let it in, or it drives elsewhere.")
+            names = registry.get_device_names(site=site, ids=[robot_id[:64]])
+            named = {"robot": names.get(robot_id) or robot_id[:64], "zone": zone.name}
+            raise NotPossibleNow(NOT_WAITING.format_map(named), {"why": "not_waiting", **named})
         mailbox.post_to_floor(site, [(f"let-in:{uuid4()}", RobotLetIn(f"site/{zone.id}", robot_id))])
         facts = {"robot": awaited.robot_name, "zone": zone.name}
         registry.note_act(site_id=registry.get_site_id(site=site), code="robot_let_in", facts=facts)

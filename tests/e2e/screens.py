@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from typing import Any
 
@@ -163,6 +164,19 @@ FRAMES = "() => new Promise((done) => requestAnimationFrame(() => requestAnimati
 STILL = """() => document.getAnimations().every(
   (each) => each.playState !== "running" || each.effect?.getTiming().iterations === Infinity)"""
 """What fades in has the colours of both: contrast is measured when nothing moves but what always does."""
+
+
+def shoot(page: Page, name: str, *schemes: str) -> None:
+    """Keep a picture where somebody wants to look at one (`VIPO_PICTURES` names a folder); one of each scheme named."""
+    if not (folder := os.environ.get("VIPO_PICTURES")):
+        return
+    for scheme in schemes:
+        themed(page, scheme)
+        page.screenshot(path=f"{folder}/{name}-{scheme}.png")
+    if schemes:
+        themed(page, "light")
+    else:
+        page.screenshot(path=f"{folder}/{name}.png")
 
 
 def until(page: Page, expression: str, argument: Any = None) -> None:

@@ -12,7 +12,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 
 from tests.e2e.conftest import PATIENCE_MS, SignIn, listen
-from tests.e2e.screens import themed, violations
+from tests.e2e.screens import shoot, themed, violations
 from tests.kit.demo import Demo
 from tests.kit.files import ROOT
 
@@ -137,19 +137,13 @@ def test_a_second_factor_is_set_up_by_keyboard_and_asked_for_when_signing_in(
         context.close()
 
 
-def shoot(page: Page, name: str) -> None:
-    if shots := os.environ.get("VIPO_SHOTS"):
-        page.screenshot(path=f"{shots}/{name}.png")
-
-
 def test_the_page_is_sound_in_both_themes_sizes_and_languages(sign_in: SignIn) -> None:
     for width, height, scheme in SIZES:
         for language, title in (("en", "Your account"), ("de", "Ihr Konto")):
             page = sign_in("author", "/account", width=width, height=height, dark=scheme == "dark", language=language)
             expect(page.get_by_role("heading", name=title)).to_be_visible()
             assert violations(page) == []
-            if shots := os.environ.get("VIPO_SHOTS"):
-                page.screenshot(path=f"{shots}/account-{width}-{scheme}-{language}.png")
+            shoot(page, f"account-{width}-{scheme}-{language}")
             assert page.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
             assert "account." not in page.locator("main").inner_text()
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
 
@@ -10,16 +9,10 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import SITE, ask, draw_task, make_program, saved, tell, violations
+from tests.e2e.screens import SITE, ask, draw_task, make_program, saved, shoot, tell, violations
 
 pytestmark = pytest.mark.browser
 RULE_PAGE = "/sites/painting-factory/review"
-
-
-def shoot(page: Page, name: str) -> None:
-    """Keep a picture where somebody wants to look at one."""
-    if folder := os.environ.get("VIPO_PICTURES"):
-        page.screenshot(path=f"{folder}/{name}.png")
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,7 +12,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.e2e.conftest import PATIENCE_MS, listen
-from tests.e2e.screens import themed, violations
+from tests.e2e.screens import shoot, themed, violations
 from tests.kit.openid import OpenId, run_openid
 from tests.kit.servers import free_port
 from tests.kit.web import Web, prepare
@@ -57,11 +56,6 @@ def open_page(chromium: Browser, faults: list[str], **more: Any) -> Page:
     page = context.new_page()
     page.set_default_timeout(PATIENCE_MS)
     return page
-
-
-def shoot(page: Page, name: str) -> None:
-    if shots := os.environ.get("VIPO_SHOTS"):
-        page.screenshot(path=f"{shots}/{name}.png")
 
 
 def sign_in_there(page: Page, name: str) -> None:

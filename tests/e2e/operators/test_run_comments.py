@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from typing import Any
 from urllib.parse import urlsplit
@@ -11,7 +10,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.e2e.conftest import SignIn, make_member
-from tests.e2e.screens import address_of, draw_task, make_program, run_state, saved, start_run, violations
+from tests.e2e.screens import address_of, draw_task, make_program, run_state, saved, shoot, start_run, violations
 from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
@@ -24,12 +23,6 @@ def people(demo: Demo, signed_in: dict[str, Any]) -> tuple[str, str]:
     signed_in["run commenter"] = make_member(demo, "commenter", "Runa Note")
     signed_in["run viewer"] = make_member(demo, "viewer", "Victor Look")
     return "run commenter", "run viewer"
-
-
-def shoot(page: Page, name: str) -> None:
-    """Keep a picture where somebody wants to look at one."""
-    if folder := os.environ.get("VIPO_PICTURES"):
-        page.screenshot(path=f"{folder}/{name}.png")
 
 
 def path_of(page: Page) -> str:

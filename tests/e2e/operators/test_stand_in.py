@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import time
 
@@ -10,7 +9,18 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import address_of, ask, draw_task, make_program, run_state, saved, start_run, tell, violations
+from tests.e2e.screens import (
+    address_of,
+    ask,
+    draw_task,
+    make_program,
+    run_state,
+    saved,
+    shoot,
+    start_run,
+    tell,
+    violations,
+)
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
@@ -18,12 +28,6 @@ SITE = "/api/sites/painting-factory"
 DEVICES = "/sites/painting-factory/devices"
 ROBOTS = ("robot01", "robot02", "robot03")
 CALM_S = 4.0
-
-
-def shoot(page: Page, name: str) -> None:
-    """Keep a picture where somebody wants to look at one."""
-    if folder := os.environ.get("VIPO_PICTURES"):
-        page.screenshot(path=f"{folder}/{name}.png")
 
 
 def switch(page: Page, robot: str, *, simulated: bool) -> None:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import expect
 
 from tests.e2e.conftest import SignIn, make_member
-from tests.e2e.screens import SITE, ask, run_state, saved, start_run, tell, themed, violations, write_program
+from tests.e2e.screens import SITE, ask, run_state, saved, shoot, start_run, tell, violations, write_program
 from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
@@ -26,15 +24,6 @@ SCRIPT = """class Task(object):
 """
 
 
-def shoot(page: Page, name: str) -> None:
-    """Keep a picture of the screen, light and dark, where somebody wants to look at it."""
-    if folder := os.environ.get("VIPO_PICTURES"):
-        for scheme in ("light", "dark"):
-            themed(page, scheme)
-            page.screenshot(path=Path(folder) / f"{name}-{scheme}.png")
-        themed(page, "light")
-
-
 def test_a_robot_waits_to_be_let_in_and_an_operator_lets_it_in(
     demo: Demo, signed_in: dict[str, Any], sign_in: SignIn
 ) -> None:
@@ -45,7 +34,7 @@ def test_a_robot_waits_to_be_let_in_and_an_operator_lets_it_in(
     tell(admin, f"{SITE}/zones", zone)
     listed = admin.get_by_role("region", name="Zones")
     expect(listed.get_by_text("Let in by a person")).to_be_visible()
-    shoot(admin, "released-zone")
+    shoot(admin, "released-zone", "light", "dark")
     try:
         write_program(author, "Into the mixing corner", SCRIPT)
         saved(author)
@@ -57,13 +46,13 @@ def test_a_robot_waits_to_be_let_in_and_an_operator_lets_it_in(
         expect(bell).to_be_visible(timeout=60_000)
         card = author.get_by_role("region", name="A robot waits to be let in")
         expect(card.get_by_text("TurtleBot 1 waits to be let into Mixing corner.")).to_be_visible()
-        shoot(author, "let-in-run")
+        shoot(author, "let-in-run", "light", "dark")
         assert violations(author) == []
         viewer.get_by_role("button", name="1 Roboter wartet auf Einlass").press("Enter")
         expect(viewer.get_by_text("Wer Läufe bedient, kann ihn einlassen.")).to_be_visible()
         expect(viewer.get_by_role("button", name="Einlassen")).to_have_count(0)
         bell.press("Enter")
-        shoot(tablet, "let-in-tablet")
+        shoot(tablet, "let-in-tablet", "light", "dark")
         assert violations(tablet) == []
         tablet.get_by_role("button", name="Let it in: TurtleBot 1, Mixing corner").press("Enter")
         expect(bell).to_have_count(0, timeout=20_000)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from typing import Any
 
@@ -10,7 +9,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn, make_member
-from tests.e2e.screens import ask, draw_task, make_program, saved, violations
+from tests.e2e.screens import ask, draw_task, make_program, saved, shoot, violations
 from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
@@ -35,12 +34,6 @@ def chip(page: Page) -> Locator:
 
 def pins(page: Page, word: str = "open thread") -> Locator:
     return page.get_by_role("button", name=re.compile(word))
-
-
-def shoot(page: Page, name: str) -> None:
-    """Keep a picture where somebody wants to look at one."""
-    if folder := os.environ.get("VIPO_PICTURES"):
-        page.screenshot(path=f"{folder}/{name}.png")
 
 
 def test_a_comment_on_a_step_has_a_pin_and_is_answered_and_resolved_while_both_look(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from typing import Any
 
@@ -10,7 +9,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.e2e.conftest import NOWHERE, SignIn, make_member
-from tests.e2e.screens import address_of, ask, tell, themed, violations
+from tests.e2e.screens import address_of, ask, shoot, tell, themed, violations
 from tests.kit.demo import Demo
 from tests.kit.programs import document, step
 
@@ -20,12 +19,6 @@ F = ("f", "body")
 SHELF, BOOTH = {"device": "itemInventory01"}, {"device": "paintMachine01"}
 TESTS_LIMIT_MS = 120_000
 MANY = 60
-
-
-def shoot(page: Page, name: str) -> None:
-    """Keep a picture where somebody wants to look at one."""
-    if folder := os.environ.get("VIPO_PICTURES"):
-        page.screenshot(path=f"{folder}/{name}.png")
 
 
 def put(page: Page, name: str, content: dict[str, Any]) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from typing import Any
 
@@ -10,7 +9,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn, make_member
-from tests.e2e.screens import ask, draw_task, make_program, program_named, saved, tell, violations
+from tests.e2e.screens import ask, draw_task, make_program, program_named, saved, shoot, tell, violations
 from tests.kit.demo import Demo
 from tests.kit.programs import document, step
 from tests.kit.waiting import wait_for
@@ -22,12 +21,6 @@ WRONG = "name: One box is carried\nwhen: {driver: kinematic}\nthen:\n- ends: bad
 def open_tests(page: Page) -> Locator:
     page.get_by_role("tab", name="Tests").press("Enter")
     return page.get_by_role("tabpanel", name="Tests")
-
-
-def shoot(page: Page, name: str) -> None:
-    """Keep a picture where somebody wants to look at one."""
-    if folder := os.environ.get("VIPO_PICTURES"):
-        page.screenshot(path=f"{folder}/{name}.png")
 
 
 def press(within: Locator, name: str) -> None:

@@ -5,7 +5,6 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { useLetIn } from "@/api/admissions";
-import { ApiProblem } from "@/api/client";
 import type { AwaitedAdmission } from "@/api/types";
 import { problemText } from "../LoadProblem";
 import styles from "../questions/questions.module.css";
@@ -22,15 +21,14 @@ interface AdmissionCardProps {
 export function AdmissionCard({ slug, awaited, allowed, leads = false }: AdmissionCardProps) {
   const { t } = useTranslation();
   const letIn = useLetIn(slug);
-  const [state, setState] = useState<"waits" | "asked" | "refused">("waits");
+  const [busy, setBusy] = useState(false);
   const [problem, setProblem] = useState("");
   const open = () => {
-    setState("asked");
-    letIn(awaited).catch((error: unknown) => {
-      if (!(error instanceof ApiProblem)) throw error;
-      setState("refused");
-      setProblem(problemText(error, t("shell.problem.screen")));
-    });
+    setBusy(true);
+    setProblem("");
+    void letIn(awaited)
+      .catch((error: unknown) => setProblem(problemText(error, t("shell.problem.screen"))))
+      .finally(() => setBusy(false));
   };
   const names = { robot: awaited.robot_name, zone: awaited.zone_name };
   return (
@@ -42,19 +40,14 @@ export function AdmissionCard({ slug, awaited, allowed, leads = false }: Admissi
       <p className={styles.text}>{t("admission.text", names)}</p>
       {allowed ? (
         <Group gap={8}>
-          <Button
-            size="compact-md"
-            loading={state === "asked"}
-            onClick={open}
-            aria-label={t("admission.let_in", names)}
-          >
+          <Button size="compact-md" loading={busy} onClick={open} aria-label={t("admission.let_in", names)}>
             {t("admission.let")}
           </Button>
         </Group>
       ) : (
         <p className={styles.note}>{t("admission.waits")}</p>
       )}
-      {state === "refused" ? (
+      {problem ? (
         <p className={styles.problem} role="alert">
           {problem}
         </p>

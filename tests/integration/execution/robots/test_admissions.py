@@ -1,4 +1,7 @@
-"""Robots that wait to be let into a zone of the floor: who sees it, who may let them in, and that one visit is one."""
+"""Robots that wait to be let into a zone of the floor: who sees it, who may let them in, and that one visit is one.
+
+Each turn here takes the site over and reads its floor anew, as another worker would.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +71,8 @@ def test_a_robot_waits_is_let_in_and_its_run_ends(waiting: Any) -> None:
     assert (line.kind, line.facts) == ("runs", {"robot": robot, "zone": "The shelf"})
     again = post_json(operator, LET_IN, {"robot": "robot01"})
     assert again.status_code == 409
-    assert "Somebody may have let it in" in again.json()["detail"]
+    assert again.json()["args"] == {"why": "not_waiting", "robot": robot, "zone": "The shelf"}
+    assert again.json()["detail"].startswith(f"{robot} does not wait before The shelf. ")
 
 
 @pytest.mark.parametrize("role", below_role("operator"))
