@@ -153,6 +153,7 @@ export default defineConfig({
   plugins: [react(), VitePWA(worker), compressed(), plugin],
   resolve: { alias: { "@": here("./src"), ...PLAIN_LOG } },
   build: { target: "es2022", sourcemap: false, chunkSizeWarningLimit: 1500, rolldownOptions: { output } },
-  test: { testTimeout: 60_000 }, // for what hangs: beside the other tests, a first drawing takes seconds
+  // For what hangs: beside the other tests, a first drawing and the fetching of texts take seconds.
+  test: { testTimeout: 60_000, hookTimeout: 60_000, expect: { poll: { timeout: 20_000 } } },
   server: { proxy: { "/api": backend, "/ws": { target: backend.replace("http", "ws"), ws: true } } },
 });

@@ -46,7 +46,7 @@ test("without the server a way that was known before is drawn as it was, once th
   vi.stubGlobal("caches", { match: cache.match, open: () => Promise.resolve(cache) });
   vi.stubGlobal("fetch", () => Promise.resolve(answer([WAY])));
   await askFor("hall", "3", [KEY]);
-  await vi.waitFor(() => expect([...kept.keys()]).toContain("/kept/routes/hall/3"));
+  await vi.waitFor(() => expect([...kept.keys()]).toContain("/kept/routes/hall/3"), 20_000);
   vi.resetModules();
   const again = await import("./useRoutes");
   vi.stubGlobal("fetch", () => Promise.reject(new TypeError("no network")));

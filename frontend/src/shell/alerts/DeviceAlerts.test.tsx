@@ -43,6 +43,6 @@ test("whoever has seen the last alert over a run is not thrown back to the page'
   const seen = screen.getByRole("button");
   seen.focus();
   act(() => seen.click());
-  await waitFor(() => expect(screen.queryByRole("button")).toBeNull());
+  await waitFor(() => expect(screen.queryByRole("button")).toBeNull(), { timeout: 20_000 });
   expect(document.activeElement).not.toBe(document.body);
 });
