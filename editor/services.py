@@ -9,7 +9,7 @@ from editor.library.functions import Said, change_function, save_function
 from editor.library.queries import LibraryView, get_function, search_library
 from editor.library.seeds import seed_library
 from editor.library.updates import get_updated_content
-from editor.programs.checking import build_surroundings, find_zones
+from editor.programs.checking import build_surroundings, find_zones, zone_facts
 from editor.programs.contents import (
     ContentView,
     VersionToTestView,
@@ -111,4 +111,5 @@ __all__ = [
     "show_mending",
     "start_thread_at",
     "take_version_to_test",
+    "zone_facts",
 ]

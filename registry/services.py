@@ -106,7 +106,15 @@ from registry.maps.site_maps import (
     use_robot_map,
 )
 from registry.maps.uploads import MapFiles, create_site_from_map, look_at_upload, read_upload
-from registry.maps.zones import ZoneChange, add_zone, change_zone, find_zone, remove_zone
+from registry.maps.zones import (
+    ZoneChange,
+    add_zone,
+    change_zone,
+    close_zone,
+    find_zone,
+    open_zone,
+    remove_zone,
+)
 from registry.people.access import Access, NotAMember, find_access, list_with_role, require
 from registry.people.keyed_requests import prune_keyed_requests
 from registry.people.open_sessions import drop_expired
@@ -241,6 +249,7 @@ __all__ = [
     "check_device_password",
     "check_sign_in",
     "close_account",
+    "close_zone",
     "compare_robot_map",
     "confirm_topic",
     "count",
@@ -331,6 +340,7 @@ __all__ = [
     "note_mended",
     "note_samples",
     "note_wall_seen",
+    "open_zone",
     "prune_alerts",
     "prune_audit",
     "prune_invitations",

@@ -5,6 +5,7 @@ The frontend's types are made from the shapes.
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import Annotated, Any, Literal
 
 from ninja import Field, Schema
@@ -110,7 +111,8 @@ class SiteZoneShape(Schema):
     """A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow.
 
     `robots` is how many may be in it at once where the rule is `one_at_a_time`, `heading_deg` where robots drive where
-    it is `one_way`: degrees from the x axis, counter-clockwise.
+    it is `one_way`: degrees from the x axis, counter-clockwise. `open_until` is until when robots drive into one freely
+    that they are let into one by one else; null, or past: they are let in one by one.
     """
 
     id: str
@@ -120,6 +122,7 @@ class SiteZoneShape(Schema):
     speed_m_s: float | None
     robots: int | None
     heading_deg: float | None
+    open_until: datetime | None
 
 
 class MapShape(Schema):

@@ -52,10 +52,13 @@ def find_devices(*, site: str) -> dict[str, DeviceFacts]:
 
 def find_zones(*, site: str) -> tuple[ZoneFacts, ...]:
     """Return the zones of a site's floor as the language and traffic see them, by id."""
-    return tuple(
-        ZoneFacts(z.id, z.name, cast("ZoneRule", z.rule), z.points, z.speed_m_s, z.robots or 1, z.heading_deg)
-        for z in registry.list_zones(site=site)
-    )
+    return tuple(zone_facts(zone=zone) for zone in registry.list_zones(site=site))
+
+
+def zone_facts(*, zone: registry.ZoneView) -> ZoneFacts:
+    """Return a zone as the language and traffic see it."""
+    rule = cast("ZoneRule", zone.rule)
+    return ZoneFacts(zone.id, zone.name, rule, zone.points, zone.speed_m_s, zone.robots or 1, zone.heading_deg)
 
 
 def _library(site: str) -> dict[str, LibraryFacts]:

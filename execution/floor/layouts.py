@@ -41,7 +41,7 @@ def look_at_site(slug: str) -> tuple[Layout, tuple[registry.PositionView, ...]]:
     """Return the layout and where the devices are; what these say of themselves is read only when it is news."""
     positions = registry.list_positions(site=slug, lifecycle="approved")
     places = tuple(place_facts(place) for place in registry.list_places(site=slug))
-    zones = site_zones(editor.find_zones(site=slug))
+    zones = tuple(map(_floor_zone, registry.list_zones(site=slug)))
     site_map = registry.get_map(site=slug)
     stamp = _stamp(site_map.version, positions, places, zones)
     known = _layouts.get(slug)
@@ -54,6 +54,12 @@ def look_at_site(slug: str) -> tuple[Layout, tuple[registry.PositionView, ...]]:
     layout = _layout_of(known, made_of, site_map.grid)
     _layouts[slug] = _Known(_stamp(site_map.version, positions, places, zones), made_of, layout)
     return layout, positions
+
+
+def _floor_zone(zone: registry.ZoneView) -> FloorZone:
+    """Return a zone as the floor knows it, with how long it is open."""
+    (known,) = site_zones([editor.zone_facts(zone=zone)])
+    return replace(known, open_until=zone.open_until.timestamp()) if zone.open_until else known
 
 
 def _layout_of(known: _Known | None, made_of: _MadeOf, grid: Grid) -> Layout:

@@ -1,5 +1,7 @@
 """Zones that a person lets robots into: a robot waits before one until somebody has let it in, each time anew.
 
+A zone can be opened to all robots for a time; when that is over, those under way that are not in it yet stop before it.
+
 An admission is for one robot and one visit. It is over when the robot has left the zone again, when nothing that the
 robot has to do leads there any more, or when the robot has not come in for a minute, since whoever has looked is gone
 by then. Who is in such a zone already drives on in it, and leaves it.
@@ -20,7 +22,7 @@ ENTERS_WITHIN_S = 60.0
 
 def zone_before(turn: Turn, robot: Robot, index: int) -> FloorZone | None:
     """Return the first zone that a robot comes into at a node of its path and that nobody has let it into."""
-    for zone in zones_with_admission(turn.layout.zones):
+    for zone in zones_with_admission(turn.layout.zones, turn.now):
         if _enters(turn.layout, robot.path, index, zone) and (zone.key, robot.id) not in turn.admissions:
             return zone
     return None
@@ -38,7 +40,7 @@ def let_in(turn: Turn, zone_key: str, robot_id: str) -> None:
 
 def keep_admissions(turn: Turn) -> None:
     """Note who has come into its zone, and end the admissions of who has left it or has nothing to do there."""
-    zones = {zone.key: zone for zone in zones_with_admission(turn.layout.zones)} if turn.admissions else {}
+    zones = {zone.key: zone for zone in zones_with_admission(turn.layout.zones, turn.now)} if turn.admissions else {}
     for key, admission in list(turn.admissions.items()):
         zone, robot = zones.get(admission.zone), turn.robots.get(admission.robot)
         if zone is None or robot is None or not robot.path:
@@ -75,4 +77,4 @@ def why_waiting(name: str, robot_id: str, zone: FloorZone) -> Reason:
 def zone_awaited(layout: Layout, state: FloorState, robot_id: str) -> FloorZone | None:
     """Return the zone that a robot waits to be let into now."""
     key = state.awaiting.get(robot_id)
-    return next((zone for zone in zones_with_admission(layout.zones) if zone.key == key), None)
+    return next((zone for zone in zones_with_admission(layout.zones, state.now) if zone.key == key), None)

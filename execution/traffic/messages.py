@@ -39,6 +39,12 @@ class FloorZone:
     """How many may be in it at once, where the rule is `one_at_a_time`."""
     heading_deg: float | None = None
     """Where robots drive, where the rule is `one_way`: degrees from the x axis, counter-clockwise."""
+    open_until: float = 0.0
+    """Until when robots drive in freely, where the rule is `release`: seconds since 1970."""
+
+    def is_open(self, now: float) -> bool:
+        """Tell whether robots need not be let in one by one just now, where the rule is `release`."""
+        return self.rule == "release" and self.open_until > now
 
 
 def zone_from_json(data: Mapping[str, Any]) -> FloorZone:
@@ -61,7 +67,7 @@ def site_zones(zones: Iterable[ZoneFacts]) -> tuple[FloorZone, ...]:
 
 def zone_to_json(zone: FloorZone) -> dict[str, Any]:
     """Return a zone as plain JSON; what the version before did not know only where it says something."""
-    usual = {"door": "", "robots": 1, "heading_deg": None}
+    usual = {"door": "", "robots": 1, "heading_deg": None, "open_until": 0.0}
     return {name: value for name, value in asdict(zone).items() if name not in usual or value != usual[name]}
 
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from collections.abc import Iterator
+from itertools import chain, pairwise
 from math import hypot
 
 from execution.traffic.admissions import zone_before
 from execution.traffic.doors import shut_door
 from execution.traffic.floor_state import Robot, Sent
 from execution.traffic.layout import Node
-from execution.traffic.messages import PathPlanned
+from execution.traffic.messages import FloorZone, PathPlanned
 from execution.traffic.route_points import pass_points
 from execution.traffic.routes import drawn
 from execution.traffic.turn import Turn
@@ -228,6 +229,12 @@ def _stand_here(turn: Turn, robot: Robot) -> None:
     place(turn, turn.put(robot, evading="", yields_to="", blocked_since=None, idle_since=turn.now))
 
 
+def _heeded(turn: Turn) -> Iterator[FloorZone]:
+    """Go through the zones of the floor that ask something of robots now: one that is open to all does not."""
+    zones = chain(turn.layout.zones, turn.layout.bodies)
+    return (zone for zone in zones if not zone.is_open(turn.now))
+
+
 def heed_zones(turn: Turn) -> None:
     """Let robots under way heed zones of the floor that are new or another since the last step.
 
@@ -235,7 +242,7 @@ def heed_zones(turn: Turn) -> None:
     called off, and the robot plans anew from where it comes to stand. So is what was released with too high a speed, or
     into a zone that a person lets robots into.
     """
-    before, now = turn.zones.get(SITE, ()), (*turn.layout.zones, *turn.layout.bodies)
+    before, now = turn.zones.get(SITE, ()), tuple(_heeded(turn))
     if before == now:
         return
     stricter = [zone for zone in now if zone.rule in {"slow", "release"} and zone not in before]

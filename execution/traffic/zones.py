@@ -72,14 +72,15 @@ def kept_out(turn: Turn, robot: Robot) -> frozenset[int]:
     return shut_cells(turn.layout, _zones(turn, robot, "keep_out"))
 
 
-def zones_with_admission(zones: Iterable[FloorZone]) -> list[FloorZone]:
-    """Return those of the zones that a person lets robots into."""
-    return [zone for zone in zones if zone.rule == "release"]
+def zones_with_admission(zones: Iterable[FloorZone], now: float = 0.0) -> list[FloorZone]:
+    """Return those of the zones that a person lets robots into one by one, and has not opened to all at this time."""
+    return [zone for zone in zones if zone.rule == "release" and not zone.is_open(now)]
 
 
 def closed_cells(turn: Turn, robot: Robot) -> frozenset[int]:
     """Return the cells of the zones that a robot is outside of and that nobody has let it into."""
-    zones = (zone for zone in turn.layout.zones if (zone.key, robot.id) not in turn.admissions)
+    shut = zones_with_admission(turn.layout.zones, turn.now)
+    zones = (zone for zone in shut if (zone.key, robot.id) not in turn.admissions)
     return waiting_cells(turn.layout, zones, turn.node(robot))
 
 

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from datetime import datetime, timedelta
 
 from django.db import transaction
+from django.utils import timezone
 
 from registry.audit.record import note_act
 from registry.errors import RegistryError
@@ -27,6 +29,10 @@ FEWEST_CORNERS, MOST_CORNERS = 3, 100
 SMALLEST_M2 = 0.01
 SLOWEST_M_S, FASTEST_M_S = 0.05, 5.0
 MOST_ROBOTS = 20
+NO_DOOR = (
+    "Robots need not be let into {zone}, so it is neither opened nor closed. An admin can change what it asks of them."
+)
+LONGEST_OPEN_MIN = 24 * 60
 
 
 class BadZone(RegistryError):
@@ -47,6 +53,13 @@ class ZoneTaken(RegistryError):
     """A name or id that another zone of the site has."""
 
     code = "zone_taken"
+    status = 409
+
+
+class NotAReleasedZone(RegistryError):
+    """A zone that is to be opened or closed and that robots drive into anyway, or never."""
+
+    code = "not_a_released_zone"
     status = 409
 
 
@@ -104,6 +117,40 @@ def remove_zone(*, site: str, zone_id: str) -> None:
         _tell(site, known.version if known else 0)
 
 
+def open_zone(*, site: str, zone_id: str, minutes: int) -> ZoneView:
+    """Let all robots into a zone for so many minutes from now; one that is open already is open for so long then.
+
+    Raises:
+        NoSuchZone: the site has no such zone.
+        NotAReleasedZone: its rule is not that people let robots in.
+        BadZone: for less than a minute or more than a day.
+    """
+    if not 1 <= minutes <= LONGEST_OPEN_MIN:
+        text = f"A zone is opened for 1 to {LONGEST_OPEN_MIN} minutes. Enter such a number."
+        raise BadZone(text, {"why": "minutes", "most": LONGEST_OPEN_MIN})
+    return _set_open(site, zone_id, timezone.now() + timedelta(minutes=minutes), "zone_opened", minutes=minutes)
+
+
+def close_zone(*, site: str, zone_id: str) -> ZoneView:
+    """Let robots into a zone one by one again; who is in it leaves it. Raises NoSuchZone, NotAReleasedZone."""
+    return _set_open(site, zone_id, None, "zone_closed")
+
+
+def _set_open(site: str, zone_id: str, until: datetime | None, code: str, **facts: int) -> ZoneView:
+    with transaction.atomic():
+        row = _lock(site, zone_id)
+        if row.rule != SiteZone.Rule.RELEASE:
+            text = NO_DOOR.format(zone=row.name)
+            raise NotAReleasedZone(text, {"why": "rule", "zone": row.name})
+        if until is not None or row.open_until is not None:
+            row.open_until = until
+            row.save(update_fields=["open_until"])
+            note_act(site_id=row.site_id, code=code, facts={"zone": row.name, **facts})
+            known = find_map(site=site)
+            _tell(site, known.version if known else 0)
+    return find_zone(site=site, zone_id=zone_id)
+
+
 def find_zone(*, site: str, zone_id: str) -> ZoneView:
     """Return a zone of a site. Raises NoSuchZone, NotAMember."""
     found = next((zone for zone in list_zones(site=site) if zone.id == zone_id), None)
@@ -153,6 +200,8 @@ def _settle(row: SiteZone) -> None:
     """Leave of the numbers the one that belongs to the row's rule. Raises BadZone if it is missing."""
     if row.rule != SiteZone.Rule.ONE_AT_A_TIME:
         row.robots = None
+    if row.rule != SiteZone.Rule.RELEASE:
+        row.open_until = None
     if row.rule != SiteZone.Rule.ONE_WAY:
         row.heading_deg = None
     elif row.heading_deg is None:

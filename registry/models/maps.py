@@ -88,6 +88,7 @@ class SiteZone(models.Model):
     speed_m_s = models.FloatField(null=True)
     robots = models.PositiveSmallIntegerField(null=True)
     heading_deg = models.FloatField(null=True)
+    open_until = models.DateTimeField(null=True)
 
     class Meta:
         """A zone's key is its id at the site."""

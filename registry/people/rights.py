@@ -93,7 +93,8 @@ DEEDS = (
         "operator",
         "run",
         """start_rehearsal cancel_rehearsal start_run pause_run resume_run cancel_run answer_question arm_program
-        run_tests take_pace drop_pace begin_stand_in end_stand_in let_robot_in""",
+        run_tests take_pace drop_pace begin_stand_in end_stand_in let_robot_in
+        open_zone close_zone""",
     ),
     _deed("ask_review", "operator", "run", "ask_for_review"),
     _deed("review", "operator", "session", "give_verdict"),

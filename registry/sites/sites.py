@@ -161,6 +161,7 @@ def list_zones(*, site: str) -> tuple[ZoneView, ...]:
             z.speed_m_s,
             (z.robots or 1) if z.rule == SiteZone.Rule.ONE_AT_A_TIME else None,
             z.heading_deg,
+            z.open_until,
         )
         for z in rows
     )

@@ -35,6 +35,8 @@ class ZoneView:
     speed_m_s: float | None = None
     robots: int | None = None
     heading_deg: float | None = None
+    open_until: datetime | None = None
+    """Where people let robots in one by one: until when all may drive in; None, or past: nobody may."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -172,6 +172,7 @@ def shoot(page: Page, name: str, *schemes: str) -> None:
         return
     for scheme in schemes:
         themed(page, scheme)
+        until(page, "() => document.getAnimations().every((each) => !(each instanceof CSSTransition))")
         page.screenshot(path=f"{folder}/{name}-{scheme}.png")
     if schemes:
         themed(page, "light")

@@ -53,6 +53,7 @@ BODIES: dict[str, dict[str, Any]] = {
     "draw_script": {"text": ""},
     "answer_question": {"value": True},
     "let_robot_in": {"robot": "nobody"},
+    "open_zone": {"minutes": 60},
     "call_method": {"method": "none"},
     "plan_route": {"from": [1, 1], "to": [2, 2]},
     "plan_routes": {"pairs": []},

@@ -3855,6 +3855,30 @@ export interface paths {
         patch: operations["edit_zone"];
         trace?: never;
     };
+    "/api/sites/{slug}/zones/{zone_id}/opening": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Open Zone
+         * @description Let all robots into a zone for a time from now that are let in one by one else.
+         */
+        put: operations["open_zone"];
+        post?: never;
+        /**
+         * Close Zone
+         * @description Let robots into a zone one by one again; those under way stop before it, those in it leave it.
+         */
+        delete: operations["close_zone"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/wall/open": {
         parameters: {
             query?: never;
@@ -6210,12 +6234,14 @@ export interface components {
          * @description A zone of a site: corners in metres in the map frame; `speed_m_s` is how fast one may drive where it is slow.
          *
          *     `robots` is how many may be in it at once where the rule is `one_at_a_time`, `heading_deg` where robots drive where
-         *     it is `one_way`: degrees from the x axis, counter-clockwise.
+         *     it is `one_way`: degrees from the x axis, counter-clockwise. `open_until` is until when robots drive into one freely
+         *     that they are let into one by one else; null, or past: they are let in one by one.
          */
         SiteZoneShape: {
             heading_deg: number | null;
             id: string;
             name: string;
+            open_until: string | null;
             points: [
                 number,
                 number
@@ -6691,6 +6717,10 @@ export interface components {
             robots?: number | null;
             rule?: ("keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred" | "release") | null;
             speed_m_s?: number | null;
+        };
+        /** @description For how long all robots are let into a zone. */
+        ZoneOpening: {
+            minutes: number;
         };
         /** @description A named area of the map: a polygon in metres, and what it asks of robots. */
         ZoneShape: {
@@ -16706,6 +16736,96 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["SiteZoneShape"];
                 };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    open_zone: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                zone_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ZoneOpening"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SiteZoneShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    close_zone: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                zone_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];

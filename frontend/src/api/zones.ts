@@ -1,4 +1,4 @@
-/** A site's zones: made, changed and removed by its admins. */
+/** A site's zones: made, changed and removed by its admins, opened and closed by who runs programs. */
 import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { api } from "./client";
 import { staleWithSiteMap } from "./robotMaps";
@@ -7,10 +7,17 @@ import type { MapZone } from "./types";
 export type ZoneRule = MapZone["rule"];
 export const ZONE_RULES: readonly ZoneRule[] = ["keep_out", "release", "slow", "one_at_a_time", "one_way", "preferred"];
 
-export type ZoneFields = Partial<Omit<MapZone, "id" | "points">> & { points?: readonly (readonly [number, number])[] };
+export type ZoneFields = Partial<Omit<MapZone, "id" | "points" | "open_until">> & {
+  points?: readonly (readonly [number, number])[];
+};
 
 export type ZoneChange =
-  { do: "add"; zone: ZoneFields } | { do: "edit"; id: string; fields: ZoneFields } | { do: "remove"; id: string };
+  | { do: "add"; zone: ZoneFields }
+  | { do: "edit"; id: string; fields: ZoneFields }
+  | { do: "remove"; id: string }
+  /** To all robots, for so long from now. */
+  | { do: "open"; id: string; minutes: number }
+  | { do: "close"; id: string };
 
 function send(slug: string, change: ZoneChange): Promise<MapZone | undefined> {
   const path = `/sites/${slug}/zones`;
@@ -21,6 +28,10 @@ function send(slug: string, change: ZoneChange): Promise<MapZone | undefined> {
       return api.patch<MapZone>(`${path}/${encodeURIComponent(change.id)}`, change.fields);
     case "remove":
       return api.delete<undefined>(`${path}/${encodeURIComponent(change.id)}`);
+    case "open":
+      return api.put<MapZone>(`${path}/${encodeURIComponent(change.id)}/opening`, { minutes: change.minutes });
+    case "close":
+      return api.delete<undefined>(`${path}/${encodeURIComponent(change.id)}/opening`);
   }
 }
 

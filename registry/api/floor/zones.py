@@ -11,7 +11,7 @@ from pydantic import Field, Strict
 
 from registry import services
 from registry.people.access import require
-from registry.requests import Asked, Line, Number, signed_in
+from registry.requests import Asked, Line, Number, refuses, signed_in
 from registry.shapes import SiteZoneShape, ZoneRule
 
 router = Router(tags=["registry"])
@@ -48,6 +48,12 @@ class ZoneEdit(Asked):
     heading_deg: Heading | None = None
 
 
+class ZoneOpening(Asked):
+    """For how long all robots are let into a zone."""
+
+    minutes: Annotated[int, Strict(), Field(ge=1, le=1440)]
+
+
 @router.post("/sites/{slug}/zones", response={201: SiteZoneShape})
 def add_zone(request: HttpRequest, slug: str, body: NewZone) -> dict[str, Any]:
     """Make a zone on a site's map. Robots heed it from then on, those under way, too."""
@@ -70,6 +76,20 @@ def edit_zone(request: HttpRequest, slug: str, zone_id: str, body: ZoneEdit) -> 
     require(signed_in(request), slug, "admin")
     change = services.ZoneChange(**body.dict())
     return asdict(services.change_zone(site=slug, zone_id=zone_id, zone=change))
+
+
+@router.put("/sites/{slug}/zones/{zone_id}/opening", response=SiteZoneShape, openapi_extra=refuses(409))
+def open_zone(request: HttpRequest, slug: str, zone_id: str, body: ZoneOpening) -> dict[str, Any]:
+    """Let all robots into a zone for a time from now that are let in one by one else."""
+    require(signed_in(request), slug, "operator", "run")
+    return asdict(services.open_zone(site=slug, zone_id=zone_id, minutes=body.minutes))
+
+
+@router.delete("/sites/{slug}/zones/{zone_id}/opening", response={204: None}, openapi_extra=refuses(409))
+def close_zone(request: HttpRequest, slug: str, zone_id: str) -> None:
+    """Let robots into a zone one by one again; those under way stop before it, those in it leave it."""
+    require(signed_in(request), slug, "operator", "run")
+    services.close_zone(site=slug, zone_id=zone_id)
 
 
 @router.delete("/sites/{slug}/zones/{zone_id}", response={204: None})

@@ -38,6 +38,7 @@ def test_a_robot_waits_to_be_let_in_and_an_operator_lets_it_in(
     try:
         write_program(author, "Into the mixing corner", SCRIPT)
         saved(author)
+        program = author.url
 
         start_run(author)
         tablet = sign_in("door keeper", f"{HOME}/programs", width=820, height=1180)
@@ -59,6 +60,32 @@ def test_a_robot_waits_to_be_let_in_and_an_operator_lets_it_in(
         expect(card).to_have_count(0)
         expect(run_state(author)).to_contain_text("Finished", timeout=60_000)
         assert ask(admin, f"{SITE}/admissions") == []
+
+        expect(listed.get_by_text("No robot is in it.")).to_be_visible(timeout=90_000)
+        author.goto(program)
+        start_run(author)
+        card.get_by_role("button", name="Open to all …: Mixing corner").press("Enter")
+        shoot(author, "open-zone-menu", "light", "dark")
+        author.get_by_role("menuitem", name="For an hour").press("Enter")
+        expect(run_state(author)).to_contain_text("Finished", timeout=60_000)
+        shoot(author, "opened-zone-run", "light")
+        expect(listed.get_by_text("Released until")).to_be_visible()
+        expect(listed.get_by_text("In it now: TurtleBot 1.")).to_be_visible()
+        shoot(admin, "opened-zone", "light", "dark")
+        admin.set_viewport_size({"width": 820, "height": 1180})
+        shoot(admin, "opened-zone-820", "light", "dark")
+        assert violations(admin) == []
+        tablet.goto(tablet.url.replace("/programs", "/map"))
+        place = tablet.get_by_role("region", name="Zones")
+        expect(place.get_by_text("All robots drive in until")).to_be_visible()
+        shoot(tablet, "opened-zone-tablet", "light")
+        place.get_by_role("button", name="Close now: Mixing corner").press("Enter")
+        expect(place.get_by_text("Robots are let in one by one.")).to_be_visible()
+        expect(listed.get_by_text("Released until")).to_have_count(0)
+        viewer.goto(viewer.url.replace("/programs", "/map"))
+        shown = viewer.get_by_role("region", name="Zonen")
+        expect(shown.get_by_text("Roboter werden einzeln eingelassen.")).to_be_visible()
+        expect(shown.get_by_role("button", name="Mixing corner")).to_have_count(0)
     finally:
         answer = admin.request.delete(
             f"{admin.url.split('/sites/')[0]}{SITE}/zones/mixing_corner",

@@ -87,6 +87,7 @@ def test_every_answer_has_a_shape(described):
         ("delete", "/api/sites/{slug}/tokens/{token_id}", "204"),
         ("delete", "/api/sites/{slug}/wall-screens/{wall_screen}", "204"),
         ("delete", "/api/sites/{slug}/zones/{zone_id}", "204"),
+        ("delete", "/api/sites/{slug}/zones/{zone_id}/opening", "204"),
         ("post", "/api/wall/open", "204"),
     ]
 

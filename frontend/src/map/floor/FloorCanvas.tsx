@@ -5,6 +5,7 @@ import type { FloorPlan } from "./floor";
 import { floorShapes, paintFloor, type FloorDetail } from "./floorPainter";
 import classes from "../map.module.css";
 import type { Palette } from "../plane/palette";
+import { useZonesAt } from "./openZones";
 import { zoneSign } from "./zonePainter";
 import { signWords } from "./zoneWords";
 import { useCanvas } from "../plane/useCanvas";
@@ -23,7 +24,8 @@ export function FloorCanvas({
 }) {
   const { t } = useTranslation();
   const zones = plan?.zones;
-  const signs = useMemo(() => (zones ?? []).map((zone) => zoneSign(zone, signWords(zone, t))), [zones, t]);
+  const at = useZonesAt(zones);
+  const signs = useMemo(() => (zones ?? []).map((zone) => zoneSign(zone, signWords(zone, t, at), at)), [zones, t, at]);
   const shapes = useMemo(() => (plan ? floorShapes(plan, signs) : null), [plan, signs]);
   const paint = useCallback(
     (canvas: CanvasRenderingContext2D, size: { width: number; height: number }, palette: Palette) =>

@@ -23,6 +23,8 @@ export interface MapZone {
   readonly robots: number | null;
   /** Where one drives in it, where its rule is that: degrees from the x axis, counter-clockwise. */
   readonly heading_deg: number | null;
+  /** Until when all robots drive in freely that are let in one by one else. */
+  readonly open_until?: string | null;
 }
 
 /** One version of a site's map; `cells` row by row from the bottom row: 0 free, 100 wall, 255 unknown. */

@@ -2,9 +2,11 @@
 import type { Palette, PaletteName } from "../plane/palette";
 import { boxAround, toPixels, type Box } from "../plane/projection";
 import type { MapZone } from "./floor";
+import { openUntil } from "./openZones";
 
 export interface ZoneSign {
   readonly zone: MapZone;
+  readonly look: Look;
   /** Its rule and name, and its rule alone where there is no room for both. */
   readonly words: readonly [string, string];
   readonly outline: Path2D;
@@ -19,6 +21,7 @@ interface Spot {
 }
 
 interface Look {
+  readonly icon: MapZone["rule"] | "open";
   readonly line: PaletteName;
   readonly dash: readonly number[];
   readonly filling: "lines" | "chevrons" | "dots" | "none";
@@ -32,7 +35,7 @@ interface Look {
 
 type Canvas = CanvasRenderingContext2D;
 
-const LOOKS: Readonly<Record<MapZone["rule"], Look>> = {
+const LOOKS: Readonly<Record<MapZone["rule"], Omit<Look, "icon">>> = {
   keep_out: { line: "error", dash: [], filling: "lines", gap: 8, stroke: 1.2, alpha: 0.5, tint: 0.08 },
   slow: { line: "warn-fill", dash: [7, 4], filling: "lines", gap: 18, stroke: 1.2, alpha: 0.5, tint: 0.08 },
   one_at_a_time: { line: "brand", dash: [], filling: "none", gap: 0, stroke: 0, alpha: 0, tint: 0.07 },
@@ -40,6 +43,8 @@ const LOOKS: Readonly<Record<MapZone["rule"], Look>> = {
   release: { line: "error", dash: [3, 4], filling: "lines", gap: 26, stroke: 1.2, alpha: 0.5, tint: 0.06 },
   preferred: { line: "done", dash: [12, 4], filling: "dots", gap: 16, stroke: 1.2, alpha: 0.5, tint: 0.07 },
 };
+/** Of a zone that is open to all robots for a time. */
+const OPEN: Look = { ...LOOKS.release, icon: "open", line: "done", filling: "none" };
 const FONT = "600 11.5px 'Inter Variable', Inter, sans-serif";
 /** So many chevrons or dots are drawn in a zone at most. */
 const MOST_SPOTS = 400;
@@ -47,18 +52,20 @@ const MOST_SPOTS = 400;
 const WORDS_FROM = 0.45;
 const TAG = { height: 22, pad: 7, icon: 14, gap: 5, inset: 5 };
 
-export function zoneSign(zone: MapZone, words: ZoneSign["words"]): ZoneSign {
+/** How a zone is shown at a time, milliseconds. */
+export function zoneSign(zone: MapZone, words: ZoneSign["words"], at: number): ZoneSign {
   const corners = zone.points.map(toPixels);
   const outline = new Path2D();
   corners.forEach(({ x, y }, index) => (index === 0 ? outline.moveTo(x, y) : outline.lineTo(x, y)));
   outline.closePath();
   const box = boxAround(corners) ?? { left: 0, top: 0, right: 0, bottom: 0 };
-  return { zone, words, outline, filling: fillingOf(zone, box), box };
+  const look: Look = openUntil(zone, at) ? OPEN : { ...LOOKS[zone.rule], icon: zone.rule };
+  return { zone, look, words, outline, filling: fillingOf(zone, look, box), box };
 }
 
 export function paintZones(canvas: Canvas, palette: Palette, signs: readonly ZoneSign[], zoom: number): void {
-  for (const { zone, outline, filling } of signs) {
-    const { line, dash, stroke, alpha, tint } = LOOKS[zone.rule];
+  for (const { look, outline, filling } of signs) {
+    const { line, dash, stroke, alpha, tint } = look;
     canvas.save();
     canvas.fillStyle = canvas.strokeStyle = palette[line];
     canvas.globalAlpha = tint;
@@ -78,8 +85,7 @@ export function paintZones(canvas: Canvas, palette: Palette, signs: readonly Zon
   }
 }
 
-function fillingOf({ rule, heading_deg }: MapZone, box: Box): Path2D {
-  const { filling, gap } = LOOKS[rule];
+function fillingOf({ heading_deg }: MapZone, { filling, gap }: Look, box: Box): Path2D {
   const path = new Path2D();
   if (filling === "lines") addLines(path, box, gap);
   else if (filling === "chevrons") for (const at of spread(box, gap)) addChevron(path, at, 7, heading_deg ?? 0);
@@ -148,14 +154,14 @@ export function paintZoneTags(canvas: Canvas, palette: Palette, signs: readonly 
   canvas.restore();
 }
 
-function paintTag(canvas: Canvas, palette: Palette, { zone, words, box }: ZoneSign): void {
+function paintTag(canvas: Canvas, palette: Palette, { zone, look, words, box }: ZoneSign): void {
   const room = box.right - box.left - 2 * TAG.inset;
   const widthOf = (text: string) => 2 * TAG.pad + TAG.icon + TAG.gap + canvas.measureText(text).width;
   const said = widthOf(words[0]) <= room ? words[0] : words[1];
   const width = widthOf(said);
   const left = width <= room ? box.left + TAG.inset : (box.left + box.right - width) / 2;
   const top = Math.max(box.top + TAG.inset, box.bottom - TAG.height - TAG.inset);
-  const line = palette[LOOKS[zone.rule].line];
+  const line = palette[look.line];
   canvas.fillStyle = palette.panel;
   canvas.strokeStyle = line;
   canvas.lineWidth = 1.2;
@@ -165,23 +171,23 @@ function paintTag(canvas: Canvas, palette: Palette, { zone, words, box }: ZoneSi
   canvas.stroke();
   const middle = top + TAG.height / 2;
   canvas.lineWidth = 1.5;
-  canvas.stroke(iconOf(zone, left + TAG.pad + TAG.icon / 2, middle));
+  canvas.stroke(iconOf(look.icon, zone.heading_deg, left + TAG.pad + TAG.icon / 2, middle));
   canvas.fillStyle = palette.text;
   canvas.fillText(said, left + TAG.pad + TAG.icon + TAG.gap, middle + 0.5);
 }
 
-/** A barred circle, a gate, a dial, an arrow, a tick, one head: what each rule says without words. */
-function iconOf({ rule, heading_deg }: MapZone, x: number, y: number): Path2D {
+/** A barred circle, a lock, an open one, a dial, an arrow, a tick, one head: what each rule says without words. */
+function iconOf(rule: Look["icon"], heading_deg: number | null, x: number, y: number): Path2D {
   const path = new Path2D();
   if (rule === "keep_out") {
     path.arc(x, y, 5.5, 0, 2 * Math.PI);
     path.moveTo(x - 3.9, y - 3.9);
     path.lineTo(x + 3.9, y + 3.9);
-  } else if (rule === "release") {
+  } else if (rule === "release" || rule === "open") {
     path.rect(x - 4, y - 1, 8, 6.5);
     path.moveTo(x - 2.6, y - 1);
-    path.arc(x, y - 2.4, 2.6, Math.PI, 2 * Math.PI);
-    path.lineTo(x + 2.6, y - 1);
+    path.arc(x, y - (rule === "open" ? 4 : 2.4), 2.6, Math.PI, 2 * Math.PI);
+    if (rule === "release") path.lineTo(x + 2.6, y - 1);
   } else if (rule === "slow") {
     path.arc(x, y + 2, 6, Math.PI, 2 * Math.PI);
     path.moveTo(x, y + 2);

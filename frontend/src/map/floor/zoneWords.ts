@@ -1,22 +1,26 @@
 /** What is written on a zone of the floor. */
 import type { TFunction } from "i18next";
-import { formatNumber, withUnit } from "@/i18n/format";
+import { formatNumber, formatTime, withUnit } from "@/i18n/format";
 import type { MapZone } from "./floor";
+import { openUntil } from "./openZones";
 
 type Rule = Omit<MapZone, "id" | "name" | "points">;
 
-/** Its rule: "Keep out", "At most 0.3 m/s", "2 robots". */
-export function ruleWords(zone: Rule, t: TFunction): string {
-  return shortWords(zone, t, arrowOf(zone.heading_deg ?? 0));
+/** Its rule at a time, milliseconds: "Keep out", "At most 0.3 m/s", "2 robots", "Released until 14:00". */
+export function ruleWords(zone: Rule, t: TFunction, at = Date.now()): string {
+  return shortWords(zone, t, arrowOf(zone.heading_deg ?? 0), at);
 }
 
 /** What its sign on the map says, long and short; the sign has an arrow of its own. */
-export function signWords(zone: MapZone, t: TFunction): [string, string] {
-  const rule = shortWords(zone, t, "");
+export function signWords(zone: MapZone, t: TFunction, at: number): [string, string] {
+  const rule = shortWords(zone, t, "", at);
   return [t("zone.says", { rule, name: zone.name }), rule];
 }
 
-function shortWords({ rule, speed_m_s, robots }: Rule, t: TFunction, arrow: string): string {
+function shortWords(zone: Rule, t: TFunction, arrow: string, at: number): string {
+  const { rule, speed_m_s, robots } = zone;
+  const until = openUntil(zone, at);
+  if (until) return t("zone.short.open", { time: formatTime(until) });
   return t(`zone.short.${rule}`, { speed: speedWords(speed_m_s ?? 0), count: robots ?? 1, arrow }).trim();
 }
 

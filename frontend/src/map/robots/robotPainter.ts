@@ -243,6 +243,21 @@ function paintBadge(canvas: Canvas, palette: Palette, status: RobotView["status"
   }
 }
 
+/** Why a robot waits is read wherever it stands, over walls and zones, too. */
+function paintCard(canvas: Canvas, palette: Palette, name: string, wait: string, height: number): void {
+  canvas.font = NAME;
+  const first = canvas.measureText(name).width;
+  canvas.font = NOTE;
+  const width = Math.max(first, canvas.measureText(wait).width) + 16;
+  canvas.beginPath();
+  canvas.roundRect(-width / 2, height - 14, width, 35, 6);
+  canvas.fillStyle = palette.panel;
+  canvas.fill();
+  canvas.strokeStyle = palette["warn-fill"];
+  canvas.lineWidth = 1.2;
+  canvas.stroke();
+}
+
 const NAME_BELOW = 38;
 const NAME_ABOVE = -42;
 
@@ -259,6 +274,7 @@ function paintName(canvas: Canvas, palette: Palette, robot: RobotView, height: n
   canvas.textAlign = "center";
   canvas.textBaseline = "alphabetic";
   canvas.lineJoin = "round";
+  if (robot.wait) paintCard(canvas, palette, robot.name, robot.wait, height);
   canvas.strokeStyle = palette.casing;
   canvas.lineWidth = 4;
   canvas.font = NAME;

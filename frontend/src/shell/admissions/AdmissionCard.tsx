@@ -7,6 +7,7 @@ import { Link } from "react-router-dom";
 import { useLetIn } from "@/api/admissions";
 import type { AwaitedAdmission } from "@/api/types";
 import { problemText } from "../LoadProblem";
+import { OpenZoneMenu } from "./OpenZoneMenu";
 import styles from "../questions/questions.module.css";
 
 interface AdmissionCardProps {
@@ -43,6 +44,7 @@ export function AdmissionCard({ slug, awaited, allowed, leads = false }: Admissi
           <Button size="compact-md" loading={busy} onClick={open} aria-label={t("admission.let_in", names)}>
             {t("admission.let")}
           </Button>
+          <OpenZoneMenu slug={slug} zone={awaited.zone} name={awaited.zone_name} />
         </Group>
       ) : (
         <p className={styles.note}>{t("admission.waits")}</p>

@@ -193,3 +193,73 @@ def test_states_of_before_are_read() -> None:
     assert "awaiting" not in kept
     assert "admissions" not in kept
     assert replace(traffic.from_json(kept), now=floor.state.now) == floor.state
+
+
+def open_for(floor: PretendFloor, seconds: float) -> None:
+    """Somebody opens the zone for so long, on the map."""
+    change(floor, replace(CLOSED, open_until=floor.state.now + seconds))
+
+
+def test_while_a_zone_is_open_all_drive_through_it_and_none_waits() -> None:
+    floor = floor_with(CLOSED, poses=POSES)
+    open_for(floor, 600)
+    go(floor, "a", EAST, "robot01")
+    go(floor, "b", (3.0, -7.6), "robot02")
+    drive(floor, ("a", 1), ("b", 1))
+    assert [floor.over[key] for key in (("a", 1), ("b", 1))] == [("", "")] * 2
+    assert "not_let_in" not in reasons(floor)
+
+
+def test_who_waits_drives_on_when_the_zone_is_opened_and_the_next_waits_when_its_time_is_over() -> None:
+    floor = floor_with(CLOSED, poses=POSES)
+    go(floor, "a", EAST, "robot01")
+    wait(floor)
+    let_in(floor)  # an admission that the opening makes needless
+    open_for(floor, 60)
+    drive(floor, ("a", 1))
+    assert floor.state.admissions == ()
+    wait(floor, 60)
+    go(floor, "b", (3.0, -7.6), "robot02")
+    wait(floor)
+    assert floor.state.awaiting == {"robot02": "site/z"}
+    assert not near(floor, "robot02", GATE)
+
+
+@pytest.mark.parametrize("shuts", ["its time is over", "somebody closes it"])
+@pytest.mark.parametrize("share", [0.3, 0.5, 0.9])
+def test_a_robot_on_its_way_to_a_zone_stops_outside_when_it_shuts(share: float, shuts: str) -> None:
+    track = usual_way()
+    floor = floor_with(CLOSED, poses={"robot01": WEST})
+    inside = next(index for index, at in enumerate(track) if at[0] > 5.7)
+    lasts_s = int(inside * share) * 0.1
+    open_for(floor, lasts_s if shuts == "its time is over" else 600)
+    go(floor, "r", EAST, "robot01")
+    wait(floor, lasts_s)
+    if shuts == "somebody closes it":
+        change(floor, CLOSED)
+    beside: list[bool] = []
+    for _ in range(1200):
+        floor.pass_time()
+        beside.append(near(floor, "robot01", GATE))
+    assert not any(beside)
+    assert floor.state.awaiting == {"robot01": "site/z"}
+
+
+def test_a_robot_that_is_in_a_zone_when_it_shuts_leaves_it() -> None:
+    floor = floor_with(CLOSED, poses={"robot01": (8.0, -8.0)})
+    open_for(floor, 3)
+    go(floor, "r", EAST, "robot01")
+    wait(floor, 3)
+    assert near(floor, "robot01", GATE)
+    drive(floor, ("r", 1))
+    assert floor.over["r", 1] == ("", "")
+    assert floor.state.awaiting == {}
+
+
+def test_an_open_zone_is_kept_with_its_time_and_others_are_kept_as_before() -> None:
+    floor = floor_with(CLOSED, poses=POSES)
+    floor.pass_time()
+    assert "open_until" not in str(traffic.to_json(floor.state))
+    opened = replace(CLOSED, open_until=floor.state.now + 5)
+    assert m.zone_from_json(m.zone_to_json(opened)) == opened
+    assert [replace(CLOSED, rule="keep_out", open_until=9.0).is_open(1.0), opened.is_open(0.0)] == [False, True]

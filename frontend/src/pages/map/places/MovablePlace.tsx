@@ -6,7 +6,7 @@ import type { MapPlace, SiteMap } from "@/api/types";
 import { formatNumber } from "@/i18n/format";
 import { toPixels } from "@/map/plane/projection";
 import { movedByKey, useDraftPoint, useDragging } from "../../devices/movable";
-import { tellRefusal } from "./refusal";
+import { tellRefusal } from "@/shell/refusal";
 import styles from "./places.module.css";
 
 const ICONS: Readonly<Record<PlaceKind, typeof MapPin>> = { point: MapPin, dock: SquareParking, room: TextCursorInput };

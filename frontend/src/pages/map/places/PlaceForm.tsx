@@ -8,7 +8,7 @@ import type { MapPlace } from "@/api/types";
 import { formatPoint } from "@/i18n/format";
 import { KindField } from "./KindField";
 import { PlaceUses } from "./RemovePlace";
-import { tellRefusal } from "./refusal";
+import { tellRefusal } from "@/shell/refusal";
 import styles from "./places.module.css";
 
 interface PlaceFormProps {

@@ -4,7 +4,7 @@ import { useTranslation } from "react-i18next";
 import { useChangePlace, type PlaceKind } from "@/api/places";
 import type { SiteMap } from "@/api/types";
 import type { Point } from "@/map/plane/projection";
-import { tellRefusal } from "./refusal";
+import { tellRefusal } from "@/shell/refusal";
 
 export type PlaceEditing = ReturnType<typeof usePlaces>;
 

@@ -7,7 +7,7 @@ import type { MapZone, SiteMap } from "@/api/types";
 import { useChangeZone, type ZoneFields } from "@/api/zones";
 import { formatNumber, withUnit } from "@/i18n/format";
 import styles from "../places/places.module.css";
-import { tellRefusal } from "../places/refusal";
+import { tellRefusal } from "@/shell/refusal";
 import { areaOf } from "./outline";
 import { RuleField, type RuleOfZone } from "./RuleField";
 import { ZoneUses } from "./RemoveZone";

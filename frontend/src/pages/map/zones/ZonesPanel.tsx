@@ -6,10 +6,12 @@ import { useTranslation } from "react-i18next";
 import type { MapZone, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { formatNumber, withUnit } from "@/i18n/format";
+import { useZonesAt } from "@/map/floor/openZones";
 import { ruleWords } from "@/map/floor/zoneWords";
 import styles from "../places/places.module.css";
 import own from "./zones.module.css";
 import { areaOf } from "./outline";
+import { ReleasedZone } from "./ReleasedZone";
 import { RemoveZone } from "./RemoveZone";
 import type { ZoneEditing } from "./useZones";
 import { NewZoneForm, ZoneForm } from "./ZoneForms";
@@ -23,6 +25,7 @@ interface ZonesPanelProps {
 
 export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
   const { t } = useTranslation();
+  const at = useZonesAt(map.zones);
   const [removing, setRemoving] = useState<MapZone | null>(null);
   return (
     <section aria-labelledby="zones">
@@ -32,7 +35,8 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
       <ul className={styles.list}>
         {map.zones.map((zone) => (
           <li key={zone.id}>
-            <Row zone={zone} editing={editing} />
+            <Row zone={zone} at={at} editing={editing} />
+            {zone.rule === "release" ? <ReleasedZone slug={slug} zone={zone} at={at} /> : null}
             {editing?.zone?.id === zone.id ? (
               <ZoneForm slug={slug} map={map} zone={zone} remove={() => setRemoving(zone)} />
             ) : null}
@@ -65,12 +69,12 @@ function Adding({ editing }: { editing: ZoneEditing }) {
   );
 }
 
-function Row({ zone, editing }: { zone: MapZone; editing: ZoneEditing | null }) {
+function Row({ zone, at, editing }: { zone: MapZone; at: number; editing: ZoneEditing | null }) {
   const { t } = useTranslation();
   const words = (
     <>
       <span>{zone.name}</span>
-      <Chip>{ruleWords(zone, t)}</Chip>
+      <Chip>{ruleWords(zone, t, at)}</Chip>
       <code>{withUnit(formatNumber(areaOf(zone.points), 1), "m²")}</code>
     </>
   );

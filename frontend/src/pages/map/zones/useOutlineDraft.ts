@@ -3,7 +3,7 @@ import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { MapZone } from "@/api/types";
 import { useChangeZone } from "@/api/zones";
-import { tellRefusal } from "../places/refusal";
+import { tellRefusal } from "@/shell/refusal";
 import { isSameOutline, type Outline } from "./outline";
 
 export interface OutlineDraft {

@@ -3,7 +3,7 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { SiteMap } from "@/api/types";
 import { useChangeZone, type ZoneFields } from "@/api/zones";
-import { tellRefusal } from "../places/refusal";
+import { tellRefusal } from "@/shell/refusal";
 import type { Outline } from "./outline";
 
 export type ZoneEditing = ReturnType<typeof useZones>;
