@@ -34,7 +34,7 @@ from vipo_site.embedded_broker.connection import (
     PROTOCOL_LEVEL,
     UNREADABLE,
     Connection,
-    notice_dead_peers,
+    set_socket_options,
     protocol_level,
     read_connect,
     refuse,
@@ -107,7 +107,7 @@ class VipoBroker(SpreadingBroker):
             first = next(iter(self._not_admitted))
             del self._not_admitted[first]
             first.transport.abort()
-        notice_dead_peers(writer)
+        set_socket_options(writer)
         try:
             await super().stream_connected(reader, writer, listener_name)
         finally:

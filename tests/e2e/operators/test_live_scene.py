@@ -27,10 +27,11 @@ def test_a_run_is_watched_in_3d_by_two_and_the_map_is_one_press_away(sign_in: Si
     page.get_by_role("banner").get_by_role("button", name="Run", exact=True).click()
     page.get_by_role("dialog", name="Run this program").get_by_role("button", name="Run", exact=True).click()
     expect(page).to_have_url(re.compile("/runs/"))
+    page.set_viewport_size({"width": 1100, "height": 700})  # without a graphics card each pixel in 3D takes its time
     page.get_by_role("radio", name="3D").press("Space")
     expect(page).to_have_url(re.compile("view=3d$"))
     expect(scene(page)).to_have_accessible_name(re.compile("Carrying 1 box"))
-    watcher = sign_in("admin", re.sub(r"https?://[^/]+", "", page.url))
+    watcher = sign_in("admin", re.sub(r"https?://[^/]+", "", page.url), width=1100, height=700)
     expect(scene(watcher)).to_be_visible()
     expect(watcher.get_by_text("Curing Oven").first).to_be_visible()
     assert violations(watcher) == []

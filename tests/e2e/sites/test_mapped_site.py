@@ -25,7 +25,7 @@ MAPPING_LIMIT_MS = 180_000
 
 @pytest.fixture(scope="module")
 def empty_demo(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Demo]:
-    with running_demo(tmp_path_factory.mktemp("empty") / "state", speed=5, empty_floor=True) as running:
+    with running_demo(tmp_path_factory.mktemp("empty") / "state", speed=10, empty_floor=True) as running:
         yield running
 
 

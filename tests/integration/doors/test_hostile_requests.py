@@ -6,6 +6,7 @@ The calls and their fields are those of the API's own description, so that a new
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator
 from typing import Any
 from urllib.parse import quote
@@ -44,6 +45,12 @@ OTHERS = {
     "NaN": float("nan"), "Infinity": float("inf"), "a huge number": 10**400, "a large number": 10**18, "true": True,
     "a list": [[]], "an object": {"a": {}}, "null": None, "nested": json.loads("[" * 60 + "]" * 60),
 }  # fmt: skip
+HARD_FOR_DATABASES = {"NUL", "half of a surrogate pair", "very long", "a huge number", "a large number"}
+ON_POSTGRESQL = os.environ.get("VIPO_TEST_DATABASE", "").startswith("postgres")
+POISONS = {
+    what: poison for what, poison in {**TEXTS, **OTHERS}.items() if not ON_POSTGRESQL or what in HARD_FOR_DATABASES
+}
+"""On PostgreSQL, where all of this runs a second time, those that one database may take and another not."""
 pytestmark = pytest.mark.django_db
 
 
@@ -128,7 +135,7 @@ def test_no_field_of_a_call_takes_what_it_cannot_keep(
 ) -> None:
     known = known_values()
     tried = []
-    for what, poison in {**TEXTS, **OTHERS}.items():
+    for what, poison in POISONS.items():
         for said, answer in attempts(admin, method, path, call, known, poison):
             assert answer.status_code < 500 or answer.status_code == 501, (what, said, answer.content[:400])
             tried.append(answer.status_code)
@@ -182,8 +189,4 @@ def test_a_cookie_that_is_no_text_is_a_stranger(db: None, value: str) -> None:
 
 
 def test_the_database_is_the_one_that_was_asked_for(db: None) -> None:
-    import os
-
-    assert connection.vendor == (
-        "postgresql" if os.environ.get("VIPO_TEST_DATABASE", "").startswith("postgres") else "sqlite"
-    )
+    assert connection.vendor == ("postgresql" if ON_POSTGRESQL else "sqlite")

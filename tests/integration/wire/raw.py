@@ -62,10 +62,14 @@ def subscribe(number: int, *filters: str, qos: int = 1) -> bytes:
 
 
 class Raw:
-    """A client's socket."""
+    """A client's socket; `room` is how many bytes the system keeps for it that it has not read."""
 
-    def __init__(self, broker: EmbeddedBroker, hello: bytes) -> None:
-        self.socket = socket.create_connection(("127.0.0.1", broker.port), timeout=20)
+    def __init__(self, broker: EmbeddedBroker, hello: bytes, room: int | None = None) -> None:
+        self.socket = socket.socket()
+        if room is not None:
+            self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, room)
+        self.socket.settimeout(20)
+        self.socket.connect(("127.0.0.1", broker.port))
         self.send(hello)
 
     def send(self, data: bytes) -> None:
@@ -103,8 +107,8 @@ class Raw:
 
 
 @contextmanager
-def raw(broker: EmbeddedBroker, hello: bytes, answer: bytes = b"\x00\x00") -> Iterator[Raw]:
-    made = Raw(broker, hello)
+def raw(broker: EmbeddedBroker, hello: bytes, answer: bytes = b"\x00\x00", room: int | None = None) -> Iterator[Raw]:
+    made = Raw(broker, hello, room)
     with made.socket:
         assert made.read() == (0x20, answer)
         yield made

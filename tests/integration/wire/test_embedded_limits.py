@@ -20,7 +20,7 @@ from vipo_site.embedded_broker.server import EmbeddedBroker
 
 WORD, SERVER_WORD = "word", "secret"
 UP, DOWN = "vipo/v1/dev/loud01/up/", "vipo/v1/dev/loud01/down/"
-MOST_TAKEN_BYTES = 40_000_000
+MOST_TAKEN_BYTES = 16_000_000
 FLOOD = publish("vipo/v1/dev/loud01/up/x" + "y" * 3000, b"", qos=1) + b"\xc0\x00" * 500
 FILLER = b"x" * 12_000
 
@@ -99,7 +99,7 @@ def test_an_absent_client_with_a_session_gets_the_first_thousand(broker: Embedde
 
 
 def test_a_flood_by_one_who_reads_no_answers_holds_up_itself_alone(broker: EmbeddedBroker, ear: Ear) -> None:
-    with raw(broker, connect("loud01", WORD)) as loud:
+    with raw(broker, connect("loud01", WORD), room=4096) as loud:
         stop, sent = threading.Event(), [0]
 
         def flood() -> None:
