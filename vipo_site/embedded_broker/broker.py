@@ -34,10 +34,10 @@ from vipo_site.embedded_broker.connection import (
     PROTOCOL_LEVEL,
     UNREADABLE,
     Connection,
-    set_socket_options,
     protocol_level,
     read_connect,
     refuse,
+    set_socket_options,
     until,
 )
 from vipo_site.embedded_broker.routing import SERVER, SpreadingBroker
