@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Function, Tree
 from editor.language.tree.traversal import callees_first, functions_in_circles
-from editor.language.tree.variables import SETTERS, local_variables, program_variables, read_by, set_by
+from editor.language.tree.variables import SETTERS, local_variables, read_by, set_by
 
 Names = frozenset[str]
 NO_NAMES: Names = frozenset()
@@ -75,10 +75,9 @@ class EffectTable:
     def __post_init__(self) -> None:
         if not self.tree.functions:
             return
-        shared = program_variables(self.tree)
         for function in self.tree.functions:
             names = (parameter.name for parameter in function.parameters)
-            self.own[function.method] = frozenset((*names, *local_variables(function, shared)))
+            self.own[function.method] = frozenset((*names, *local_variables(self.tree, function)))
             self.functions[function.method] = NOTHING
         order = callees_first(self.tree)
         read = {function.method: _read_in(self.tree, function.body) for function in order}

@@ -47,13 +47,15 @@ def check_value(
 ) -> bool:  # fmt: skip
     """Check what a value reads and of which type and unit it is; tell whether it is good."""
     before = len(context.found)
-    parts = [value] if isinstance(value, Constant) else parts_of(value)
     if not isinstance(value, Constant):
+        parts = parts_of(value)
         check_readings(context, node, parts, field)
         _check_divisors(context, node, parts, field)
         _check_things(context, node, parts, field)
         _check_numbers_of_items(context, node, parts, field)
-    _check_lengths(context, node, parts, field)
+        _check_lengths(context, node, parts, field)
+    elif isinstance(value.value, tuple):
+        check_length(context, node, value.value, field)
     checker = TypeChecker(context.surroundings, context.variables, [])
     value_type = checker.type_of(value)
     for mismatch in checker.mismatches:
@@ -134,14 +136,17 @@ def _check_unit(
 ) -> None:
     """Check a number against the unit that is wanted of it."""
     given, wanted = units
-    words = {"subject": subject, "wanted": unit_word(wanted), "given": unit_word(given)}
+    code, fix = "", None
     if is_measure(wanted):
         if is_measure(given) and not same_dimension(given, wanted):
-            context.report(node, "wrong_unit", field, words)
+            code = "wrong_unit"
         elif given == PLAIN:
-            context.report(node, "plain_number", field, words, _with_unit(context, node, value, field, ("*", wanted)))
+            code, fix = "plain_number", _with_unit(context, node, value, field, ("*", wanted))
     elif is_measure(given) and (wanted == PLAIN or not isinstance(value, Reading)):
-        context.report(node, "unit_not_taken", field, words, _with_unit(context, node, value, field, ("/", given)))
+        code, fix = "unit_not_taken", _with_unit(context, node, value, field, ("/", given))
+    if code:
+        words = {"subject": subject, "wanted": unit_word(wanted), "given": unit_word(given)}
+        context.report(node, code, field, words, fix)
 
 
 def _with_unit(

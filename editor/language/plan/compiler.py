@@ -191,7 +191,7 @@ def _function(builder: Builder, function: Function) -> int:
         builder.types,
         types_in_function(builder.tree, function, builder.types, builder.surroundings),
     )
-    own = (*(parameter.name for parameter in function.parameters), *local_variables(function, builder.shared))
+    own = (*(parameter.name for parameter in function.parameters), *local_variables(builder.tree, function))
     builder.own, builder.function = frozenset(own), function
     builder.block(function.body)
     builder.add(p.Return())

@@ -50,7 +50,7 @@ def print_tree(
     printer.line(0, "class Task(object):")
     _print_method(printer, "def new_task(self):", tree.body)
     for function in tree.functions:
-        own = (*(parameter.name for parameter in function.parameters), *local_variables(function, shared))
+        own = (*(parameter.name for parameter in function.parameters), *local_variables(tree, function))
         _print_method(printer, _heading(function), function.body, own)
     for event in tree.events:
         _print_method(printer, f"def {_event_method(printer, event)}(self):", event.body, step=event.step)

@@ -125,14 +125,22 @@ def _program_variables(tree: Tree) -> frozenset[str]:
     return frozenset(name for body in bodies for name in _names_set_in(body, frozenset()))
 
 
-def local_variables(function: Function, shared: frozenset[str]) -> tuple[str, ...]:
-    """Return the variables that belong to one call of a function, in the order of first use.
+def local_variables(tree: Tree, function: Function) -> tuple[str, ...]:
+    """Return the variables that belong to one call of a function of the tree, in the order of first use."""
+    return tree.derived(_local_variables).get(function.method, ())
 
-    `shared` are the variables of the program.
-    """
+
+def _local_variables(tree: Tree) -> dict[str, tuple[str, ...]]:
+    if not tree.holds(*SETTERS):
+        return {}
+    shared = program_variables(tree)
+    return {function.method: tuple(_set_in_calls(function, shared)) for function in tree.functions}
+
+
+def _set_in_calls(function: Function, shared: frozenset[str]) -> Iterator[str]:
     own = frozenset(parameter.name for parameter in function.parameters)
     names = dict.fromkeys(_names_set_in(function.body, frozenset()))
-    return tuple(name for name in names if name not in shared and name not in own)
+    return (name for name in names if name not in shared and name not in own)
 
 
 def _names_set_in(block: Block, loops: frozenset[str]) -> Iterator[str]:
