@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.unit.language.checks.test_told_before import HOT, told
+from editor.language import compile_document
+from tests.unit.language.checks.test_told_before import HOT, document_of, factory, program, told
 
 SHARE = "self.notify(f'{6 / self.n}')"
 
@@ -86,3 +87,81 @@ def test_a_function_that_calls_itself_behind_a_loop_is_followed() -> None:
     again = "def again(self):\n    {}\n    {}self.again()"
     assert told("self.again()", again.format(loop, f"if {HOT}:\n        ")) == []
     assert told("self.again()", again.format(loop, "")) == ["calls_itself"]
+
+
+def nested(text: str) -> str:
+    return "\n".join(f"    {line}" for line in text.split("\n"))
+
+
+@pytest.mark.parametrize(
+    "deep",
+    [
+        f"if {HOT}:\n{nested(PERHAPS)}",
+        f"if {HOT}:\n    self.wait(1)\nelse:\n{nested(PERHAPS)}",
+        f"if {HOT}:\n{nested(PERHAPS)}\nelse:\n{nested(PERHAPS)}",
+    ],
+)
+def test_a_role_that_has_a_robot_perhaps_on_one_path_has_it_perhaps_behind_both(deep: str) -> None:
+    assert told(f"{deep}\n{FAR}") == ["perhaps_no_robot_yet"]
+
+
+def test_that_another_role_takes_a_robot_says_nothing_of_one_that_has_it_perhaps() -> None:
+    other = "self.other.move(self.dock.location)"
+    assert told(f"{PERHAPS}\n{other}\n{FAR}") == ["perhaps_no_robot_yet"]
+    assert told(f"{other}\n{PERHAPS}\n{FAR}") == ["perhaps_no_robot_yet"]
+
+
+def test_each_loop_is_told_of_by_its_own_first_round() -> None:
+    body = "self.notify(f'{{6 / self.{0}}}')\n    self.{0} = self.{0} + 1\n    self.wait(60)\n"
+    loop = f"self.{{0}} = 0\nwhile {{1}}:\n    {body}"
+    first, second = loop.format("n", HOT), loop.format("m", HOT)
+    assert told(first) == ["divided_by_zero"]
+    assert told(first + second) == ["divided_by_zero", "divided_by_zero"]
+
+
+@pytest.mark.parametrize(("others", "codes"), [(7, ["divided_by_zero"]), (8, [])])
+def test_a_function_is_followed_for_eight_values_and_no_more(others: int, codes: list[str]) -> None:
+    share = "def share(self, x: Number):\n    self.notify(f'{6 / x}')"
+    calls = "\n".join(f"self.share({number})" for number in [*range(1, others + 1), 0])
+    assert told(calls, share) == codes
+
+
+def test_of_several_things_that_are_released_the_first_by_name_is_told() -> None:
+    take = "self.robot.move(self.{0}.location)\nself.robot.pick({{'value': 1, 'object': '{1}'}})\n"
+    shelves = [("shelf", "box"), ("cans", "can")]
+    for things in (shelves, shelves[::-1]):
+        body = "".join(take.format(*each) for each in things) + "self.robot.release()"
+        found = compile_document(document_of(program(body)), factory()).diagnostics
+        assert [(each.code, each.args["object"]) for each in found] == [("releases_carrying", "box")]
+
+
+def test_of_two_roles_one_that_has_a_robot_perhaps_has_it_no_surer_for_the_other() -> None:
+    other, far = "self.helper.move(self.dock.location)", "self.notify(f'{distance(self.helper, self.oven)}')"
+    helper = "self.helper = ctx.any('pick', 'drop')"
+    assert told(f"{PERHAPS}\n{other}\n{FAR}\n{far}", "", helper) == ["perhaps_no_robot_yet"]
+    assert told(f"{PERHAPS}\nif {HOT}:\n    {other}\n{FAR}\n{far}", "", helper) == ["perhaps_no_robot_yet"] * 2
+
+
+def test_what_a_person_writes_may_be_any_text() -> None:
+    asked = "self.said = self.ask('What is on it?', type='text')"
+    assert told(f"{asked}\nif self.said == 'eggs':\n    self.notify(f'{{6 / 0}}')") == ["divided_by_zero"]
+
+
+@pytest.mark.parametrize(("first", "second", "fits"), [("n", "n", True), ("n", "m", False), ("m", "n", False)])
+def test_as_many_as_were_picked_on_either_path_are_there_to_be_dropped(first: str, second: str, fits: bool) -> None:
+    asked = "\n".join(
+        f"self.{name} = self.ask('How many?', type='number', minimum=1, maximum=2)" for name in ("n", "m")
+    )
+    at, pick = "self.robot.{0}(self.{1}.location)", "self.robot.{0}({{'value': self.{1}, 'object': 'box'}})"
+    body = (
+        f"{asked}\n{at.format('move', 'shelf')}\nif {HOT}:\n    {pick.format('pick', first)}\nelse:\n"
+        f"    {pick.format('pick', second)}\n{at.format('move', 'booth')}\n{pick.format('drop', 'n')}"
+    )
+    assert ("may_drop_nothing" not in told(body)) is fits
+
+
+@pytest.mark.parametrize(("depth", "codes"), [(11, ["divided_by_zero"]), (12, [])])
+def test_functions_are_followed_twelve_calls_deep(depth: int, codes: list[str]) -> None:
+    chain = [f"def f{n}(self, x: Number):\n    self.f{n + 1}(x)" for n in range(depth)]
+    last = f"def f{depth}(self, x: Number):\n    self.notify(f'{{6 / x}}')"
+    assert told("self.f0(0)", "\n\n".join([*chain, last])) == codes
