@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from execution.sentences import Sentences
+from editor.language.messages.sentences import Sentences
 
 SAID = "said"
 SENTENCES: Mapping[str, str] = {

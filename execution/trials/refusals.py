@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from execution.sentences import Sentences
+from editor.language.messages.sentences import Sentences
 
 SENTENCES = {
     "begins": "It must begin with “version: {version}”, then “program:” and “tests:”.",

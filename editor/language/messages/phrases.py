@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
 from editor.language.messages.de import WORDS_DE
 from editor.language.messages.refusals_de import REFUSALS_DE
+from editor.language.messages.sentences import Sentences
 from editor.language.messages.syntax_errors_de import MISTAKES_DE
 
 Language = Literal["en", "de"]
@@ -165,11 +165,12 @@ def say_argument(argument: Argument, language: Language) -> str:
 
 def refused_in_german(english: str) -> str:
     """Return why a script is refused in German; as it is, when it is nothing that VIPO says."""
-    for pattern, german in _refusals():
-        found = pattern.fullmatch(english)
-        if found is not None:
-            return german.format_map({name: _sentence(piece) for name, piece in found.groupdict().items()})
-    return english
+    found = _refusals().find(english)
+    if found is None:
+        return english
+    sentence, names = found
+    german = REFUSALS_DE.get(sentence) or MISTAKES_DE[sentence]
+    return german.format_map({name: _sentence(piece) for name, piece in names.items()})
 
 
 def _sentence(piece: str) -> str:
@@ -178,14 +179,8 @@ def _sentence(piece: str) -> str:
 
 
 @cache
-def _refusals() -> tuple[tuple[re.Pattern[str], str], ...]:
-    return tuple((_pattern(english), german) for english, german in {**MISTAKES_DE, **REFUSALS_DE}.items())
-
-
-def _pattern(english: str) -> re.Pattern[str]:
-    pieces = re.split(r"\{([xyz])\}", english)
-    named = (re.escape(piece) if index % 2 == 0 else f"(?P<{piece}>.+)" for index, piece in enumerate(pieces))
-    return re.compile("".join(named), re.DOTALL)
+def _refusals() -> Sentences:
+    return Sentences({english: english for english in {**MISTAKES_DE, **REFUSALS_DE}})
 
 
 def number_text(value: float, language: Language) -> str:
