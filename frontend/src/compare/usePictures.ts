@@ -2,7 +2,8 @@
 import { useMemo } from "react";
 import type { Comparison, Difference } from "@/api/types";
 import type { FloorPlan } from "@/map/floor/floor";
-import { measureText, useScene } from "@/program/canvas/useScene";
+import { useScene } from "@/program/canvas/useScene";
+import { measureText } from "@/program/scene/textWidths";
 import { type Compiled, EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/document";
 import { wellFormed } from "@/program/document/wellFormed";
 import type { Scene } from "@/program/scene/scene";

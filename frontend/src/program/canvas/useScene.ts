@@ -4,9 +4,9 @@ import { useTranslation } from "react-i18next";
 import type { MapPlace } from "@/map/floor/floor";
 import type { Compiled, ProgramDocument } from "../document/document";
 import { readTree } from "../document/tree";
-import type { Measure } from "../scene/chips";
 import { buildScene, type Scene } from "../scene/scene";
 import { pathsOf } from "../scene/stepPaths";
+import { measureText } from "../scene/textWidths";
 import { type SiteDevice, type Surroundings, surroundingsOf } from "../surroundings";
 import type { Translate } from "../words/stepWords";
 import { useRoutes } from "./useRoutes";
@@ -73,25 +73,3 @@ function useFontsReady(): boolean {
   }, []);
   return ready;
 }
-
-const FONTS = {
-  chip: "600 12px 'Inter Variable', Inter, sans-serif",
-  badge: "700 11px 'Inter Variable', Inter, sans-serif",
-  mono: "500 11.5px 'JetBrains Mono', monospace",
-} as const;
-
-const known = new Map<string, number>();
-let context: CanvasRenderingContext2D | null = null;
-
-export const measureText: Measure = (text, font) => {
-  const key = `${font}\n${text}`;
-  const before = known.get(key);
-  if (before !== undefined) return before;
-  context ??= document.createElement("canvas").getContext("2d");
-  if (!context) return text.length * 7;
-  context.font = FONTS[font];
-  const width = context.measureText(text).width;
-  // A width measured before the fonts have come is not kept.
-  if (document.fonts?.status === "loaded") known.set(key, width);
-  return width;
-};

@@ -2,19 +2,12 @@
 import type { Palette, PaletteName } from "@/map/plane/palette";
 import type { PixelPoint } from "@/map/plane/paths";
 import type { Chip } from "../scene/chips";
+import { FONTS, measureText } from "../scene/textWidths";
 import { plainText, type TextPart } from "../words/stepWords";
 import { BOX, iconPath } from "./iconPaths";
 import type { Brush, Painted, StepState } from "./looks";
 
 type Canvas = CanvasRenderingContext2D;
-
-const FONTS = {
-  chip: "600 12px 'Inter Variable', Inter, sans-serif",
-  soft: "500 12px 'Inter Variable', Inter, sans-serif",
-  strong: "700 12px 'Inter Variable', Inter, sans-serif",
-  badge: "700 11px 'Inter Variable', Inter, sans-serif",
-  mono: "500 11.5px 'JetBrains Mono', monospace",
-} as const;
 
 /** The colours of a chip in its state; those of its family while it has none. */
 export function faceColours(palette: Palette, chip: Chip, state: StepState): Painted {
@@ -69,8 +62,7 @@ export function paintFace(brush: Brush, painted: Painted, width: number, height:
   const header = chip.shape === "header";
   const y = header && chip.condition && detail === "full" ? -height / 2 + 15 : 0;
   let x = -width / 2 + (header ? 3 : 4.6);
-  if (detail === "icon")
-    x += Math.max(0, (width - 9.2 - (chip.number ? badgeWidth(canvas, chip.number) + 6 : 0) - 15) / 2);
+  if (detail === "icon") x += Math.max(0, (width - 9.2 - (chip.number ? badgeWidth(chip.number) + 6 : 0) - 15) / 2);
   canvas.textBaseline = "middle";
   if (chip.number) x += paintBadge(brush, painted, x, y) + 6;
   paintIcon(
@@ -96,15 +88,14 @@ function paintIcon(canvas: Canvas, chip: Chip, x: number, y: number, colour: str
   canvas.restore();
 }
 
-function badgeWidth(canvas: Canvas, number: string): number {
-  canvas.font = FONTS.badge;
-  return Math.max(20, canvas.measureText(number).width + 12);
+function badgeWidth(number: string): number {
+  return Math.max(20, measureText(number, "badge") + 12);
 }
 
 /** Paint the number and return how wide its badge is. */
 function paintBadge({ canvas }: Brush, painted: Painted, x: number, y: number): number {
   const { chip } = painted;
-  const width = badgeWidth(canvas, chip.number);
+  const width = badgeWidth(chip.number);
   const height = chip.inner ? 18 : 20;
   canvas.beginPath();
   canvas.roundRect(x, y - height / 2, width, height, isAngular(chip) ? 5 : height / 2);
@@ -113,6 +104,7 @@ function paintBadge({ canvas }: Brush, painted: Painted, x: number, y: number): 
   canvas.fillStyle = painted.badgeText;
   canvas.textAlign = "center";
   canvas.textBaseline = "middle";
+  canvas.font = FONTS.badge;
   canvas.fillText(chip.number, x + width / 2, y + 0.6);
   canvas.textAlign = "left";
   return width;
@@ -132,11 +124,11 @@ function paintParts({ canvas, palette }: Brush, parts: readonly TextPart[], from
     if (part.tone === "missing") x += paintMissing(canvas, palette, x, y);
     else {
       if (part.swatch) x += paintSwatch(canvas, palette, part.swatch, x, y);
-      const [font, colour] = TONES[part.tone] ?? [FONTS.chip, "text"];
-      canvas.font = font;
+      const [font, colour] = TONES[part.tone] ?? ["chip", "text"];
+      canvas.font = FONTS[font];
       canvas.fillStyle = palette[colour];
       canvas.fillText(part.text, x, y + 0.6);
-      const { width } = canvas.measureText(part.text);
+      const width = measureText(part.text, font);
       if (gone || part.tone === "old") canvas.fillRect(x, y, width, 1.2);
       x += width;
     }
@@ -144,10 +136,10 @@ function paintParts({ canvas, palette }: Brush, parts: readonly TextPart[], from
   }
 }
 
-const TONES: Readonly<Partial<Record<TextPart["tone"], readonly [font: string, colour: PaletteName]>>> = {
-  mono: [FONTS.mono, "logic"],
-  soft: [FONTS.soft, "text-2"],
-  old: [FONTS.soft, "text-3"],
+const TONES: Readonly<Partial<Record<TextPart["tone"], readonly [font: keyof typeof FONTS, colour: PaletteName]>>> = {
+  mono: ["mono", "logic"],
+  soft: ["soft", "text-2"],
+  old: ["soft", "text-3"],
 };
 
 function paintMissing(canvas: Canvas, palette: Palette, x: number, y: number): number {
@@ -177,8 +169,7 @@ function paintSwatch(canvas: Canvas, palette: Palette, colour: string, x: number
 /** A condition on its own ground; its left edge stands at the place. */
 function paintCondition(brush: Brush, parts: readonly TextPart[], { x, y }: PixelPoint, state: StepState): void {
   const { canvas, palette } = brush;
-  canvas.font = FONTS.mono;
-  const width = canvas.measureText(plainText(parts)).width + 4 * (parts.length - 1) + 14;
+  const width = measureText(plainText(parts), "mono") + 4 * (parts.length - 1) + 14;
   canvas.fillStyle = palette["logic-soft"];
   canvas.beginPath();
   canvas.roundRect(x, y - 9.5, width, 19, 5);
@@ -193,7 +184,7 @@ function paintCondition(brush: Brush, parts: readonly TextPart[], { x, y }: Pixe
       canvas.font = FONTS.mono;
       canvas.fillStyle = palette.logic;
       canvas.fillText(part.text, at, y + 0.6);
-      const wide = canvas.measureText(part.text).width;
+      const wide = measureText(part.text, "mono");
       if (state === "removed") canvas.fillRect(at, y, wide, 1.2);
       at += wide;
     }

@@ -9,7 +9,7 @@ import type { Pieces } from "../scene/pieces";
 
 /** What is painted within one frame, and what of a larger picture in each. */
 const AT_ONCE_UNITS = 150;
-const SLICE_UNITS = 150;
+const SLICE_UNITS = 60;
 /** A picture reaches so far over the pane's edges, pixels of the screen. */
 const MARGIN = 128;
 
@@ -96,8 +96,15 @@ export class ConstructPainter {
     const content = this.#content;
     if (!content || this.#size.width === 0) return;
     const view = this.viewport.get();
-    if (unitsOf(content, seenBox(view, this.#size), view.zoom) <= AT_ONCE_UNITS) this.#drawAtOnce(content, view);
-    else this.#drawByPicture(content, view);
+    if (this.#isLarge(content, view)) this.#drawByPicture(content, view);
+    else this.#drawAtOnce(content, view);
+  }
+
+  /** Whether a view is more than one frame's work; what a picture was begun for stays so while it is moved alone. */
+  #isLarge(content: Content, view: Viewport): boolean {
+    const begun = this.#next?.picture ?? this.#picture;
+    if (begun?.content === content && begun.view.zoom === view.zoom) return true;
+    return unitsOf(content, seenBox(view, this.#size), view.zoom) > AT_ONCE_UNITS;
   }
 
   #drawAtOnce(content: Content, view: Viewport): void {
