@@ -8,7 +8,7 @@ from math import inf
 from editor.language.checks.context import Context
 from editor.language.checks.devices import check_readings, known_device
 from editor.language.expressions import nodes as e
-from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.expressions.ranges import ANY, NOTHING_KNOWN, Here, Range, first_limited_reading, possible
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.value_types import (
@@ -72,14 +72,21 @@ def check_value(
 
 
 def _check_divisors(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
-    """Tell of what is divided by nothing else than 0, or by what may be 0 as far as it is known."""
+    """Tell of what is divided by nothing else than 0, or by what may be 0 as far as it is known.
+
+    Of variables nothing is known before the paths are followed, which tell then.
+    """
     for part in parts:
         if isinstance(part, Operation) and part.operator == "/":
             divisor = range_in(context, part.arguments[1], "")
             if divisor.least == divisor.most == 0:
                 context.report(node, "divided_by_zero", field)
-            elif divisor != ANY and divisor.has_zero:
+            elif divisor != ANY and divisor.has_zero and not _is_unknown_yet(context, part.arguments[1]):
                 context.report(node, "may_divide_by_zero", field)
+
+
+def _is_unknown_yet(context: Context, value: Expression) -> bool:
+    return context.known is NOTHING_KNOWN and any(isinstance(part, Variable) for part in parts_of(value))
 
 
 def _check_numbers_of_items(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:

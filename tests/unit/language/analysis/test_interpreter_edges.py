@@ -133,3 +133,30 @@ def test_half_a_box_is_told_and_what_is_carried_then_is_not_known() -> None:
     found = [each.code for each in compile_document(document(steps), factory()).diagnostics]
     assert "drops_nothing" not in found
     assert found
+
+
+@pytest.mark.parametrize(("compared", "is_told"), [("> 1", True), (">= 2", True), ("> 2", False), (">= 3", False)])
+def test_a_list_longer_than_a_length_has_one_item_more_at_least(compared: str, is_told: bool) -> None:
+    found = told(f"{GROWS}if len(self.a) {compared}:\n    self.notify(f'{{1 / (len(self.a) - 2)}}')")
+    assert ("may_divide_by_zero" in found) is is_told
+
+
+@pytest.mark.parametrize(("compared", "is_told"), [("> 0", False), (">= 0", True)])
+def test_in_a_loop_s_first_round_its_condition_holds(compared: str, is_told: bool) -> None:
+    body = "self.notify(f'{1 / self.n}')\n    self.n = self.n - 1"
+    asked = "self.n = self.ask('?', type='number', minimum=0, maximum=9)"
+    found = told(f"{asked}\nwhile self.n {compared}:\n    {body}")
+    assert any("by_zero" in code for code in found) is is_told
+
+
+@pytest.mark.parametrize(
+    ("body", "codes"),
+    [
+        ("self.a = [1, 2, 3]", []),
+        (f"{GROWS}", ["may_divide_by_zero"]),
+        (f"{GROWS}self.a = self.a + [1]", []),
+        ("self.a = []", ["divided_by_zero"]),
+    ],
+)
+def test_what_is_shared_among_the_items_of_a_list_needs_one(body: str, codes: list[str]) -> None:
+    assert [code for code in told(f"{body}\nself.notify(f'{{6 / len(self.a)}}')") if "zero" in code] == codes
