@@ -37,9 +37,17 @@ looker.addCredentials({ [description.id]: account });
 // node-wot 0.8.16 gives a form with a security of its own the list of credentials in place of the first of them.
 Object.assign(looker.retrieveCredentials(description.id), account);
 const thing = await wot.consume(description);
+/** An empty message says that there is no value just now, which node-wot takes for one of the wrong kind. */
+const hear = async (output) => {
+  try {
+    say({ observed: await output.value() });
+  } catch (error) {
+    say(error.value === undefined ? { nothing: true } : { error: String(error) });
+  }
+};
 await thing.observeProperty(
   property,
-  async (output) => say({ observed: await output.value() }),
+  hear,
   (error) => say({ error: String(error) }),
 );
 say({ observing: true });

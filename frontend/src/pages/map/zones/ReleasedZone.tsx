@@ -33,9 +33,7 @@ export function ReleasedZone({ slug, zone, at }: ReleasedZoneProps) {
   return (
     <div className={styles.released} data-open={until ? true : undefined}>
       <p>{until ? t("admission.opening.open", { time: formatTime(until) }) : t("admission.opening.shut")}</p>
-      <p aria-live="polite">
-        {inside ? t("admission.opening.inside", { names: inside }) : t("admission.opening.nobody")}
-      </p>
+      <p>{inside ? t("admission.opening.inside", { names: inside }) : t("admission.opening.nobody")}</p>
       {allowed ? (
         <Group gap={8}>
           <OpenZoneMenu slug={slug} zone={zone.id} name={zone.name} isOpen={until !== null} />
