@@ -9,7 +9,9 @@ import type { Pieces } from "../scene/pieces";
 
 /** What is painted within one frame, and what of a larger picture in each. */
 const AT_ONCE_UNITS = 150;
-const SLICE_UNITS = 60;
+const SLICE_UNITS = 45;
+/** The same while there is no picture yet, and so nothing to move smoothly. */
+const FIRST_SLICE_UNITS = 600;
 /** A picture reaches so far over the pane's edges, pixels of the screen. */
 const MARGIN = 128;
 
@@ -116,7 +118,7 @@ export class ConstructPainter {
   #drawByPicture(content: Content, view: Viewport): void {
     const { width, height, density } = this.#size;
     if (!this.#next && !this.#isShown(content, view)) this.#next = this.#beginPicture(content, view);
-    if (this.#next && work(this.#next.job, SLICE_UNITS)) {
+    if (this.#next && work(this.#next.job, this.#picture ? SLICE_UNITS : FIRST_SLICE_UNITS)) {
       this.#spare = this.#picture?.canvas ?? null;
       this.#picture = this.#next.picture;
       this.#next = null;
