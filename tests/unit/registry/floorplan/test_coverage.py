@@ -70,6 +70,10 @@ def check_cover(site, outline, lane_m):
     return lanes
 
 
+def test_a_lane_past_a_corner_ends_before_it_and_goes_on_behind_it():
+    check_cover(PILLARS, ((2.0, 8.72), (3.4, 2.84), (5.0, 0.0), (6.66, 7.88)), 2.0)
+
+
 def test_a_rectangle_is_covered_along_its_longer_side_there_and_back():
     lanes = in_order(plan_lanes(*EMPTY, ((2, 2), (8, 2), (8, 4), (2, 4)), 0.5), (2.0, 2.0))
     assert [(lane.x1, lane.y1, lane.x2, lane.y2) for lane in lanes] == [
