@@ -106,15 +106,7 @@ from registry.maps.site_maps import (
     use_robot_map,
 )
 from registry.maps.uploads import MapFiles, create_site_from_map, look_at_upload, read_upload
-from registry.maps.zones import (
-    ZoneChange,
-    add_zone,
-    change_zone,
-    close_zone,
-    find_zone,
-    open_zone,
-    remove_zone,
-)
+from registry.maps.zones import ZoneChange, add_zone, change_zone, close_zone, find_zone, open_zone, remove_zone
 from registry.people.access import Access, NotAMember, find_access, list_with_role, require
 from registry.people.keyed_requests import prune_keyed_requests
 from registry.people.open_sessions import drop_expired

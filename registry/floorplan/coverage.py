@@ -225,20 +225,20 @@ def _joined(strips: _Strips, strip: int, begin_m: float, end_m: float, reachable
     good = [reachable.has(_rounded(strips.point(float(each), strip))) for each in stops]
     edges = np.flatnonzero(np.diff(np.concatenate(([False], good, [False])).astype(np.int8)))
     for first, last in zip(edges[::2], edges[1::2], strict=True):
-        yield from _passable(strips, _Piece(strip, float(stops[first]), float(stops[last - 1])), reachable.ground)
+        yield from _passable(strips, _Piece(strip, float(stops[first]), float(stops[last - 1])), reachable)
 
 
-def _passable(strips: _Strips, piece: _Piece, ground: Ground) -> Iterator[_Piece]:
+def _passable(strips: _Strips, piece: _Piece, reachable: _Reachable) -> Iterator[_Piece]:
     """Yield a piece, or its parts where a robot that drives from point to point of it would touch a corner."""
-    points = list(_lane(strips, piece).points())
+    ground, points = reachable.ground, list(_lane(strips, piece).points())
     ways = enumerate(pairwise(points))
     stuck = next((index for index, way in ways if not ground.is_passable(*way, ground.radius_m)), None)
     if stuck is None:
         yield piece
         return
     stops = np.linspace(piece.begin_m, piece.end_m, len(points))
-    yield from _passable(strips, _Piece(piece.strip, piece.begin_m, float(stops[stuck])), ground)
-    yield from _passable(strips, _Piece(piece.strip, float(stops[stuck + 1]), piece.end_m), ground)
+    yield from _joined(strips, piece.strip, piece.begin_m, float(stops[stuck]), reachable)
+    yield from _joined(strips, piece.strip, float(stops[stuck + 1]), piece.end_m, reachable)
 
 
 def _count(length_m: float) -> int:

@@ -51,7 +51,7 @@ class ZoneEdit(Asked):
 class ZoneOpening(Asked):
     """For how long all robots are let into a zone."""
 
-    minutes: Annotated[int, Strict(), Field(ge=1, le=1440)]
+    minutes: Annotated[int, Strict(), Field(ge=1, le=1_000_000)]
 
 
 @router.post("/sites/{slug}/zones", response={201: SiteZoneShape})

@@ -102,6 +102,11 @@ def test_a_time_that_cannot_be_is_refused(admin: Client, minutes: Any) -> None:
     assert shown(admin)["open_until"] is None
 
 
+def test_a_time_of_more_than_a_day_is_refused_with_how_long_it_may_be(admin: Client) -> None:
+    refused = put(admin, 1441).json()
+    assert (refused["code"], refused["args"]) == ("bad_zone", {"why": "minutes", "most": 1440})
+
+
 def test_what_is_no_such_zone_is_neither_opened_nor_closed(admin: Client) -> None:
     assert put(admin, 10, f"{ZONES}/gone/opening").json()["code"] == "no_such_zone"
     assert post_json(admin, ZONES, {**GATE, "name": "Aisle", "rule": "keep_out"}).status_code == 201

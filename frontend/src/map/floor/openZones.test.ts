@@ -28,3 +28,12 @@ test("what is shown of zones is drawn anew when one of them shuts, and then when
   expect(openUntil(next, result.current)).toBeNull();
   expect(vi.getTimerCount()).toBe(0);
 });
+
+test("a zone that has shut before anybody heard that it was open is not shown as open", () => {
+  vi.useFakeTimers({ now: AT - 60_000 });
+  const { result, rerender } = renderHook(({ zones }) => useZonesAt(zones), { initialProps: { zones: [{}] } });
+  vi.setSystemTime(AT + 60_000);
+  const late = { open_until: new Date(AT).toISOString() };
+  rerender({ zones: [late] });
+  expect(openUntil(late, result.current)).toBeNull();
+});

@@ -16,6 +16,8 @@ export function useZonesAt(zones: readonly Shutting[] | undefined): number {
   const [at, setAt] = useState(Date.now);
   useEffect(() => {
     const now = Date.now();
+    // News of a zone that was opened and has shut since may come late, as after a time without a server.
+    if ((zones ?? []).some((zone) => openUntil(zone, at) !== openUntil(zone, now))) setAt(now);
     const ends = (zones ?? []).flatMap((zone) => openUntil(zone, now) ?? []).map((until) => Date.parse(until) - now);
     if (ends.length === 0) return undefined;
     const timer = setTimeout(() => setAt(Date.now()), Math.min(LONGEST_PAUSE_MS, Math.min(...ends) + 1));
