@@ -125,8 +125,17 @@ class SiteZoneShape(Schema):
     open_until: datetime | None
 
 
+class ObstacleShape(Schema):
+    """A round thing that people put in the way of simulated robots: its middle and how wide it is, metres."""
+
+    id: int
+    x: float
+    y: float
+    size_m: float
+
+
 class MapShape(Schema):
-    """A site's map without its cells."""
+    """A site's map without its cells; robots plan without its `obstacles`, simulated ones meet them."""
 
     version: int
     width: int
@@ -135,6 +144,7 @@ class MapShape(Schema):
     origin: Origin
     places: list[PlaceShape]
     zones: list[SiteZoneShape]
+    obstacles: list[ObstacleShape]
     walls: list[tuple[float, float, float, float]]
 
 

@@ -10,7 +10,7 @@ from simulation.actors import Motion
 from simulation.near_misses import NearnessWatch
 from simulation.scene import Layout, make_actors, make_layout
 from simulation.things_in_the_way import ThingsInTheWay
-from simulation.world import Ack, RobotSnapshot, Scene, WorldEvent
+from simulation.world import Ack, Obstacle, RobotSnapshot, Scene, WorldEvent
 from vipo_device.protocol.description import Pose, Scalar
 
 Drive = tuple[float, float]
@@ -78,6 +78,12 @@ class SimulatedWorld:
         self._things.reach(self._asked_s, step, count)
         for actor in self._actors.values():
             actor.reach(self._asked_s, step, count)
+
+    def put_in_the_way(self, obstacles: Sequence[Obstacle]) -> None:
+        """Say what stands on the floor that is on no map, besides faults; what stood there before is gone."""
+        if self._things.put(obstacles):
+            for robot in self._by_kind.robots.values():
+                robot.stands_before = ""
 
     def advance(self, seconds: float) -> list[WorldEvent]:
         """Let time pass and return what happened, oldest first."""

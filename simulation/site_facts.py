@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
+
+from django.db import DatabaseError, InterfaceError, connection
 
 from registry import services as registry
 from registry.floorplan.plan import Grid
+from simulation.world import Obstacle
 from vipo_device.descriptions.reader import read_description, write_description
 from vipo_device.protocol.description import Description, Pose
 from vipo_device.protocol.errors import VipoError
@@ -16,6 +21,13 @@ class NothingToSimulate(VipoError):
 
     code = "nothing_to_simulate"
     status = 404
+
+
+class SiteUnread(VipoError):
+    """A database that cannot be asked at the moment; who asks again later is answered."""
+
+    code = "site_unread"
+    status = 503
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,10 +58,11 @@ def read_site_facts(slug: str) -> SiteFacts:
     """Return a site from the database; the demo's devices come from its files, machines stand where people put them.
 
     Raises VipoError when there is no such site, NoMap when it has no map, NothingToSimulate when no approved
-    device of it is a simulated one.
+    device of it is a simulated one, SiteUnread when the database does not answer.
     """
-    known = registry.list_devices(site=slug)
-    grid = registry.get_map(site=slug).grid
+    with _asking():
+        known = registry.list_devices(site=slug)
+        grid = registry.get_map(site=slug).grid
     if slug == registry.DEMO_SITE:
         devices = demo_facts().devices
     else:
@@ -59,6 +72,22 @@ def read_site_facts(slug: str) -> SiteFacts:
         raise NothingToSimulate(f"The site {slug} has no simulated devices; there is nothing for a twin to do.")
     placed = {d.id: d.pose for d in known if d.kind == "machine"}
     return SiteFacts(slug, grid, tuple(_placed(device, placed.get(device.description.id)) for device in devices))
+
+
+def read_obstacles(slug: str) -> tuple[Obstacle, ...]:
+    """Return what people have put in the way of a site's simulated robots. Raises SiteUnread."""
+    with _asking():
+        return tuple(Obstacle(o.x, o.y, o.size_m) for o in registry.list_obstacles(site=slug))
+
+
+@contextmanager
+def _asking() -> Iterator[None]:
+    """Turn a database that is away into SiteUnread, and begin anew with the next question."""
+    try:
+        yield
+    except (DatabaseError, InterfaceError) as error:
+        connection.close()
+        raise SiteUnread(f"The database does not answer: {str(error).strip().splitlines()[0]}") from error
 
 
 def _placed(device: DescribedDevice, pose: Pose | None) -> DescribedDevice:

@@ -8,7 +8,8 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from queue import Empty, SimpleQueue
@@ -16,10 +17,10 @@ from queue import Empty, SimpleQueue
 from registry.floorplan.plan import with_devices
 from simulation.laser import Mapper
 from simulation.services import DriverName, make_world
-from simulation.site_facts import NothingToSimulate, SiteFacts
+from simulation.site_facts import NothingToSimulate, SiteFacts, SiteUnread
 from simulation.twin_memory import TwinMemory, read_memory, snapshot, write_memory
 from simulation.virtual_device import Appearance, VirtualDevice, look_at
-from simulation.world import Ack, Scene, World
+from simulation.world import Ack, Obstacle, Scene, World
 from vipo_device.kit.connection import (
     CommandReceived,
     ConnectionEvent,
@@ -37,6 +38,8 @@ SLICE_S = 0.25
 PATIENCE_S = 3.0
 SAVE_EVERY_S = 3.0
 REFRESH_EVERY_S = 5.0
+LOOK_EVERY_S = 1.0
+"""How often it is looked what people have put on the floor: a robot drives about a metre meanwhile."""
 WARN_EVERY_S = 60.0
 DELIVERY_S = 60.0
 
@@ -46,7 +49,8 @@ class TwinPlan:
     """Which site, which of its devices speak, which of them are pending yet, how fast, and where memory is kept.
 
     `paces` say by device and method how many times as long as it should something takes (a fault on purpose),
-    `refresh` reads the site anew, `beat` is called each time that the twin's loop comes round.
+    `refresh` reads the site anew, `obstacles` what people have put on its floor (both may raise SiteUnread), `beat` is
+    called each time that the twin's loop comes round.
     """
 
     facts: SiteFacts
@@ -57,6 +61,7 @@ class TwinPlan:
     driver: DriverName = "physics"
     paces: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     refresh: Callable[[], SiteFacts] | None = None
+    obstacles: Callable[[], Sequence[Obstacle]] = tuple
     beat: Callable[[], None] = lambda: None
 
 
@@ -69,6 +74,7 @@ class Twin:
         memory = read_memory(plan.memory_path)
         self._boots = {**memory.boots, **{name: memory.next_boot(name) for name in plan.speaking}}
         self._world: World = self._make_world(memory)
+        self._obstacles: Sequence[Obstacle] = ()
         self._held = False
         self._devices = {
             d.description.id: VirtualDevice(d, plan.facts.slug, self._boots[d.description.id], self._inbox.put)
@@ -94,10 +100,14 @@ class Twin:
 
     def _live(self, stopping: threading.Event) -> None:
         now = saved = refreshed = time.monotonic()
+        looked = now - LOOK_EVERY_S
         while not stopping.is_set():
             self._plan.beat()
             messages = self._take_in()
             last, now = now, time.monotonic()
+            if now - looked >= LOOK_EVERY_S:
+                looked = now
+                self._look_for_obstacles()
             self._pass_time(now - last, now)  # before what has come is begun: it takes its whole time from here on
             for message in messages:
                 self._hear(message)
@@ -193,13 +203,18 @@ class Twin:
         speaking = [d.description for d in self._facts.devices if d.description.id in self._devices]
         return look_at(self._world, speaking)
 
+    def _look_for_obstacles(self) -> None:
+        with suppress(SiteUnread):  # what stood there stays until the database is back
+            self._obstacles = self._plan.obstacles()
+        self._world.put_in_the_way(self._obstacles)
+
     def _refresh(self) -> None:
         """Take over a new map or machines that people moved, as soon as nobody is busy."""
         if self._plan.refresh is None or any(self._world.busy().values()):
             return
         try:
             facts = self._plan.refresh()
-        except NothingToSimulate:  # all are taken out; the world stays as it is until one comes back
+        except (NothingToSimulate, SiteUnread):  # all are taken out; the world stays as it is until one comes back
             return
         if facts == self._facts:
             return

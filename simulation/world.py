@@ -45,6 +45,15 @@ class Fault:
 
 
 @dataclass(frozen=True, slots=True)
+class Obstacle:
+    """A round thing on the floor that is on no map: its middle and how wide it is, metres."""
+
+    x: float
+    y: float
+    size_m: float
+
+
+@dataclass(frozen=True, slots=True)
 class Ack:
     """A device's answer to a command."""
 
@@ -153,6 +162,9 @@ class World(Protocol):
 
     def reach(self, step: str) -> None:
         """Say that a step of the program is entered, with which faults may begin."""
+
+    def put_in_the_way(self, obstacles: Sequence[Obstacle]) -> None:
+        """Say what stands on the floor that is on no map, besides faults; what stood there before is gone."""
 
     def hold(self, *, active: bool) -> None:
         """Stop everything where it is, as the site's stop does, until it is called again with False."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import hypot
+from math import hypot, inf
 from typing import Any
 
 from execution.machine import messages as r
@@ -45,6 +45,7 @@ class Recorder:
             device: [[0.0, name, value] for name, value in values.items()] for device, values in readings.items()
         }
         self._routes: list[dict[str, Any]] = []
+        self._obstacles: list[dict[str, Any]] = []
         self._commands: dict[str, tuple[str, str, str]] = {}
         self._frame_s = FRAME_S
         self._next_frame = 0.0
@@ -98,6 +99,10 @@ class Recorder:
                 entry = faults_to_json([fault])["faults"][0]
                 word, where = str(entry["fault"]), self._layout.name(fault.device) if fault.device else "the floor"
                 self._say(t_s, fault.step, fault.device, f"On purpose, {where}: {word}", f"fault_{word}")
+                if fault.kind == "obstacle":
+                    until = None if fault.for_s == inf else round(t_s + fault.for_s, 2)
+                    place = {"x": fault.x, "y": fault.y, "size_m": fault.size_m}
+                    self._obstacles.append({"t": t_s, "until": until, **place})
             case Ack(command=command, status=status, why=why):
                 if command in self._commands and status not in {"ACCEPTED", "RUNNING"}:
                     self._note_answer(t_s, *self._commands[command], status, why)
@@ -232,5 +237,6 @@ class Recorder:
             "machine_states": self._states,
             "properties": self._properties,
             "routes": self._routes,
+            "obstacles": self._obstacles,
             "log": self.log,
         }

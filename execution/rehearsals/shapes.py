@@ -106,6 +106,16 @@ class PlannedWay(Schema):
     path: list[Position]
 
 
+class ObstacleInTheWay(Schema):
+    """A thing that lay on the floor on purpose from `t` on, until it was taken away (null: to the end)."""
+
+    t: float
+    until: float | None
+    x: float
+    y: float
+    size_m: float
+
+
 class LogLine(Schema):
     """A line of what happened: in English, and `code` with `args` for other languages."""
 
@@ -134,6 +144,7 @@ class RehearsalResultShape(Schema):
     machine_states: dict[str, list[tuple[float, bool]]]
     properties: dict[str, list[tuple[float, str, Scalar | None]]]
     routes: list[PlannedWay]
+    obstacles: list[ObstacleInTheWay]
     log: list[LogLine]
 
 

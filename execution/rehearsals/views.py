@@ -68,10 +68,15 @@ def view_rehearsal(row: Rehearsal, order: Sequence[UUID] = (), *, whole: bool = 
         created_at=row.created_at,
         began_at=row.began_at,
         ended_at=row.ended_at,
-        result=row.result if whole else None,
+        result=_whole(row.result) if whole else None,
         document=row.document if whole else {},
         compiled=row.compiled if whole else {},
     )
+
+
+def _whole(result: Mapping[str, Any] | None) -> Mapping[str, Any] | None:
+    """Add to a result what those of earlier versions did not hold."""
+    return None if result is None else {"obstacles": [], **result}
 
 
 def rehearsal_to_json(rehearsal: RehearsalView, asker: int | None) -> dict[str, Any]:

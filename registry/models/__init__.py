@@ -13,6 +13,7 @@ from registry.models.maps import Place as Place
 from registry.models.maps import RobotMap as RobotMap
 from registry.models.maps import RobotMapDraft as RobotMapDraft
 from registry.models.maps import RobotMapPart as RobotMapPart
+from registry.models.maps import SimulatedObstacle as SimulatedObstacle
 from registry.models.maps import SiteMap as SiteMap
 from registry.models.maps import SiteZone as SiteZone
 from registry.models.people import OpenSession as OpenSession

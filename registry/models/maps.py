@@ -99,6 +99,18 @@ class SiteZone(models.Model):
         return self.name
 
 
+class SimulatedObstacle(models.Model):
+    """A round thing that somebody put on a site's floor for its simulated robots to meet; metres in the map frame."""
+
+    site = models.ForeignKey(Site, on_delete=models.CASCADE, related_name="obstacles")
+    x = models.FloatField()
+    y = models.FloatField()
+    size_m = models.FloatField()
+
+    def __str__(self) -> str:
+        return f"{self.site_id}: {self.size_m:g} m at ({self.x:g}, {self.y:g})"
+
+
 class RobotMap(models.Model):
     """The newest whole map that a robot has sent; `version` counts them, `changed_at` is when one differed last."""
 

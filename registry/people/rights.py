@@ -94,7 +94,7 @@ DEEDS = (
         "run",
         """start_rehearsal cancel_rehearsal start_run pause_run resume_run cancel_run answer_question arm_program
         run_tests take_pace drop_pace begin_stand_in end_stand_in let_robot_in
-        open_zone close_zone""",
+        open_zone close_zone add_obstacle move_obstacle remove_obstacle remove_obstacles""",
     ),
     _deed("ask_review", "operator", "run", "ask_for_review"),
     _deed("review", "operator", "session", "give_verdict"),

@@ -14,10 +14,10 @@ from django.utils import timezone
 from django.utils.text import slugify
 
 from registry.errors import RegistryError
-from registry.models import Device, Membership, Place, Site, SiteMap, SiteZone, User
+from registry.models import Device, Membership, Place, SimulatedObstacle, Site, SiteMap, SiteZone, User
 from registry.people.access import NotAMember, access_of, list_memberships
 from registry.sites.namespaces import is_in_use
-from registry.sites.views import PlaceView, SiteView, StopView, ZoneView
+from registry.sites.views import ObstacleView, PlaceView, SiteView, StopView, ZoneView
 from vipo_device.protocol.credentials import broker_hash, secret_hash
 from vipo_device.protocol.texts import find_unfit, normal
 
@@ -165,6 +165,12 @@ def list_zones(*, site: str) -> tuple[ZoneView, ...]:
         )
         for z in rows
     )
+
+
+def list_obstacles(*, site: str) -> tuple[ObstacleView, ...]:
+    """Return what people have put in the way of a site's simulated robots, oldest first; nothing without a site."""
+    rows = SimulatedObstacle.objects.filter(site__slug=site).order_by("pk")
+    return tuple(ObstacleView(o.pk, o.x, o.y, o.size_m) for o in rows)
 
 
 def set_site_stop(*, site: str, active: bool, by: str, at: datetime) -> None:

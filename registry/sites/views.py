@@ -40,6 +40,16 @@ class ZoneView:
 
 
 @dataclass(frozen=True, slots=True)
+class ObstacleView:
+    """A round thing on a site's floor that simulated robots meet: its middle and how wide it is, metres."""
+
+    id: int
+    x: float
+    y: float
+    size_m: float
+
+
+@dataclass(frozen=True, slots=True)
 class StopView:
     """The latched stop of a site."""
 

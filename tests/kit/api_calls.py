@@ -29,6 +29,7 @@ from execution.models import (
     TrialRun,
 )
 from registry import services
+from registry.maps.obstacles import add_obstacle
 from registry.models import Device, DeviceAlert, Site, User
 from registry.people.wall_screens import make_wall_screen
 from registry.sites.invitations import Wanted, make_invitation
@@ -80,6 +81,8 @@ BODIES: dict[str, dict[str, Any]] = {
     "edit_place": {"name": "Table"},
     "add_zone": {"name": "Aisle", "rule": "keep_out", "points": [[0, 0], [1, 0], [1, 1]]},
     "edit_zone": {"name": "Gate"},
+    "add_obstacle": {"x": 1, "y": 1},
+    "move_obstacle": {"x": 1, "y": 1},
     "reserve_device": {"id": "mixer-9"},
     "create_program": {"name": "New"},
     "copy_version": {"name": "Copy"},
@@ -131,6 +134,7 @@ def make_one_of_each(slug: str) -> dict[str, str]:
     made: dict[str, Any] = {
         "program": program,
         "zone_id": services.add_zone(site=slug, zone=gate).id,
+        "obstacle": add_obstacle(site=slug, x=1.0, y=1.0, size_m=0.5).id,
         "place_id": services.add_place(site=slug, place=table).id,
         "run": run.pk,
         "question": Question.objects.create(run=run, number=1, text="Go?", answer=ANSWER, asked_at=NOW).pk,

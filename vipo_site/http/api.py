@@ -18,6 +18,7 @@ from registry.api.audit import router as audit_router
 from registry.api.authentication import token_or_session
 from registry.api.devices import router as devices_router
 from registry.api.floor.maps import router as maps_router
+from registry.api.floor.obstacles import router as obstacles_router
 from registry.api.floor.places import router as places_router
 from registry.api.floor.zones import router as zones_router
 from registry.api.invitations import router as invitations_router
@@ -133,6 +134,7 @@ api.add_router("", onboarding_router)
 api.add_router("", maps_router)
 api.add_router("", places_router)
 api.add_router("", zones_router)
+api.add_router("", obstacles_router)
 api.add_router("", sparql_router)
 api.add_router("", things_router)
 api.add_router("", mtconnect_router)

@@ -35,6 +35,7 @@ MADE = {
     "use_robot_map": Place("show_map", ("slug",), {}),
     "restore_map": Place("show_map", ("slug",), {}),
     "add_place": Place("show_place", ("slug",), {"place_id": "id"}),
+    "add_obstacle": Place("show_map", ("slug",), {}),
     "add_zone": Place("show_zone", ("slug",), {"zone_id": "id"}),
     "make_invitation": Place("list_invitations", ("slug",), {}),
     "make_wall_screen": Place("list_wall_screens", ("slug",), {}),

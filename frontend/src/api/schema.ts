@@ -3407,6 +3407,54 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/obstacles": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Add Obstacle
+         * @description Put an obstacle in the way of simulated robots; they stop before it and say so. Real robots never hear of it.
+         */
+        post: operations["add_obstacle"];
+        /**
+         * Remove Obstacles
+         * @description Take all obstacles of a site away.
+         */
+        delete: operations["remove_obstacles"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/obstacles/{obstacle}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Move Obstacle
+         * @description Put an obstacle somewhere else, or make it another width.
+         */
+        put: operations["move_obstacle"];
+        post?: never;
+        /**
+         * Remove Obstacle
+         * @description Take an obstacle away; robots that have not given up yet go on.
+         */
+        delete: operations["remove_obstacle"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/places": {
         parameters: {
             query?: never;
@@ -5013,9 +5061,10 @@ export interface components {
             walls_gained_m2: number;
             walls_lost_m2: number;
         };
-        /** @description A site's map without its cells. */
+        /** @description A site's map without its cells; robots plan without its `obstacles`, simulated ones meet them. */
         MapShape: {
             height: number;
+            obstacles: components["schemas"]["ObstacleShape"][];
             origin: components["schemas"]["Origin"];
             places: components["schemas"]["PlaceShape"][];
             resolution_m: number;
@@ -5286,6 +5335,28 @@ export interface components {
             /** @enum {string} */
             rule: "keep_out" | "slow" | "one_at_a_time" | "one_way" | "preferred" | "release";
             speed_m_s?: number | null;
+        };
+        /** @description Where the middle of an obstacle is, and how wide it is, metres. */
+        ObstacleFields: {
+            /** @default 0.5 */
+            size_m: number;
+            x: number;
+            y: number;
+        };
+        /** @description A thing that lay on the floor on purpose from `t` on, until it was taken away (null: to the end). */
+        ObstacleInTheWay: {
+            size_m: number;
+            t: number;
+            until: number | null;
+            x: number;
+            y: number;
+        };
+        /** @description A round thing that people put in the way of simulated robots: its middle and how wide it is, metres. */
+        ObstacleShape: {
+            id: number;
+            size_m: number;
+            x: number;
+            y: number;
         };
         /**
          * @description What came of a test with `seeds` of the `asked` seeds from 1 on, as many as there was time for.
@@ -5776,6 +5847,7 @@ export interface components {
                 [key: string]: components["schemas"]["MachineFigures"];
             };
             near_misses: components["schemas"]["Encounter"][];
+            obstacles: components["schemas"]["ObstacleInTheWay"][];
             ok: boolean;
             properties: {
                 [key: string]: [
@@ -15343,6 +15415,186 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["ExpectedDevice"];
                 };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    add_obstacle: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ObstacleFields"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ObstacleShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_obstacles: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    move_obstacle: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                obstacle: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ObstacleFields"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ObstacleShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_obstacle: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                obstacle: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];

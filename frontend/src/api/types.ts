@@ -28,6 +28,7 @@ export type SiteStop = Schemas["Stop"];
 export type SiteMapInfo = Schemas["MapShape"];
 export type MapPlace = Schemas["PlaceShape"];
 export type MapZone = Schemas["SiteZoneShape"];
+export type Obstacle = Schemas["ObstacleShape"];
 /** A map with its cells: row by row from the bottom row, 0 free, 100 wall, 255 unknown. */
 export type SiteMap = SiteMapInfo & { cells: Uint8Array };
 export type MapVersion = Schemas["MapVersionShape"];

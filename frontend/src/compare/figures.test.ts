@@ -18,6 +18,7 @@ function rehearsed(changes: Partial<RehearsalResult>): RehearsalResult {
     machine_states: {},
     properties: {},
     routes: [],
+    obstacles: [],
     log: [],
     ...changes,
   };

@@ -64,6 +64,8 @@ export class SiteFeed {
         return this.#removed(message.id);
       case "map":
         return this.#refreshAll(staleWithSiteMap(this.slug));
+      case "obstacles":
+        return this.#caches.refresh(keys.map(this.slug));
       case "robot_map":
         return this.#robotMap(message.device);
       case "run":

@@ -39,6 +39,7 @@ export type LiveMessage =
   | { type: "device"; device: DeviceChange }
   | { type: "device_removed"; id: string }
   | { type: "map"; version: number }
+  | { type: "obstacles" }
   | { type: "robot_map"; device: string; version: number }
   | { type: "run"; run: RunSummary }
   | { type: "run_event"; run: string; event: RunEvent }

@@ -3,11 +3,13 @@ import { Canvas, useFrame, useThree } from "@react-three/fiber";
 import { type RefObject, useEffect, useMemo, useRef, useState } from "react";
 import * as THREE from "three";
 import type { OrbitControls as Controls } from "three-stdlib";
+import type { MapObstacle } from "@/map/floor/floor";
 import { poseAt } from "./frames";
 import type { Incident } from "./incidents";
 import { Building } from "./Building";
 import { Incidents } from "./Incidents";
 import { Machine } from "./Machine";
+import { Obstacles } from "./Obstacles";
 import { type Palette, readPalette } from "./palette";
 import { Robot } from "./Robot";
 import styles from "./Scene3D.module.css";
@@ -34,6 +36,7 @@ interface SceneProps {
 }
 
 const NONE: readonly Incident[] = [];
+const NO_OBSTACLES: readonly MapObstacle[] = [];
 const FIELD_OF_VIEW = 38;
 /** A robot's camera looks over its own deck, which is drawn at twice its size. */
 const ROBOT_CAMERA = { height_m: 0.95, ahead_m: 0.2, field: 62, looks_ahead_m: 4, looks_at_m: 0.55 };
@@ -200,6 +203,7 @@ export function Scene3D(props: SceneProps) {
         <Redraw on={t_s} />
         <CameraRig {...props} />
         <Building map={map} palette={palette} />
+        <Obstacles obstacles={map.obstacles ?? NO_OBSTACLES} palette={palette} />
         {machines.map((device) => (
           <Machine key={device.id} device={device} recording={recording} moment={moment} palette={palette} />
         ))}

@@ -146,6 +146,7 @@ def show_map(request: HttpRequest, slug: str) -> dict[str, Any]:
         **_measures(grid),
         "places": services.list_places(site=slug),
         "zones": services.list_zones(site=slug),
+        "obstacles": services.list_obstacles(site=slug),
         "walls": services.get_walls(grid),
     }
 

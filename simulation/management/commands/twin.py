@@ -14,7 +14,7 @@ from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
 from registry.services import Heart
-from simulation.site_facts import SiteFacts, read_site_facts
+from simulation.site_facts import SiteFacts, read_obstacles, read_site_facts
 from simulation.twin import Twin, TwinPlan
 from vipo_device.kit.connection import ConnectionMaker
 from vipo_device.kit.enrolment import device_connections
@@ -78,6 +78,7 @@ def make_twin(options: dict[str, Any], heart: Heart) -> Twin:
         driver=options["driver"],
         paces=read_paces(facts, options["pace"]),
         refresh=partial(read_site_facts, site),
+        obstacles=partial(read_obstacles, site),
         beat=heart.beat,
     )
     return Twin(plan, connections(site, enrolment_key, folder / "secrets"))

@@ -81,6 +81,7 @@ def make_each(client: Client) -> dict[str, Any]:
             f"{AT_SITE}/zones",
             {"name": "Aisle", "rule": "keep_out", "points": [[7.0, -8.0], [8.0, -8.0], [8.0, -7.0]]},
         ),
+        "add_obstacle": post_json(client, f"{AT_SITE}/obstacles", {"x": 7.0, "y": -8.0}),
         "add_place": post_json(client, f"{AT_SITE}/places", {"name": "Bench", "kind": "point", "x": 7.0, "y": -8.0}),
         "create_program": post_json(client, f"{AT_SITE}/programs", {"name": "New"}),
         "pin_version": post_json(client, f"/api/programs/{task}/versions"),

@@ -18,8 +18,9 @@ import pytest
 
 from registry.floorplan.map_message import join_parts, read_grid_part
 from registry.floorplan.plan import FREE, UNKNOWN
-from simulation.site_facts import demo_facts
+from simulation.site_facts import SiteUnread, demo_facts
 from simulation.twin import Twin, TwinPlan
+from simulation.world import Obstacle
 from tests.kit.files import ROOT
 from tests.kit.mqtt import Ear, Heard
 from tests.kit.servers import Mosquitto, run_mosquitto
@@ -253,6 +254,28 @@ def test_a_map_that_changed_is_taken_over_when_nobody_is_busy(
     with running_twin(bus, tmp_path / "memory.json", refresh=lambda: replace(FACTS, devices=moved)):
         states = up("curingOven01", "state")
         ear.wait(lambda h: h.topic == states and parse_state(h.payload).pose == Pose(10.0, -11.0))
+
+
+def test_a_robot_stops_before_what_people_put_down_and_says_so_also_while_the_database_is_away(
+    bus: Mosquitto, ear: Ear, tmp_path: Path
+) -> None:
+    looks: list[int] = []
+
+    def look() -> tuple[Obstacle, ...]:
+        looks.append(1)
+        if len(looks) > 1:
+            raise SiteUnread("The database does not answer.")
+        return (Obstacle(17.3, -8.6, 0.5),)
+
+    with running_twin(bus, tmp_path / "memory.json", obstacles=look, speed=2):
+        ear.wait(lambda h: h.topic == up("robot01", "state"))
+        x, y = parse_state(ear.wait(lambda h: h.topic == up("robot01", "state")).payload).pose.x, -10.4
+        ear.tell("robot01", "move", "go", path=[[x, y], [17.3, y], [17.3, -7.0]])
+        failed = ear.wait(lambda h: is_ack(h, "go", "FAILED"), 60)
+    assert failed.json["why"] == (
+        "TurtleBot 1 cannot go on: something that is not on the map is in its way at (17.3, -8.6)."
+    )
+    assert len(looks) > 2
 
 
 def test_the_process_with_physics_leaves_in_time(bus: Mosquitto, ear: Ear, tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from registry.demo.devices import describe_devices
 from registry.demo.factory import make_grid, read_plan
 from registry.floorplan.plan import stations
 from simulation.services import DriverName, make_world
-from simulation.world import Ack, Contact, Fault, PropertyChanged, Scene, World, WorldEvent
+from simulation.world import Ack, Contact, Fault, Obstacle, PropertyChanged, Scene, World, WorldEvent
 from tests.kit.files import ROOT
 from tests.unit.simulation.stage_set import MACHINES, ROBOT, hall, robot, scene
 from vipo_device.protocol.description import Pose
@@ -255,6 +255,20 @@ def test_a_wall_in_the_way_is_touched_and_the_move_fails(driver: DriverName) -> 
     assert touched.x == pytest.approx(5.9, abs=0.15)
     assert play.at().x < 5.87
     play.world.close()
+
+
+def test_a_robot_stands_before_what_people_put_in_its_way_and_goes_on_when_it_is_gone(play: Play) -> None:
+    play.world.put_in_the_way([Obstacle(6.0, 4.0, 0.5)])
+    play.tell("robot", "move", "m", path=[[9.0, 4.0]])
+    play.wait(8)
+    assert play.at().x == pytest.approx(6.0 - 0.25 - 0.18 - 0.4, abs=0.1)
+    play.world.put_in_the_way([])
+    assert play.wait_for("m").status == "DONE"
+    play.world.put_in_the_way([Obstacle(6.0, 4.0, 0.5)])
+    play.tell("robot", "move", "back", path=[[3.0, 4.0]])
+    failed = play.wait_for("back")
+    why = "Robot cannot go on: something that is not on the map is in its way at (6, 4)."
+    assert (failed.status, failed.why, play.contacts()) == ("FAILED", why, [])
 
 
 def test_robots_that_meet_touch_and_do_not_drive_through_each_other(driver: DriverName) -> None:

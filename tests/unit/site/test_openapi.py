@@ -82,6 +82,8 @@ def test_every_answer_has_a_shape(described):
         ("delete", "/api/sites/{slug}/invitations/{invitation}", "204"),
         ("post", "/api/sites/{slug}/leave", "204"),
         ("delete", "/api/sites/{slug}/members/{person}/second-factor", "204"),
+        ("delete", "/api/sites/{slug}/obstacles", "204"),
+        ("delete", "/api/sites/{slug}/obstacles/{obstacle}", "204"),
         ("delete", "/api/sites/{slug}/places/{place_id}", "204"),
         ("patch", "/api/sites/{slug}/things/{thing}", "204"),
         ("delete", "/api/sites/{slug}/tokens/{token_id}", "204"),

@@ -27,6 +27,13 @@ export interface MapZone {
   readonly open_until?: string | null;
 }
 
+/** A round thing on the floor that is on no map; metres. */
+export interface MapObstacle {
+  readonly x: number;
+  readonly y: number;
+  readonly size_m: number;
+}
+
 /** One version of a site's map; `cells` row by row from the bottom row: 0 free, 100 wall, 255 unknown. */
 export interface FloorPlan {
   readonly version: number;
@@ -36,6 +43,8 @@ export interface FloorPlan {
   readonly origin: { readonly x: number; readonly y: number };
   readonly places: readonly MapPlace[];
   readonly zones?: readonly MapZone[];
+  /** What simulated robots meet. */
+  readonly obstacles?: readonly MapObstacle[];
   readonly cells: Uint8Array;
 }
 

@@ -2,6 +2,7 @@
 import { cellBoxToPixels, knownBox, mergeCells, type FloorPlan } from "./floor";
 import type { Palette } from "../plane/palette";
 import { PIXELS_PER_METRE, toPixels, type Box, type Viewport } from "../plane/projection";
+import { paintObstacles } from "./obstaclePainter";
 import { paintZones, paintZoneTags, type ZoneSign } from "./zonePainter";
 
 export interface FloorShapes {
@@ -66,6 +67,7 @@ export function paintFloor(
   paintGround(canvas, palette, shapes, viewport.zoom, detail);
   paintZones(canvas, palette, shapes.zones, viewport.zoom);
   paintWalls(canvas, palette, shapes, viewport.zoom);
+  paintObstacles(canvas, palette, shapes.plan.obstacles ?? [], viewport.zoom);
   if (detail.labels) paintPlaces(canvas, palette, shapes.plan, viewport.zoom);
   if (detail.labels) paintZoneTags(canvas, palette, shapes.zones, viewport.zoom);
   canvas.restore();

@@ -1,11 +1,12 @@
 /** The site's map, large, with its places and zones, what there is to know about it and its ROS files. */
 import { Button, Skeleton } from "@mantine/core";
-import { Check, MapPin, MapPinned, Move, SquareDashed, type LucideIcon } from "lucide-react";
+import { Check, MapPin, MapPinned, Move, SquareDashed, TrafficCone, type LucideIcon } from "lucide-react";
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { missing } from "@/api/failed";
 import { useDevices, useSite, useSiteMap } from "@/api/queries";
+import { mayOperate } from "@/api/roles";
 import type { Site, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { EmptyState } from "@/design/EmptyState";
@@ -21,6 +22,9 @@ import { MapExports } from "./MapExports";
 import styles from "./MapPage.module.css";
 import { MappingRobots } from "./MappingRobots";
 import { MapVersions } from "./MapVersions";
+import { ObstacleHandles } from "./obstacles/ObstacleHandles";
+import { ObstaclesPanel } from "./obstacles/ObstaclesPanel";
+import { useObstacles } from "./obstacles/useObstacles";
 import { PlaceHandles } from "./places/PlaceHandles";
 import { PlacesPanel } from "./places/PlacesPanel";
 import { usePlaces } from "./places/usePlaces";
@@ -51,17 +55,34 @@ function Facts({ map }: { map: SiteMap }) {
   );
 }
 
-/** What an admin is changing on the map. */
-type Mode = "machines" | "places" | "zones";
+/** What somebody is changing on the map. */
+type Mode = "machines" | "places" | "zones" | "obstacles";
 const MODES: readonly { mode: Mode; icon: LucideIcon; begin: string; end: string }[] = [
   { mode: "places", icon: MapPin, begin: "place.edit", end: "place.finish" },
   { mode: "zones", icon: SquareDashed, begin: "zone.edit", end: "zone.finish" },
   { mode: "machines", icon: Move, begin: "placing.move", end: "placing.finish" },
+  { mode: "obstacles", icon: TrafficCone, begin: "obstacle.edit", end: "obstacle.finish" },
 ];
 
-function ModeButtons({ mode, change }: { mode: Mode | null; change: (mode: Mode | null) => void }) {
+/** Admins change the map; who runs programs puts something in the way of robots, where some are simulated. */
+function useModes(site: Site | undefined): readonly Mode[] {
+  const devices = useDevices(site?.slug).data ?? [];
+  const isSimulated = devices.some(({ kind, simulated, lifecycle }) => {
+    return kind === "robot" && simulated && lifecycle === "approved";
+  });
+  const modes: Mode[] = site?.role === "admin" ? ["places", "zones", "machines"] : [];
+  return isSimulated && mayOperate(site?.role) ? [...modes, "obstacles"] : modes;
+}
+
+interface ModeButtonsProps {
+  allowed: readonly Mode[];
+  mode: Mode | null;
+  change: (mode: Mode | null) => void;
+}
+
+function ModeButtons({ allowed, mode, change }: ModeButtonsProps) {
   const { t } = useTranslation();
-  return MODES.map((each) => {
+  return MODES.filter((each) => allowed.includes(each.mode)).map((each) => {
     const isOn = mode === each.mode;
     const Icon = isOn ? Check : each.icon;
     return (
@@ -91,23 +112,25 @@ function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | n
   const [query] = useSearchParams();
   const places = usePlaces(site.slug, map);
   const zones = useZones(site.slug, map);
+  const obstacles = useObstacles(site.slug);
   const asked = map.places.find((each) => each.id === query.get("place"));
   const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
   const movable = mode === "machines" ? devices.filter((device) => device.kind === "machine") : [];
   const bare = useMemo(() => ({ ...map, places: [] }), [map]);
+  const cleared = useMemo(() => ({ ...map, obstacles: [] }), [map]);
   const open = (id: string) => void navigate(`/sites/${site.slug}/devices/${id}`);
   return (
     <div className={styles.page}>
       <Panel className={styles.map}>
         <StaticMap
-          plan={mode === "places" ? bare : map}
+          plan={mode === "places" ? bare : mode === "obstacles" ? cleared : map}
           devices={devices.filter(
             (device) =>
               !movable.includes(device) && !((mode === "places" || mode === "zones") && device.kind === "robot"),
           )}
           named
           selected={query.get("device")}
-          onSelect={mode === "places" || mode === "zones" ? undefined : open}
+          onSelect={mode === null || mode === "machines" ? open : undefined}
           label={t("pages.map.of", { site: site.name })}
         >
           {movable.map((device) => (
@@ -115,17 +138,23 @@ function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | n
           ))}
           {mode === "places" ? <PlaceHandles slug={site.slug} map={map} places={places} /> : null}
           {mode === "zones" ? <ZoneHandles slug={site.slug} map={map} zones={zones} /> : null}
+          {mode === "obstacles" ? <ObstacleHandles map={map} editing={obstacles} /> : null}
           {asked && mode !== "places" ? <PlaceMark at={[asked.x, asked.y]} /> : null}
         </StaticMap>
       </Panel>
       <Panel className={styles.about}>
         {mode === "machines" ? <p id="placing-help">{t("placing.help")}</p> : null}
-        {mode === "places" || mode === "zones" ? null : <About map={map} />}
-        {mode === "zones" ? null : (
+        {mode === null || mode === "machines" ? <About map={map} /> : null}
+        {mode === null || mode === "obstacles" ? (
+          <ObstaclesPanel map={map} editing={mode === "obstacles" ? obstacles : null} />
+        ) : null}
+        {mode === "zones" || mode === "obstacles" ? null : (
           <PlacesPanel slug={site.slug} map={map} editing={mode === "places" ? places : null} />
         )}
-        {mode === "places" ? null : <ZonesPanel slug={site.slug} map={map} editing={mode === "zones" ? zones : null} />}
-        {mode === "places" || mode === "zones" ? null : <MapVersions site={site} />}
+        {mode === "places" || mode === "obstacles" ? null : (
+          <ZonesPanel slug={site.slug} map={map} editing={mode === "zones" ? zones : null} />
+        )}
+        {mode === null || mode === "machines" ? <MapVersions site={site} /> : null}
       </Panel>
     </div>
   );
@@ -148,6 +177,7 @@ export function MapPage() {
   const map = useSiteMap(site.data?.has_map ? slug : undefined);
   const [query] = useSearchParams();
   const [mode, setMode] = useState<Mode | null>(query.has("places") ? "places" : null);
+  const modes = useModes(site.data);
   const problem = missing(site, map);
   return (
     <PageShell
@@ -156,7 +186,7 @@ export function MapPage() {
       actions={
         map.data ? (
           <>
-            {site.data?.role === "admin" ? <ModeButtons mode={mode} change={setMode} /> : null}
+            <ModeButtons allowed={modes} mode={mode} change={setMode} />
             {site.data?.role === "admin" ? <EditMapButton slug={slug} /> : null}
             <MapExports slug={slug} />
           </>

@@ -112,6 +112,13 @@ def test_a_robot_stops_before_a_thing_that_is_on_no_map_and_goes_on_when_it_is_g
     passed = carried(Fault("", "obstacle", x=x, y=y, for_s=15.0))
     assert passed["ok"] is True
     assert passed["duration_s"] > carried()["duration_s"]
+    thing = {"x": x, "y": y, "size_m": 0.5}
+    assert (blocked["obstacles"], passed["obstacles"]) == ([_lay(None) | thing], [_lay(15.0) | thing])
+    assert carried()["obstacles"] == []
+
+
+def _lay(until: float | None) -> dict[str, float | None]:
+    return {"t": pytest.approx(0.0, abs=0.1), "until": until and pytest.approx(until, abs=0.1)}
 
 
 def test_a_wrong_reading_is_shown_for_as_long_as_asked_and_the_true_one_after():

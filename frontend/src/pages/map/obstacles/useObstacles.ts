@@ -1,0 +1,36 @@
+/** What somebody does with the obstacles on a floor at the moment. */
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import { useChangeObstacles } from "@/api/obstacles";
+import type { Obstacle } from "@/api/types";
+import type { Point } from "@/map/plane/projection";
+import { tellRefusal } from "@/shell/refusal";
+
+export type ObstacleEditing = ReturnType<typeof useObstacles>;
+
+const USUAL_M = 0.5;
+
+/** `adding` is true while a click on the floor puts one more there; `size_m` is how wide the next one is. */
+export function useObstacles(slug: string) {
+  const { t } = useTranslation();
+  const change = useChangeObstacles(slug);
+  const [adding, setAdding] = useState(true);
+  const [size_m, setSize] = useState(USUAL_M);
+  const onError = (error: Error) => tellRefusal(error, t);
+  return {
+    adding,
+    begin: () => setAdding(true),
+    stop: () => setAdding(false),
+    size_m,
+    setSize,
+    isSending: change.isPending,
+    put: ([x, y]: Point) => change.mutate({ do: "add", obstacle: { x, y, size_m } }, { onError }),
+    move: (obstacle: Obstacle, [x, y]: Point, done: { onError: () => void; onSettled: () => void }) =>
+      change.mutate(
+        { do: "move", id: obstacle.id, obstacle: { x, y, size_m: obstacle.size_m } },
+        { ...done, onError: (error) => (done.onError(), onError(error)) },
+      ),
+    remove: (id: number) => change.mutate({ do: "remove", id }, { onError }),
+    removeAll: () => change.mutate({ do: "removeAll" }, { onError }),
+  };
+}
