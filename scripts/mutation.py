@@ -48,7 +48,8 @@ PYTEST = (
 """The tests of the language need no server, which would take longer to begin than most of them."""
 LANGUAGE = "tests/unit/language"
 QUICK = ("checks", "analysis", "test_cases.py", "test_incremental.py", "test_catches.py", "test_lists.py",
-         "test_edges.py", "test_robot_methods.py", "test_robot_readings.py", "parsing/test_script.py")  # fmt: skip
+         "test_edges.py", "test_robot_methods.py", "test_robot_readings.py", "parsing/test_script.py",
+         "test_odd_scripts.py")  # fmt: skip
 PARTS = {
     "language": (PACKAGE, f"{LANGUAGE} --ignore {LANGUAGE}/test_examples.py", 300.0),
     "analysis": (f"{PACKAGE}/analysis", " ".join(f"{LANGUAGE}/{name}" for name in QUICK), 150.0),
