@@ -6,9 +6,9 @@ number. So a value's unit is known wherever it is read, and no step can make of 
 
 from __future__ import annotations
 
-from collections import ChainMap, deque
+from collections import ChainMap, Counter, deque
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from editor.language.expressions.nodes import OF_PROBLEM, Expression, Variable
 from editor.language.expressions.value_types import NUMBER, TEXT, UNKNOWN_TYPE, TypeChecker, ValueType, declared_type
@@ -21,6 +21,8 @@ from editor.language.tree.variables import read_by, set_by
 from vipo_device.protocol.units import PLAIN, UNSAID, is_measure
 
 Types = Mapping[str, ValueType]
+MOST_CHANGES = 8
+"""So often a type may become another one: variables in a circle through an empty list would change theirs for ever."""
 _Loops = tuple[n.ForEach, ...]
 
 
@@ -91,7 +93,11 @@ class _Setter:
 
 @dataclass(slots=True)
 class _Inference:
-    """The types that are known so far; each may become more exact, in a few steps, and never less."""
+    """The types that are known so far; each may become more exact, in a few steps.
+
+    An item of a list that is empty as yet may have any unit, until more is known of the list: that alone makes a type
+    less exact again. Where variables are in a circle through such a list, their unit is left open in the end.
+    """
 
     functions: Mapping[str, Function]
     surroundings: Surroundings
@@ -106,14 +112,16 @@ class _Inference:
             for setter in setters:
                 for read in setter.reads():
                     dependents.setdefault(read, set()).add(name)
+        changes: Counter[str] = Counter()
         left = deque(self.setters)
         waiting = set(left)
         while left:
             name = left.popleft()
             waiting.discard(name)
             found = self._type_of_variable(name)
-            if found is not None and found != self.types.get(name):
-                self.types[name] = found
+            if found is not None and found != self.types.get(name) and changes[name] <= MOST_CHANGES:
+                changes[name] += 1
+                self.types[name] = found if changes[name] <= MOST_CHANGES else replace(found, unit=UNSAID)
                 again = sorted(dependents.get(name, set()) - waiting)
                 left.extend(again)
                 waiting.update(again)

@@ -135,3 +135,23 @@ def test_a_hostile_list_is_told_and_reads_back(value: Any) -> None:
 def test_a_list_that_is_written_out_is_one_constant() -> None:
     assert read_value({"op": "list", "args": [1, 2]}, {}) == Constant((1, 2))
     assert read_value({"op": "list", "args": []}, {}) == Operation("list", ())
+
+
+CIRCLE = """try:
+    try:
+        self.ys = self.ys + [self.n]
+    except TaskError:
+        self.wait(60)
+    for each in self.xs:
+        self.n = each
+        self.xs = [self.k]
+except TimedOut:
+    self.k = self.n
+self.wait({})"""
+
+
+@pytest.mark.parametrize(("waited", "codes"), [("self.n", []), ("self.k", []), ("60", [])])
+def test_variables_in_a_circle_through_an_empty_list_have_an_open_unit(waited: str, codes: list[str]) -> None:
+    """Their types would change for ever: a hall of mirrors, found by `odd_scripts`."""
+    found = told(f"self.n = 1\nself.xs = []\n{CIRCLE.format(waited)}")
+    assert [code for code in found if code not in {"unused_variable", "unset_variable", "may_be_unset"}] == codes
