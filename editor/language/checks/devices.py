@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 from math import pi
 
@@ -12,7 +11,7 @@ from editor.language.checks.possible import check_each_device, check_held_device
 from editor.language.checks.robot_readings import check_robot_reading, tell_unknown
 from editor.language.expressions import nodes as e
 from editor.language.expressions.names import ROBOT_METHODS
-from editor.language.expressions.nodes import Constant, Expression, Located, PlaceRef, Reading, Zone
+from editor.language.expressions.nodes import Constant, Located, PlaceRef, Reading, Zone
 from editor.language.expressions.ranges import Here
 from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
@@ -133,19 +132,17 @@ def _check_floor(context: Context, node: n.Move, point: e.Point, field: str) -> 
         context.report(node, "place_blocked", field, name)
 
 
-def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
-    """Check the readings among the parts of an expression against what the devices report."""
-    for part in parts:
-        if not isinstance(part, Reading):
-            continue
-        if isinstance(part.device, Constant):
-            facts = known_device(context, node, str(part.device.value), field)
-            if facts is not None:
-                _check_reported(context, node, part, field, facts)
-        elif isinstance(part.device, Located):
-            check_robot_reading(context, node, part, field)
-        else:
-            check_each_device(context, node, part.device, field, partial(_check_reported, context, node, part, field))
+def check_reading(context: Context, node: n.Node, reading: Reading, field: str) -> None:
+    """Check a reading against what the device reports."""
+    if isinstance(reading.device, Constant):
+        facts = known_device(context, node, str(reading.device.value), field)
+        if facts is not None:
+            _check_reported(context, node, reading, field, facts)
+    elif isinstance(reading.device, Located):
+        check_robot_reading(context, node, reading, field)
+    else:
+        check = partial(_check_reported, context, node, reading, field)
+        check_each_device(context, node, reading.device, field, check)
 
 
 def _check_reported(context: Context, node: n.Node, reading: Reading, field: str, facts: DeviceFacts) -> None:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import inf
+from typing import Any
 
 from editor.language.checks.context import Context
-from editor.language.checks.devices import check_readings, known_device
+from editor.language.checks.devices import check_reading, known_device
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.expressions.ranges import ANY, NOTHING_KNOWN, Here, Range, first_limited_reading, possible
@@ -48,14 +49,11 @@ def check_value(
     """Check what a value reads and of which type and unit it is; tell whether it is good."""
     before = len(context.found)
     if not isinstance(value, Constant):
-        parts = parts_of(value)
-        check_readings(context, node, parts, field)
-        _check_divisors(context, node, parts, field)
-        _check_things(context, node, parts, field)
-        _check_numbers_of_items(context, node, parts, field)
-        _check_lengths(context, node, parts, field)
-    elif isinstance(value.value, tuple):
-        check_length(context, node, value.value, field)
+        for part in parts_of(value):
+            if (check := _CHECKS.get(part.__class__)) is not None:
+                check(context, node, part, field)
+    else:
+        _check_constant(context, node, value, field)
     checker = TypeChecker(context.surroundings, context.variables, [])
     value_type = checker.type_of(value)
     for mismatch in checker.mismatches:
@@ -71,46 +69,47 @@ def check_value(
     return len(context.found) == before
 
 
-def _check_divisors(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
+def _check_operation(context: Context, node: n.Node, part: Operation, field: str) -> None:
+    if part.operator == "/":
+        _check_divisor(context, node, part.arguments[1], field)
+    elif part.operator == "nth":
+        _check_number_of_item(context, node, part, field)
+    elif part.operator == "list":
+        check_length(context, node, part.arguments, field)
+
+
+def _check_divisor(context: Context, node: n.Node, value: Expression, field: str) -> None:
     """Tell of what is divided by nothing else than 0, or by what may be 0 as far as it is known.
 
     Of variables nothing is known before the paths are followed, which tell then.
     """
-    for part in parts:
-        if isinstance(part, Operation) and part.operator == "/":
-            divisor = range_in(context, part.arguments[1], "")
-            if divisor.least == divisor.most == 0:
-                context.report(node, "divided_by_zero", field)
-            elif divisor != ANY and divisor.has_zero and not _is_unknown_yet(context, part.arguments[1]):
-                context.report(node, "may_divide_by_zero", field)
+    divisor = range_in(context, value, "")
+    if divisor.least == divisor.most == 0:
+        context.report(node, "divided_by_zero", field)
+    elif divisor != ANY and divisor.has_zero and not _is_unknown_yet(context, value):
+        context.report(node, "may_divide_by_zero", field)
 
 
 def _is_unknown_yet(context: Context, value: Expression) -> bool:
     return context.known is NOTHING_KNOWN and any(isinstance(part, Variable) for part in parts_of(value))
 
 
-def _check_numbers_of_items(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
+def _check_number_of_item(context: Context, node: n.Node, part: Operation, field: str) -> None:
     """Tell of an item that the list does not have, or may not have as far as it is known."""
-    for part in parts:
-        if not isinstance(part, Operation) or part.operator != "nth":
-            continue
-        here = Here(context.surroundings, context.known)
-        items, number = here.items(part.arguments[0]), here.range(converted(context, part.arguments[1], ""))
-        broken = -inf < number.least == number.most and number.least != int(number.least)
-        if broken or number.most < 1 or (items is not None and number.least > items.most):
-            context.report(node, "no_such_item", field)
-            continue
-        told = context.known is not NOTHING_KNOWN and items is not None and number != ANY
-        if told and items is not None and (number.least < 1 or number.most > items.least):
-            context.report(node, "may_be_no_such_item", field)
+    here = Here(context.surroundings, context.known)
+    items, number = here.items(part.arguments[0]), here.range(converted(context, part.arguments[1], ""))
+    broken = -inf < number.least == number.most and number.least != int(number.least)
+    if broken or number.most < 1 or (items is not None and number.least > items.most):
+        context.report(node, "no_such_item", field)
+        return
+    told = context.known is not NOTHING_KNOWN and items is not None and number != ANY
+    if told and items is not None and (number.least < 1 or number.most > items.least):
+        context.report(node, "may_be_no_such_item", field)
 
 
-def _check_lengths(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
-    for part in parts:
-        if isinstance(part, Constant) and isinstance(part.value, tuple):
-            check_length(context, node, part.value, field)
-        elif isinstance(part, Operation) and part.operator == "list":
-            check_length(context, node, part.arguments, field)
+def _check_constant(context: Context, node: n.Node, part: Constant, field: str) -> None:
+    if isinstance(part.value, tuple):
+        check_length(context, node, part.value, field)
 
 
 def check_length(context: Context, node: n.Node, items: Sequence[object], field: str) -> None:
@@ -186,17 +185,23 @@ def check_kept(
     context.report(node, "plain_number", field, words, None if field == "items" else fix)
 
 
-def _check_things(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
-    """Check that the devices, places and zones that an expression speaks of exist."""
-    for part in parts:
-        if not isinstance(part, Located):
-            continue
-        if part.device is not None:
-            known_device(context, node, part.device, field)
-        elif part.place is not None and part.place not in context.surroundings.places:
-            context.report(node, "unknown_place", field, {"place": part.place})
-        elif part.zone is not None and part.zone not in context.zones:
-            context.report(node, "unknown_zone", field, {"zone": part.zone})
+def _check_thing(context: Context, node: n.Node, part: Located, field: str) -> None:
+    """Check that the device, place or zone that an expression speaks of exists."""
+    if part.device is not None:
+        known_device(context, node, part.device, field)
+    elif part.place is not None and part.place not in context.surroundings.places:
+        context.report(node, "unknown_place", field, {"place": part.place})
+    elif part.zone is not None and part.zone not in context.zones:
+        context.report(node, "unknown_zone", field, {"zone": part.zone})
+
+
+_CHECKS: Mapping[type[Expression], Callable[[Context, n.Node, Any, str], None]] = {
+    Constant: _check_constant,
+    Reading: check_reading,
+    Operation: _check_operation,
+    Located: _check_thing,
+}
+"""What is checked of each part of a value."""
 
 
 def converted(context: Context, value: Expression, unit: str) -> Expression:
