@@ -261,9 +261,10 @@ def _repeat(context: Context, node: n.Repeat) -> None:
     if has_missing(node.times):
         context.report(node, "missing_times", "times")
     elif check_value(context, node, node.times, "times", NUMBER, "How many times"):
-        times = constant_value(node.times)
-        if isinstance(times, int | float) and (times < 0 or times != int(times)):
-            context.report(node, "times_not_whole", "times", fix=fix_value(node.step, "times", max(0, round(times))))
+        times = range_in(context, node.times, "")
+        if times.broken or times.most < 0:
+            fix = fix_value(node.step, "times", max(0, round(times.most)))
+            context.report(node, "times_not_whole", "times", fix=fix)
 
 
 def _for_each(context: Context, node: n.ForEach) -> None:

@@ -36,6 +36,11 @@ class Range:
         """Tell whether no number lies in it."""
         return self.least > self.most or (self.least == self.most and (self.least_open or self.most_open))
 
+    @property
+    def broken(self) -> bool:
+        """Tell whether it is one number alone, and no whole one."""
+        return -inf < self.least == self.most < inf and self.least != int(self.least)
+
     def meet(self, other: Range) -> Range:
         """Return the numbers that lie in both."""
         low = max((self.least, self.least_open), (other.least, other.least_open))

@@ -62,3 +62,21 @@ def test_what_is_carried_already_is_named_without_what_may_not_be_there() -> Non
         ("may_carry_too_much", None),
         ("carrying_too_much", "2 box"),
     ]
+
+
+@pytest.mark.parametrize(
+    ("lines", "codes"),
+    [
+        ((SHELF, pick("1 + 0.5")), ["quantity_not_positive"]),
+        (("self.n = 1.5", SHELF, pick("self.n")), ["quantity_not_positive"]),
+        (("self.n = 3", SHELF, pick("self.n / 2")), ["quantity_not_positive"]),
+        (("self.n = 4", SHELF, pick("self.n / 2"), BOOTH, drop("self.n / 2")), []),
+        (("for _ in range(1 + 0.5):\n    self.wait(60)",), ["times_not_whole"]),
+        (("self.n = 0.5", "for _ in range(self.n):\n    self.wait(60)"), ["times_not_whole"]),
+        (("self.n = 0", "for _ in range(self.n - 1):\n    self.wait(60)"), ["times_not_whole"]),
+        ((asked("n", 0, 2), "for _ in range(self.n - 1):\n    self.wait(60)"), []),
+        (("self.n = 0", "for _ in range(self.n):\n    self.wait(60)"), []),
+    ],
+)
+def test_a_number_that_is_no_whole_one_is_told_however_it_is_come_by(lines: tuple[str, ...], codes: list[str]) -> None:
+    assert told_of(*lines) == codes
