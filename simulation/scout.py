@@ -10,7 +10,8 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from queue import Empty, SimpleQueue
@@ -20,10 +21,10 @@ from simulation.actors import InitialState, Motion
 from simulation.actors.actor import Emit
 from simulation.actors.robot import Robot, Surroundings
 from simulation.mapping.survey import TICK_S, Expedition, NoRoom, SurveyPlan
-from simulation.site_facts import DescribedDevice
+from simulation.site_facts import DescribedDevice, SiteUnread
 from simulation.twin_memory import TwinMemory, read_memory, write_memory
 from simulation.virtual_device import Appearance, VirtualDevice
-from simulation.world import Ack, WorldEvent
+from simulation.world import Ack, Obstacle, WorldEvent
 from vipo_device.descriptions.reader import write_description
 from vipo_device.kit.connection import (
     CommandReceived,
@@ -41,6 +42,7 @@ LOOP_S = 0.05
 SLICE_S = 1.0
 SEND_EVERY_S = 10.0
 SAVE_EVERY_S = 1.0
+LOOK_EVERY_S = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +55,8 @@ class ScoutPlan:
     survey: SurveyPlan
     speed: float = 1.0
     boot: int = 1
+    obstacles: Callable[[], Sequence[Obstacle]] = tuple
+    """What people have put on the floor; may raise SiteUnread."""
     memory_path: Path | None = None
     """Where it is kept over a restart where the robot stands and what it has answered; None keeps nothing."""
 
@@ -98,6 +102,7 @@ class ScoutActor(Robot):
         self._plan = replace(survey, start=survey.start or description.pose)
         self.expedition = Expedition(self._plan)
         self._exploring = ""
+        self._obstacles: Sequence[Obstacle] = ()
 
     @property
     def explores(self) -> bool:
@@ -130,6 +135,12 @@ class ScoutActor(Robot):
         believed = self.expedition.look_round()
         self._plan = replace(self._plan, seed=self._plan.seed + 1, start=self.expedition.pose)
         self.expedition = Expedition(self._plan, believed)
+        self.expedition.put_in_the_way(self._obstacles)
+
+    def put_in_the_way(self, obstacles: Sequence[Obstacle]) -> None:
+        """Let things stand on the floor, in place of those that stood there."""
+        self._obstacles = tuple(obstacles)
+        self.expedition.put_in_the_way(self._obstacles)
 
     def _cancel(self, t_s: float, command: str) -> None:
         if not self.explores:
@@ -195,9 +206,14 @@ class Scout:
         self._device.connect(self._make_connection)
         try:
             now = time.monotonic()
+            looked = now - LOOK_EVERY_S
             while not stopping.is_set():
                 self._take_in()
                 last, now = now, time.monotonic()
+                if now - looked >= LOOK_EVERY_S:
+                    looked = now
+                    with suppress(SiteUnread):  # what stood there stays until the database is back
+                        self._actor.put_in_the_way(self._plan.obstacles())
                 self._pass_time(now - last)
                 self._speak(now)
         finally:

@@ -23,7 +23,7 @@ from simulation.services import make_world
 from simulation.stand_ins.hand_overs import HandOver, HandOvers, hand_over_of, stock_for
 from simulation.stand_ins.line import Line
 from simulation.stand_ins.stand_in import StandIn, StandInFacts
-from simulation.world import Scene, World
+from simulation.world import Obstacle, Scene, World
 from vipo_device.protocol.description import Description
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import DeviceCommand, parse_ack, read_command
@@ -190,8 +190,17 @@ class StandIns(Listener):
         for each in new:
             with self._alone(each.device.id):
                 self._begin(each, now)
+        for site in sites:
+            self._put_in_the_way(site)
         if is_due:
             self._change(wanted)
+
+    def _put_in_the_way(self, site: str) -> None:
+        """Tell the robots of a site what people have put on its floor for simulated ones to meet."""
+        obstacles = [Obstacle(each.x, each.y, each.size_m) for each in registry.list_obstacles(site=site)]
+        for playing in self._playing.values():
+            if playing.stand_in.facts.site == site:
+                playing.stand_in.put_in_the_way(obstacles)
 
     def _is_given_up(self, device: str, now: float) -> bool:
         return now - self._given_up.get(device, float("-inf")) < AGAIN_AFTER_S

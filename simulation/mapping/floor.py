@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from registry.floorplan.plan import FREE, Grid, cells_array
+from simulation.world import Obstacle
 from vipo_device.protocol.description import Pose
 
 Floats = NDArray[np.float64]
@@ -25,8 +27,19 @@ class TrueFloor:
 
     def __init__(self, grid: Grid) -> None:
         self.grid = grid
-        solid = cells_array(grid) != FREE
-        self.solid = np.pad(solid, 1, constant_values=True)
+        self._solid = np.pad(cells_array(grid) != FREE, 1, constant_values=True)
+        self.put(())
+
+    def put(self, obstacles: Iterable[Obstacle]) -> None:
+        """Let round things stand on the floor, in place of those that stood there; robots see and touch them."""
+        self.solid = self._solid.copy()
+        for thing in obstacles:
+            column, row = self._cells(thing.x, thing.y)
+            radius = thing.size_m / 2 / self.grid.resolution_m
+            left, low = (max(0, int(middle - radius) - 1) for middle in (column, row))
+            part = self.solid[low : int(row + radius) + 2, left : int(column + radius) + 2]
+            rows, columns = np.indices(part.shape) + 0.5
+            part |= (rows + low - row) ** 2 + (columns + left - column) ** 2 <= radius**2
         distance: Floats = ndimage.distance_transform_edt(~self.solid)
         self._distance = distance
         self._leap = np.maximum(distance - _SURE_CELLS, 0.0).ravel()

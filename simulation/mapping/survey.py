@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from math import hypot
 
@@ -14,6 +14,7 @@ from simulation.mapping.floor import Lidar, LidarSpec, TrueFloor
 from simulation.mapping.map_maker import MapMaker, RobotSpec
 from simulation.mapping.occupancy import Floats
 from simulation.mapping.odometry import Odometry, OdometrySpec, moved
+from simulation.world import Obstacle
 from vipo_device.protocol.description import Pose
 
 TICK_S = 0.1
@@ -84,6 +85,7 @@ class Expedition:
         self.stands_before = False
         self._driven_m, self._bumps = 0.0, 0
         self._errors = (0.0, 0.0)
+        self._obstacles: Sequence[Obstacle] = ()
 
     @property
     def time_s(self) -> float:
@@ -94,6 +96,17 @@ class Expedition:
     def is_over(self) -> bool:
         """True when the map is made, or the time is over."""
         return self.maker.is_done or self.time_s >= self._plan.longest_s
+
+    def put_in_the_way(self, obstacles: Sequence[Obstacle]) -> None:
+        """Let things stand on the floor that the robot was not told of, in place of those that stood there.
+
+        One can be put where the robot stands no sooner than it has left.
+        """
+        radius_m, at = self._plan.robot.radius_m, self.pose
+        here = tuple(o for o in obstacles if hypot(o.x - at.x, o.y - at.y) > o.size_m / 2 + radius_m)
+        if here != self._obstacles:
+            self._obstacles = here
+            self._floor.put(here)
 
     def tick(self) -> bool:
         """Let a tick pass in which the robot explores; True when a scan went into the map."""

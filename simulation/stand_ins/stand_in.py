@@ -15,7 +15,7 @@ from simulation.stand_ins.hand_overs import HandOver, HandOvers
 from simulation.stand_ins.line import Line
 from simulation.twin_memory import TwinMemory, read_memory, snapshot, write_memory
 from simulation.virtual_device import VirtualDevice, look_at
-from simulation.world import Ack, Scene, World, open_floor
+from simulation.world import Ack, Obstacle, Scene, World, open_floor
 from vipo_device.kit.connection import CommandReceived, ConnectionEvent, IntroductionDue, StopChanged
 from vipo_device.protocol.description import Description, Pose, Scalar
 from vipo_device.protocol.loads import read_load
@@ -61,6 +61,7 @@ class StandIn:
         self._lag_s, self._now = 0.0, 0.0
         self._hand_overs = HandOvers()
         self._held = False
+        self._obstacles: tuple[Obstacle, ...] = ()
         self._world = self._begin()
 
     @property
@@ -100,6 +101,12 @@ class StandIn:
         self.facts = replace(facts, begins=self.facts.begins)
         self._world = self._make_world(memory.put_into(self._scene()))
         self._world.hold(active=self._held)
+        self._world.put_in_the_way(self._obstacles)
+
+    def put_in_the_way(self, obstacles: Sequence[Obstacle]) -> None:
+        """Learn what people have put on the floor for simulated robots to meet."""
+        self._obstacles = tuple(obstacles)
+        self._world.put_in_the_way(self._obstacles)
 
     def see_stock(self, machine: str, stock: Mapping[str, int]) -> None:
         """Learn what a machine holds that the robot may serve."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from argparse import ArgumentParser
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from simulation.mapping.floor import LidarSpec
 from simulation.mapping.map_maker import RobotSpec
 from simulation.mapping.survey import NoRoom, SurveyPlan
 from simulation.scout import Scout, ScoutPlan
+from simulation.site_facts import read_obstacles
 from vipo_device.kit.shutdown import stop_on_signals
 from vipo_device.protocol.description import Pose
 from vipo_device.protocol.errors import VipoError
@@ -78,7 +80,16 @@ def make_scout(options: dict[str, Any]) -> Scout:
     device = options["id"] or f"{site}.scout"
     folder = Path(settings.VIPO_STATE_DIR)
     memory_path = folder / "twin" / f"{device}.json"
-    plan = ScoutPlan(device, options["name"], site, survey, options["speed"], int(time.time()), memory_path)
+    plan = ScoutPlan(
+        device,
+        options["name"],
+        site,
+        survey,
+        options["speed"],
+        boot=int(time.time()),
+        obstacles=partial(read_obstacles, site),
+        memory_path=memory_path,
+    )
     key = registry.show_enrolment_key(site=site)
     log.info("%s comes to %s: let it in on the page of the devices, then let it explore.", device, site)
     return Scout(plan, connections(site, key, folder / "secrets"))

@@ -9,7 +9,7 @@ from simulation.mapping.floor import TrueFloor
 from simulation.mapping.scores import score
 from simulation.mapping.survey import TICK_S, SurveyPlan
 from simulation.scout import ScoutActor, ScoutPlan, describe_scout
-from simulation.world import Ack, WorldEvent
+from simulation.world import Ack, Obstacle, WorldEvent
 from tests.kit.floors.halls import bare_hall
 from vipo_device.protocol.description import Pose
 
@@ -114,3 +114,33 @@ def test_maps_made_one_after_the_other_lie_over_each_other() -> None:
         scout.rest()
         found = score(scout.actor.expedition.maker.grid(), TrueFloor(FLOOR), START)
         assert (number, found.f1 >= 0.95, found.iou >= 0.97) == (number, True, True), found
+
+
+def test_what_people_put_on_the_floor_is_seen_driven_round_and_is_on_the_map() -> None:
+    scout = Driven()
+    scout.actor.put_in_the_way([Obstacle(3.0, 2.5, 0.6)])
+    scout.tell("map", "explore")
+    scout.rest()
+    mapped = scout.actor.expedition.maker.grid()
+    row, column = mapped.cell_of(3.0, 2.2) or (0, 0)
+    assert OCCUPIED in mapped.cells[(row - 1) * mapped.width + column - 2 : (row + 1) * mapped.width + column + 3]
+    scout.tell("over", "move", path=[[3.0, 1.0], [3.0, 4.0]])
+    scout.rest()
+    why = "Scout cannot go on: something stands in its way."
+    assert scout.said("over")[-1] == ("FAILED", why)
+    scout.actor.put_in_the_way([])
+    x, y = scout.actor.expedition.maker.pose.x, scout.actor.expedition.maker.pose.y
+    scout.tell("through", "move", path=[[x, y], [3.0, 4.0]])
+    scout.rest()
+    assert scout.said("through")[-1][0] == "DONE"
+
+
+def test_what_is_put_where_the_robot_stands_lies_there_once_it_has_left() -> None:
+    scout, thing = Driven(), Obstacle(START.x, START.y, 0.4)
+    floor = scout.actor.expedition._floor
+    scout.actor.put_in_the_way([thing])
+    assert floor.clearance_m(START.x, START.y) > 0
+    scout.tell("away", "move", path=[[3.0, 1.0]])
+    scout.rest()
+    scout.actor.put_in_the_way([thing])
+    assert floor.clearance_m(START.x, START.y) == 0

@@ -13,7 +13,7 @@ from simulation.services import make_world
 from simulation.stand_ins.hand_overs import HandOver, HandOvers, hand_over_of, stock_for
 from simulation.stand_ins.line import Line
 from simulation.stand_ins.stand_in import StandIn, StandInFacts
-from simulation.world import Scene, World
+from simulation.world import Obstacle, Scene, World
 from tests.unit.simulation.stage_set import scene
 from vipo_device.protocol.description import Description, Pose
 from vipo_device.protocol.messages import AckMessage, DeviceCommand
@@ -178,3 +178,17 @@ def test_what_robots_have_taken_outlives_a_restart(tmp_path: Path) -> None:
     first.stand_in.take_over(HandOver(STORE, "box", -2))
     again = Stage(STORE, tmp_path, boot=first.facts.begins, readings={"stock": 3})
     assert again.stand_in.stock == {"box": 1}
+
+
+def test_a_robot_stops_before_what_people_put_on_the_floor_also_when_it_was_begun_anew(tmp_path: Path) -> None:
+    stage = Stage(ROBOT, tmp_path, at=Pose(2.0, 4.0))
+    stage.stand_in.put_in_the_way([Obstacle(5.0, 4.0, 0.5)])
+    stage.stand_in.change(replace(stage.facts, machines=stage.facts.machines[:1]))
+    stage.tell("move", "go", path=[[8.0, 4.0]])
+    stage.pass_time(30)
+    assert stage.broker.answers("go")[-1] == "FAILED"
+    assert stage.broker.state()["loc"][0] == pytest.approx(5.0 - 0.25 - 0.18 - 0.4, abs=0.1)
+    stage.stand_in.put_in_the_way([])
+    stage.tell("move", "on", path=[[8.0, 4.0]])
+    stage.pass_time(30)
+    assert stage.broker.answers("on")[-1] == "DONE"
