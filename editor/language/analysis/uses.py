@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from editor.language.analysis.memo import Memo
-from editor.language.expressions.nodes import Located, Variable
+from editor.language.expressions.nodes import Constant, Located, Variable
 from editor.language.expressions.values import parts_of
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Tree
@@ -32,34 +32,44 @@ class Uses:
 
 def uses_of(tree: Tree, memo: Memo | None) -> Uses:
     """Return what the program's steps use; of a step that is the same as at the last look, `memo` knows it."""
+    blocks = (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions))
     if memo is not None:
         memo.begin(None)
-    return _of_blocks((tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)), memo)
+        return _of_blocks(blocks, memo)
+    uses = Uses()
+    for block in blocks:
+        for node in n.walk(block):
+            _note(node, uses)
+    return uses
 
 
-def _of_blocks(blocks: tuple[n.Block, ...], memo: Memo | None) -> Uses:
+def _of_blocks(blocks: tuple[n.Block, ...], memo: Memo) -> Uses:
     uses = Uses()
     for block in blocks:
         for node in block:
-            found: Uses | None = None if memo is None else memo.get(node)
+            found: Uses | None = memo.get(node)
             if found is None:
                 found = _of_step(node, memo)
-                if memo is not None:
-                    memo.put(node, found)
+                memo.put(node, found)
             if found is not _NOTHING:
                 uses.add(found)
     return uses if uses != _NOTHING else _NOTHING
 
 
-def _of_step(node: n.Node, memo: Memo | None) -> Uses:
+def _of_step(node: n.Node, memo: Memo) -> Uses:
     inner = _of_blocks(n.blocks_of(node), memo) if node.__class__ in n.COMPOSITES else _NOTHING
-    name, values = set_by(node), worked_out(node)
-    if not name and not values:
-        return inner
     uses = Uses() if inner is _NOTHING else inner
+    _note(node, uses)
+    return uses if inner is not _NOTHING or uses != _NOTHING else _NOTHING
+
+
+def _note(node: n.Node, uses: Uses) -> None:
+    """Add what a step itself uses, without the steps in it."""
     reads: dict[str, str] = {}
     asks: dict[str, str] = {}
-    for field_name, value in values:
+    for field_name, value in worked_out(node):
+        if isinstance(value, Constant):
+            continue
         for part in parts_of(value):
             if isinstance(part, Variable):
                 reads.setdefault(part.name, field_name)
@@ -69,9 +79,8 @@ def _of_step(node: n.Node, memo: Memo | None) -> Uses:
         uses.reads[id(node)] = reads
     if asks:
         uses.asks[id(node)] = asks
-    if name:
+    if name := set_by(node):
         uses.sets.add(name)
-    return uses
 
 
 _NOTHING = Uses()

@@ -23,6 +23,7 @@ from editor.language.expressions.value_types import (
     constant_value,
     plain_type,
     property_spec,
+    type_of_scalar,
     type_word,
     unit_word,
 )
@@ -48,16 +49,10 @@ def check_value(
 ) -> bool:  # fmt: skip
     """Check what a value reads and of which type and unit it is; tell whether it is good."""
     before = len(context.found)
-    if not isinstance(value, Constant):
-        for part in parts_of(value):
-            if (check := _CHECKS.get(part.__class__)) is not None:
-                check(context, node, part, field)
+    if isinstance(value, Constant) and not isinstance(value.value, tuple):
+        value_type = type_of_scalar(value.value)
     else:
-        _check_constant(context, node, value, field)
-    checker = TypeChecker(context.surroundings, context.variables, [])
-    value_type = checker.type_of(value)
-    for mismatch in checker.mismatches:
-        context.report(node, mismatch.code, field, mismatch.args)
+        value_type = _check_parts(context, node, value, field)
     if value_type.type and wanted.type and value_type.type != plain_type(wanted.type):
         details = {"subject": subject, "wanted": TYPE_WORDS[wanted.type], "given": TYPE_WORDS[value_type.type]}
         context.report(node, "wrong_type", field, details)
@@ -67,6 +62,18 @@ def check_value(
     elif value_type.type == "number" == wanted.type or value_type.of == "number" == wanted.of:
         _check_unit(context, node, value, field, (value_type.unit, wanted.unit), subject)
     return len(context.found) == before
+
+
+def _check_parts(context: Context, node: n.Node, value: Expression, field: str) -> ValueType:
+    """Check what a value is worked out from, and return its type."""
+    for part in parts_of(value):
+        if (check := _CHECKS.get(part.__class__)) is not None:
+            check(context, node, part, field)
+    checker = TypeChecker(context.surroundings, context.variables, [])
+    value_type = checker.type_of(value)
+    for mismatch in checker.mismatches:
+        context.report(node, mismatch.code, field, mismatch.args)
+    return value_type
 
 
 def _check_operation(context: Context, node: n.Node, part: Operation, field: str) -> None:

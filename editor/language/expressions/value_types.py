@@ -12,7 +12,7 @@ from editor.language.expressions.nodes import Constant, Expression, Located, Ope
 from editor.language.expressions.products import product_of
 from editor.language.expressions.values import COMPARISONS, parts_of
 from editor.language.site.surroundings import Surroundings
-from vipo_device.protocol.description import PropertySpec
+from vipo_device.protocol.description import PropertySpec, Scalar
 from vipo_device.protocol.units import (
     PLAIN,
     UNITS,
@@ -112,6 +112,15 @@ def joined_spec(specs: Sequence[PropertySpec]) -> PropertySpec | None:
     )
 
 
+def type_of_scalar(value: Scalar) -> ValueType:
+    """Return the type of a value that is written out; UNKNOWN_TYPE of one that is still to be entered (None)."""
+    if isinstance(value, bool):
+        return BOOLEAN
+    if isinstance(value, _NUMBERS):
+        return WRITTEN
+    return TEXT if isinstance(value, str) else UNKNOWN_TYPE
+
+
 @dataclass(slots=True)
 class TypeChecker:
     """Types expressions for one site; what does not go together is gathered in `mismatches`."""
@@ -127,15 +136,11 @@ class TypeChecker:
     def constant(self, expression: Constant) -> ValueType:
         """Return the type of a value that is written out."""
         value = expression.value
-        if isinstance(value, bool):
-            return BOOLEAN
-        if isinstance(value, _NUMBERS):
-            return WRITTEN
-        if isinstance(value, str):
-            return TEXT
-        if not isinstance(value, tuple):
-            return UNKNOWN_TYPE
-        return self._list_of([self.constant(Constant(item)) for item in value])
+        return (
+            self._list_of([type_of_scalar(item) for item in value])
+            if isinstance(value, tuple)
+            else type_of_scalar(value)
+        )
 
     def variable(self, expression: Variable) -> ValueType:
         """Return the type of a parameter or a variable."""
