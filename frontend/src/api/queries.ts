@@ -149,7 +149,9 @@ function useWatch<T>(key: readonly unknown[], path: string | null, everyMs: numb
 type Maybe = string | undefined;
 const at = (id: Maybe, path: (id: string) => string) => (id ? path(encodeURIComponent(id)) : null);
 
-export const useMe = () => useQuery({ queryKey: keys.me, queryFn: getMe, staleTime: Infinity });
+/** Who looks at this; asked for before anything is drawn. */
+export const ME = { queryKey: keys.me, queryFn: getMe, staleTime: Infinity } as const;
+export const useMe = () => useQuery(ME);
 export const useMySessions = (ending: boolean) => useAll<OwnSession>(keys.mySessions, ending ? null : "/me/sessions");
 export const useSites = () => useGet<Site[]>(keys.sites, "/sites");
 export const useSite = (slug: Maybe) =>

@@ -1,18 +1,20 @@
 /** Everything that every screen needs around it. */
 import { MantineProvider } from "@mantine/core";
 import { QueryClientProvider } from "@tanstack/react-query";
-import { lazy, Suspense, useEffect, useMemo } from "react";
+import { lazy, Suspense, useEffect, useMemo, useSyncExternalStore } from "react";
 import { useTranslation } from "react-i18next";
 import { RouterProvider } from "react-router-dom";
-import { makeQueryClient } from "@/api/queries";
+import { makeQueryClient, ME } from "@/api/queries";
 import { makeTheme, variablesResolver } from "@/design/theme";
 import { makeRouter } from "./router";
 import { NewVersion } from "./NewVersion";
+import { Waiting } from "@/shell/LoadProblem";
 import { useTheme } from "@/shell/theme";
 import { useKeepOnlyOwn } from "@/shell/waitingCopies";
 
 // Outside of the tree: state of a tree that suspends before its first commit is thrown away.
 const queries = makeQueryClient();
+void queries.prefetchQuery(ME);
 const router = makeRouter();
 
 /** What is told before they are there waits in their store. */
@@ -32,10 +34,19 @@ export function App() {
         </Suspense>
         <KeepOnlyOwn />
         <NewVersion />
-        <RouterProvider router={router} />
+        <Screens />
       </MantineProvider>
     </QueryClientProvider>
   );
+}
+
+/** The router's own component would miss a screen that is there between its first picture and its first effect. */
+function Screens() {
+  const isReady = useSyncExternalStore(
+    (hear) => router.subscribe(hear),
+    () => router.state.initialized,
+  );
+  return isReady ? <RouterProvider router={router} /> : <Waiting />;
 }
 
 function KeepOnlyOwn() {

@@ -1,8 +1,12 @@
-/** Which address shows which screen. A screen is loaded when it is first needed. */
-import { lazy, Suspense, type ComponentType } from "react";
+/**
+ * Which address shows which screen. A screen is loaded when it is first needed, before it is shown: behind a Suspense
+ * React would wait for 300 ms more.
+ */
+import type { ComponentType } from "react";
 import { createBrowserRouter, type RouteObject } from "react-router-dom";
 import { loadScreenTexts } from "@/i18n";
 import { Waiting } from "@/shell/LoadProblem";
+import { Arriving } from "./Arriving";
 import { RequireUser } from "./RequireUser";
 import { RouteProblem } from "./RouteProblem";
 
@@ -49,20 +53,11 @@ function route(path: string, file: string): RouteObject[] {
   const load = screens[`../${file}.tsx`];
   const name = file.slice(file.lastIndexOf("/") + 1);
   if (!load) return [];
-  const Screen = lazy(async () => {
+  const lazy = async () => {
     const [module] = await Promise.all([load(), file === EDITOR ? null : loadScreenTexts()]);
-    return { default: pick(module, name) };
-  });
-  return [
-    {
-      path,
-      element: (
-        <Suspense fallback={<Waiting />}>
-          <Screen />
-        </Suspense>
-      ),
-    },
-  ];
+    return { Component: pick(module, name) };
+  };
+  return [{ path, lazy }];
 }
 
 function pick(module: Record<string, ComponentType>, name: string): ComponentType {
@@ -72,7 +67,7 @@ function pick(module: Record<string, ComponentType>, name: string): ComponentTyp
 }
 
 export function makeRouter() {
-  return createBrowserRouter([
+  const routes: RouteObject[] = [
     {
       errorElement: <RouteProblem />,
       children: [
@@ -87,5 +82,6 @@ export function makeRouter() {
       errorElement: <RouteProblem />,
       children: [...ROUTES.flatMap(([path, file]) => route(path, file)), { path: "*", element: <RouteProblem /> }],
     },
-  ]);
+  ];
+  return createBrowserRouter([{ element: <Arriving />, HydrateFallback: Waiting, children: routes }]);
 }

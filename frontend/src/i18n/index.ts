@@ -15,17 +15,18 @@ const CATALOGUES: Record<Part, Catalogue> = {
   screens: { en: () => import("./catalogue.screens.en"), de: () => import("./catalogue.screens.de") },
 };
 const wanted = new Set<Part>(["base"]);
+let started: Promise<void> | null = null;
 
 /** Done when a part of the texts of a language is there, beside what is there of it already. */
 export async function addTexts(language: Language, part: Part): Promise<void> {
-  const { texts } = await CATALOGUES[part][language]();
+  const [{ texts }] = await Promise.all([CATALOGUES[part][language](), startI18n()]);
   i18next.addResourceBundle(language, "translation", gatherAreas(texts), true, true);
 }
 
 /** Done when the screens beside the editor have their texts, in the language that is spoken now. */
 export async function loadScreenTexts(): Promise<void> {
   wanted.add("screens");
-  await addTexts(i18next.language as Language, "screens");
+  await addTexts((i18next.language as Language | undefined) ?? firstLanguage(), "screens");
 }
 
 function firstLanguage(): Language {
@@ -45,7 +46,12 @@ export async function chooseLanguage(language: Language): Promise<void> {
 }
 
 /** Done when there are texts. */
-export async function startI18n(): Promise<void> {
+export function startI18n(): Promise<void> {
+  started ??= start();
+  return started;
+}
+
+async function start(): Promise<void> {
   const language = firstLanguage();
   const { texts } = await CATALOGUES.base[language]();
   i18next.on("languageChanged", (chosen) => document.documentElement.setAttribute("lang", chosen));
