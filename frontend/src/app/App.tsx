@@ -7,7 +7,6 @@ import { RouterProvider } from "react-router-dom";
 import { makeQueryClient, ME } from "@/api/queries";
 import { makeTheme, variablesResolver } from "@/design/theme";
 import { makeRouter } from "./router";
-import { NewVersion } from "./NewVersion";
 import { Waiting } from "@/shell/LoadProblem";
 import { useTheme } from "@/shell/theme";
 import { useKeepOnlyOwn } from "@/shell/waitingCopies";
@@ -18,7 +17,7 @@ void queries.prefetchQuery(ME);
 const router = makeRouter();
 
 /** What is told before they are there waits in their store. */
-const Notifications = lazy(async () => ({ default: (await import("./Notifications")).Notifications }));
+const Notices = lazy(async () => ({ default: (await import("./Notices")).Notices }));
 
 export function App() {
   const { t } = useTranslation();
@@ -30,10 +29,9 @@ export function App() {
     <QueryClientProvider client={queries}>
       <MantineProvider theme={theme} cssVariablesResolver={variablesResolver} forceColorScheme={scheme}>
         <Suspense fallback={null}>
-          <Notifications position="bottom-right" />
+          <Notices />
         </Suspense>
         <KeepOnlyOwn />
-        <NewVersion />
         <Screens />
       </MantineProvider>
     </QueryClientProvider>

@@ -5,8 +5,6 @@
 import type { ComponentType } from "react";
 import { createBrowserRouter, type RouteObject } from "react-router-dom";
 import { loadScreenTexts } from "@/i18n";
-import { Waiting } from "@/shell/LoadProblem";
-import { Arriving } from "./Arriving";
 import { RequireUser } from "./RequireUser";
 import { RouteProblem } from "./RouteProblem";
 
@@ -67,7 +65,7 @@ function pick(module: Record<string, ComponentType>, name: string): ComponentTyp
 }
 
 export function makeRouter() {
-  const routes: RouteObject[] = [
+  const router = createBrowserRouter([
     {
       errorElement: <RouteProblem />,
       children: [
@@ -82,6 +80,10 @@ export function makeRouter() {
       errorElement: <RouteProblem />,
       children: [...ROUTES.flatMap(([path, file]) => route(path, file)), { path: "*", element: <RouteProblem /> }],
     },
-  ];
-  return createBrowserRouter([{ element: <Arriving />, HydrateFallback: Waiting, children: routes }]);
+  ]);
+  // A line at the top of the page while the next screen is on its way; see global.css.
+  router.subscribe(({ navigation }) =>
+    document.documentElement.toggleAttribute("data-arriving", !!navigation.location),
+  );
+  return router;
 }

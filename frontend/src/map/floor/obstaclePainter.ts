@@ -12,24 +12,22 @@ export function paintObstacles(
   obstacles: readonly MapObstacle[],
   zoom: number,
 ): void {
-  canvas.save();
-  canvas.strokeStyle = palette.warn;
-  canvas.lineWidth = 1.8 / Math.max(zoom, 0.4);
-  canvas.fillStyle = palette["warn-fill"];
   for (const { x, y, size_m } of obstacles) {
     const at = toPixels([x, y]);
     const radius = Math.max((size_m / 2) * PIXELS_PER_METRE, SMALLEST_PX / zoom);
-    const arm = radius * Math.SQRT1_2;
-    canvas.beginPath();
-    canvas.arc(at.x, at.y, radius, 0, 2 * Math.PI);
+    const shape = new Path2D();
+    shape.arc(at.x, at.y, radius, 0, 2 * Math.PI);
+    canvas.fillStyle = palette["warn-fill"];
     canvas.globalAlpha = 0.35;
-    canvas.fill();
+    canvas.fill(shape);
     canvas.globalAlpha = 1;
-    canvas.moveTo(at.x - arm, at.y - arm);
-    canvas.lineTo(at.x + arm, at.y + arm);
-    canvas.moveTo(at.x - arm, at.y + arm);
-    canvas.lineTo(at.x + arm, at.y - arm);
-    canvas.stroke();
+    for (const angle of [45, 135, 225, 315]) {
+      const turn = (angle * Math.PI) / 180;
+      shape.moveTo(at.x, at.y);
+      shape.lineTo(at.x + radius * Math.cos(turn), at.y + radius * Math.sin(turn));
+    }
+    canvas.strokeStyle = palette.warn;
+    canvas.lineWidth = 1.8 / Math.max(zoom, 0.4);
+    canvas.stroke(shape);
   }
-  canvas.restore();
 }
