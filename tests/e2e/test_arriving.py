@@ -1,0 +1,56 @@
+"""How one comes to a screen: what is fetched beside what, and what is seen while its code is on its way."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Request, Route, expect
+
+from tests.e2e.conftest import SignIn
+from tests.e2e.screens import until
+
+pytestmark = pytest.mark.browser
+HOME = "/sites/painting-factory"
+
+
+def is_script_of(request: Request, screen: str) -> bool:
+    return f"/assets/{screen}-" in request.url and request.url.endswith(".js")
+
+
+def test_a_screens_code_is_fetched_while_it_is_asked_who_looks(sign_in: SignIn) -> None:
+    page = sign_in("author", HOME)
+    held: list[Route] = []
+    page.route("**/api/me", lambda route: held.append(route))
+    with page.expect_request(lambda request: is_script_of(request, "ProgramsPage")):
+        page.goto(page.url + "/programs", wait_until="commit")
+    until(page, "() => document.querySelector('#root')?.childElementCount > 0")
+    expect(page.get_by_role("status").first).to_be_visible()
+    assert len(held) == 1
+    held[0].continue_()
+    expect(page.get_by_role("heading", name="Programs", level=1)).to_be_visible()
+
+
+def test_the_screen_before_stays_while_the_next_is_on_its_way(sign_in: SignIn) -> None:
+    page = sign_in("author", f"{HOME}/programs")
+    before = page.get_by_role("heading", name="Programs", level=1)
+    expect(before).to_be_visible()
+    held: list[Route] = []
+    page.route("**/assets/MapPage-*.js", lambda route: held.append(route))
+    page.get_by_role("link", name="Map", exact=True).click()
+    until(page, "() => document.documentElement.hasAttribute('data-arriving')")
+    expect(before).to_be_visible()
+    assert page.evaluate("getComputedStyle(document.documentElement, '::before').animationName") == "arrive"
+    held[0].continue_()
+    expect(page.get_by_role("heading", name="Map", level=1)).to_be_visible()
+    assert not page.evaluate("document.documentElement.hasAttribute('data-arriving')")
+
+
+def test_a_screen_whose_code_is_gone_says_so_and_one_can_go_on(sign_in: SignIn, faults: list[str]) -> None:
+    page = sign_in("author", f"{HOME}/programs")
+    expect(page.get_by_role("heading", name="Programs", level=1)).to_be_visible()
+    page.route("**/assets/MapPage-*.js", lambda route: route.fulfill(status=404))
+    page.get_by_role("link", name="Map", exact=True).click()
+    expect(page.get_by_role("button", name="Reload")).to_be_visible()
+    page.unroute("**/assets/MapPage-*.js")
+    page.get_by_role("button", name="Reload").click()
+    expect(page.get_by_role("heading", name="Map", level=1)).to_be_visible()
+    faults.clear()
