@@ -54,3 +54,16 @@ def test_a_screen_whose_code_is_gone_says_so_and_one_can_go_on(sign_in: SignIn, 
     page.get_by_role("button", name="Reload").click()
     expect(page.get_by_role("heading", name="Map", level=1)).to_be_visible()
     faults.clear()
+
+
+def test_a_page_whose_messages_do_not_come_works_and_has_them_later(sign_in: SignIn, faults: list[str]) -> None:
+    page = sign_in("author", HOME)
+    page.route("**/assets/Notices-*.js", lambda route: route.abort())
+    with page.expect_event("requestfailed", lambda request: is_script_of(request, "Notices")):
+        page.goto(page.url + "/programs")
+    expect(page.get_by_role("heading", name="Programs", level=1)).to_be_visible()
+    messages = page.locator(".mantine-Notifications-root")
+    expect(messages).to_have_count(0)
+    page.unroute("**/assets/Notices-*.js")
+    expect(messages).not_to_have_count(0, timeout=20_000)
+    faults.clear()

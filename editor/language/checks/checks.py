@@ -262,7 +262,7 @@ def _repeat(context: Context, node: n.Repeat) -> None:
         context.report(node, "missing_times", "times")
     elif check_value(context, node, node.times, "times", NUMBER, "How many times"):
         times = range_in(context, node.times, "")
-        if times.broken or times.most < 0:
+        if times.is_fraction or times.most < 0:
             fix = fix_value(node.step, "times", max(0, round(times.most)))
             context.report(node, "times_not_whole", "times", fix=fix)
 

@@ -105,7 +105,7 @@ def _check_number_of_item(context: Context, node: n.Node, part: Operation, field
     """Tell of an item that the list does not have, or may not have as far as it is known."""
     here = Here(context.surroundings, context.known)
     items, number = here.items(part.arguments[0]), here.range(converted(context, part.arguments[1], ""))
-    if number.broken or number.most < 1 or (items is not None and number.least > items.most):
+    if number.is_fraction or number.most < 1 or (items is not None and number.least > items.most):
         context.report(node, "no_such_item", field)
         return
     told = context.known is not NOTHING_KNOWN and items is not None and number != ANY
@@ -350,7 +350,7 @@ def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
     if not check_value(context, node, node.quantity, "quantity", NUMBER, "The quantity"):
         return
     found = range_in(context, node.quantity, "")
-    if found.most <= 0 or found.broken:
+    if found.most <= 0 or found.is_fraction:
         context.report(node, "quantity_not_positive", "quantity", {}, fix_value(node.step, "quantity", 1))
     elif capacity and found.least > capacity:
         fix = fix_value(node.step, "quantity", capacity)

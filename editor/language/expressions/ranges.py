@@ -37,7 +37,7 @@ class Range:
         return self.least > self.most or (self.least == self.most and (self.least_open or self.most_open))
 
     @property
-    def broken(self) -> bool:
+    def is_fraction(self) -> bool:
         """Tell whether it is one number alone, and no whole one."""
         return -inf < self.least == self.most < inf and self.least != int(self.least)
 

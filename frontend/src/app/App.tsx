@@ -17,7 +17,14 @@ void queries.prefetchQuery(ME);
 const router = makeRouter();
 
 /** What is told before they are there waits in their store. */
-const Notices = lazy(async () => ({ default: (await import("./Notices")).Notices }));
+const Notices = lazy(async () => {
+  for (;;) {
+    const found = await import("./Notices").catch(() => null); // a page without messages is better than none
+    if (found) return { default: found.Notices };
+    await new Promise((done) => setTimeout(done, AGAIN_MS));
+  }
+});
+const AGAIN_MS = 3000;
 
 export function App() {
   const { t } = useTranslation();
