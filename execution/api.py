@@ -21,6 +21,7 @@ from execution.operations.routes import router as operations_router
 from execution.program_tests.routes import router as program_tests_router
 from execution.rehearsals.shapes import RehearsalShape, RehearsalSummaryShape, StartRehearsal
 from execution.rehearsals.views import rehearsal_to_json, whole_rehearsal_to_json
+from execution.rehearsals.zone_costs import router as zone_costs_router
 from execution.retention.routes import router as retention_router
 from execution.runs.comments import begin_thread
 from execution.runs.programs import prepare, site_of_program
@@ -61,6 +62,7 @@ from vipo_device.descriptions.thing_description import DEVICE_URN
 
 router = Router(tags=["execution"])
 router.add_router("", admission_router)
+router.add_router("", zone_costs_router)
 router.add_router("", map_router)
 router.add_router("", exports_router)
 router.add_router("", mirror_router)

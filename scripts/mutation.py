@@ -49,7 +49,7 @@ PYTEST = (
 LANGUAGE = "tests/unit/language"
 QUICK = ("checks", "analysis", "test_cases.py", "test_incremental.py", "test_catches.py", "test_lists.py",
          "test_edges.py", "test_robot_methods.py", "test_robot_readings.py", "parsing/test_script.py",
-         "test_odd_scripts.py")  # fmt: skip
+         "odd")  # fmt: skip
 PARTS = {
     "language": (PACKAGE, f"{LANGUAGE} --ignore {LANGUAGE}/test_examples.py", 300.0),
     "analysis": (f"{PACKAGE}/analysis", " ".join(f"{LANGUAGE}/{name}" for name in QUICK), 150.0),

@@ -14,7 +14,7 @@ class Rehearsal(Archivable):
 
     `person` is whose it is. The worker that carries it out has its `claim`, runs on `machine` and says at `beat_at`, by
     the database's clock, that it goes on; `tries` counts how often it was begun, `course` says how far it is, `asked`
-    how it was asked for: version, seed, driver, parameters, faults.
+    how it was asked for: version, seed, driver, parameters, faults, `zone_waits` how long robots waited before zones.
     """
 
     class Status(models.TextChoices):
@@ -47,6 +47,7 @@ class Rehearsal(Archivable):
     document = models.JSONField(default=dict)
     compiled = models.JSONField(default=dict)
     result = models.JSONField(null=True)
+    zone_waits = models.JSONField(default=dict, db_default={})
     reason = models.CharField(max_length=500, blank=True)
     started_by = models.CharField(max_length=120, blank=True)
     person = models.BigIntegerField(null=True)

@@ -9,6 +9,7 @@ from typing import Any
 from execution.machine import messages as r
 from execution.machine.evaluation import in_words
 from execution.rehearsals.footprint_monitor import FootprintMonitor
+from execution.rehearsals.zone_waits import LIMITED, mark_of
 from execution.traffic import messages as m
 from execution.traffic.layout import Layout
 from execution.traffic.routes import length_m
@@ -46,6 +47,8 @@ class Recorder:
         }
         self._routes: list[dict[str, Any]] = []
         self._obstacles: list[dict[str, Any]] = []
+        limited = [zone for zone in layout.zones if zone.rule == LIMITED]
+        self._zone_waits = {z.key: {"mark": mark_of(z.points, z.robots), "waited_s": 0.0} for z in limited}
         self._commands: dict[str, tuple[str, str, str]] = {}
         self._frame_s = FRAME_S
         self._next_frame = 0.0
@@ -208,6 +211,8 @@ class Recorder:
         wait["duration_s"] = round(t_s - wait["t"], 2)
         if wait["duration_s"] > 0:
             self._waits.append(wait)
+            if (zone := self._zone_waits.get(str(wait["why"]["args"].get("zone_key", "")))) is not None:
+                zone["waited_s"] = round(zone["waited_s"] + wait["duration_s"], 2)
             if wait["robot"] in self._figures:
                 self._figures[wait["robot"]]["wait_s"] += wait["duration_s"]
 
@@ -238,5 +243,6 @@ class Recorder:
             "properties": self._properties,
             "routes": self._routes,
             "obstacles": self._obstacles,
+            "zone_waits": {key.partition("/")[2]: waits for key, waits in self._zone_waits.items()},
             "log": self.log,
         }

@@ -116,6 +116,13 @@ class ObstacleInTheWay(Schema):
     size_m: float
 
 
+class ZoneWait(Schema):
+    """How long robots waited before a zone for so many at once; `mark` tells whether it is as it was then."""
+
+    mark: str
+    waited_s: float
+
+
 class LogLine(Schema):
     """A line of what happened: in English, and `code` with `args` for other languages."""
 
@@ -145,6 +152,7 @@ class RehearsalResultShape(Schema):
     properties: dict[str, list[tuple[float, str, Scalar | None]]]
     routes: list[PlannedWay]
     obstacles: list[ObstacleInTheWay]
+    zone_waits: dict[str, ZoneWait]
     log: list[LogLine]
 
 

@@ -76,7 +76,7 @@ def view_rehearsal(row: Rehearsal, order: Sequence[UUID] = (), *, whole: bool = 
 
 def _whole(result: Mapping[str, Any] | None) -> Mapping[str, Any] | None:
     """Add to a result what those of earlier versions did not hold."""
-    return None if result is None else {"obstacles": [], **result}
+    return None if result is None else {"obstacles": [], "zone_waits": {}, **result}
 
 
 def rehearsal_to_json(rehearsal: RehearsalView, asker: int | None) -> dict[str, Any]:

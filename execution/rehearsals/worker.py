@@ -120,7 +120,9 @@ def _follow(row: Rehearsal, child: RunningChild) -> dict[str, Any] | None:
 def _ending(line: Mapping[str, Any]) -> dict[str, Any]:
     """Return the columns for the last line of a child."""
     if "result" in line:
-        return {"status": Rehearsal.Status.DONE, "progress": 1.0, "result": line["result"]}
+        result = line["result"]
+        waits = result.get("zone_waits", {}) if isinstance(result, dict) else {}
+        return {"status": Rehearsal.Status.DONE, "progress": 1.0, "result": result, "zone_waits": waits}
     if "memory" in line:
         megabytes = settings.VIPO_REHEARSAL_MEMORY_MB
         reason = f"It needs more than {megabytes} MB of memory. Rehearse a smaller part of the program."

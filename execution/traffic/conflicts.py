@@ -160,9 +160,8 @@ def _wait_for_zone(turn: Turn, robot: Robot, zone: FloorZone, holders: list[Robo
     task = turn.task_of(robot)
     if task:
         text = f"{turn.name(robot.id)} waits until {zone.name} is free."
-        turn.wait(
-            task, "zone_taken", text, robot=robot.id, zone=zone.name, others=",".join(each.id for each in holders)
-        )
+        others = ",".join(each.id for each in holders)
+        turn.wait(task, "zone_taken", text, robot=robot.id, zone=zone.name, zone_key=zone.key, others=others)
     _move_blocker(turn, robot, min(holders, key=lambda each: (not turn.is_idle(each), each.id)))
     robot = turn.robots[robot.id]
     if not robot.evading and turn.node(robot) in turn.layout.stations:

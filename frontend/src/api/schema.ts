@@ -2281,6 +2281,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site}/zone-costs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Zone Costs
+         * @description Return how long robots waited in rehearsals before each zone that takes only so many at once.
+         */
+        get: operations["list_zone_costs"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site}/zones/{zone_id}/admissions": {
         parameters: {
             query?: never;
@@ -5862,6 +5882,9 @@ export interface components {
             routes: components["schemas"]["PlannedWay"][];
             steps: components["schemas"]["RehearsedStep"][];
             waits: components["schemas"]["WaitShape"][];
+            zone_waits: {
+                [key: string]: components["schemas"]["ZoneWait"];
+            };
         };
         /** @description A rehearsal with its result, once there is one; how the oldest were `asked` for is not known. */
         RehearsalShape: {
@@ -6778,6 +6801,19 @@ export interface components {
             mentions: number[];
             text: string;
         };
+        /**
+         * @description What a zone for so many robots at once cost in the newest rehearsals that knew it as it is now (100 at most).
+         *
+         *     `waited_s` is how long robots waited before it in a rehearsal, on average; `most_s` in the worst of them;
+         *     `waited_in` is in how many of them anybody waited.
+         */
+        ZoneCostShape: {
+            most_s: number;
+            rehearsals: number;
+            waited_in: number;
+            waited_s: number;
+            zone: string;
+        };
         /** @description What is to be another about a zone; what is left out stays. */
         ZoneEdit: {
             heading_deg?: number | null;
@@ -6809,6 +6845,11 @@ export interface components {
         /** @description A zone of the program. */
         ZoneUse: {
             zone: string;
+        };
+        /** @description How long robots waited before a zone for so many at once; `mark` tells whether it is as it was then. */
+        ZoneWait: {
+            mark: string;
+            waited_s: number;
         };
     };
     responses: {
@@ -12634,6 +12675,45 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_zone_costs: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ZoneCostShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

@@ -29,6 +29,8 @@ export type SiteMapInfo = Schemas["MapShape"];
 export type MapPlace = Schemas["PlaceShape"];
 export type MapZone = Schemas["SiteZoneShape"];
 export type Obstacle = Schemas["ObstacleShape"];
+/** What a zone for so many robots at once cost in rehearsals. */
+export type ZoneCost = Schemas["ZoneCostShape"];
 /** A map with its cells: row by row from the bottom row, 0 free, 100 wall, 255 unknown. */
 export type SiteMap = SiteMapInfo & { cells: Uint8Array };
 export type MapVersion = Schemas["MapVersionShape"];

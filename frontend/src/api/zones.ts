@@ -1,8 +1,8 @@
 /** A site's zones: made, changed and removed by its admins, opened and closed by who runs programs. */
-import { useMutation, useQueryClient } from "@tanstack/react-query";
+import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { api } from "./client";
 import { staleWithSiteMap } from "./robotMaps";
-import type { MapZone } from "./types";
+import type { MapZone, ZoneCost } from "./types";
 
 export type ZoneRule = MapZone["rule"];
 export const ZONE_RULES: readonly ZoneRule[] = ["keep_out", "release", "slow", "one_at_a_time", "one_way", "preferred"];
@@ -34,6 +34,14 @@ function send(slug: string, change: ZoneChange): Promise<MapZone | undefined> {
       return api.delete<undefined>(`${path}/${encodeURIComponent(change.id)}/opening`);
   }
 }
+
+/** How long robots waited in rehearsals before the zones that take only so many; known anew for each map. */
+export const useZoneCosts = (slug: string, zones: readonly MapZone[]) =>
+  useQuery({
+    queryKey: ["zone-costs", slug, zones],
+    queryFn: () => api.get<ZoneCost[]>(`/sites/${slug}/zone-costs`),
+    enabled: zones.some(({ rule }) => rule === "one_at_a_time"),
+  });
 
 /** Change a zone; whatever comes of it, the map's zones are fetched anew. */
 export function useChangeZone(slug: string) {

@@ -19,6 +19,7 @@ function rehearsed(changes: Partial<RehearsalResult>): RehearsalResult {
     properties: {},
     routes: [],
     obstacles: [],
+    zone_waits: {},
     log: [],
     ...changes,
   };

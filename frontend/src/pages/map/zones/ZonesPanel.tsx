@@ -3,7 +3,8 @@ import { Button } from "@mantine/core";
 import { SquareDashed, X } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import type { MapZone, SiteMap } from "@/api/types";
+import type { MapZone, SiteMap, ZoneCost } from "@/api/types";
+import { useZoneCosts } from "@/api/zones";
 import { Chip } from "@/design/Chip";
 import { formatNumber, withUnit } from "@/i18n/format";
 import { useZonesAt } from "@/map/floor/openZones";
@@ -12,6 +13,7 @@ import styles from "../places/places.module.css";
 import own from "./zones.module.css";
 import { areaOf } from "./outline";
 import { ReleasedZone } from "./ReleasedZone";
+import { ZoneCosts } from "./ZoneCosts";
 import { RemoveZone } from "./RemoveZone";
 import type { ZoneEditing } from "./useZones";
 import { NewZoneForm, ZoneForm } from "./ZoneForms";
@@ -27,6 +29,7 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
   const { t } = useTranslation();
   const at = useZonesAt(map.zones);
   const [removing, setRemoving] = useState<MapZone | null>(null);
+  const costs = useZoneCosts(slug, map.zones).data ?? [];
   return (
     <section aria-labelledby="zones">
       <h2 id="zones">{t("zone.zones")}</h2>
@@ -37,6 +40,7 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
           <li key={zone.id}>
             <Row zone={zone} at={at} editing={editing} />
             {zone.rule === "release" ? <ReleasedZone slug={slug} zone={zone} at={at} /> : null}
+            <CostOf zone={zone} costs={costs} />
             {editing?.zone?.id === zone.id ? (
               <ZoneForm slug={slug} map={map} zone={zone} remove={() => setRemoving(zone)} />
             ) : null}
@@ -46,6 +50,11 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
       {removing ? <RemoveZone slug={slug} map={map} zone={removing} onClose={() => setRemoving(null)} /> : null}
     </section>
   );
+}
+
+function CostOf({ zone, costs }: { zone: MapZone; costs: readonly ZoneCost[] }) {
+  const cost = costs.find((each) => each.zone === zone.id);
+  return cost ? <ZoneCosts cost={cost} /> : null;
 }
 
 function Adding({ editing }: { editing: ZoneEditing }) {

@@ -1,7 +1,7 @@
 """Scripts made by chance, most of them with mistakes that a check must find: what is told of them is kept in a file.
 
-`python -m tests.unit.language.odd_scripts` writes tests/cases/odd_scripts.json anew, which is to be read before it is
-committed: each line that differs is told otherwise than it was.
+`python -m tests.unit.language.odd.odd_scripts` writes tests/cases/odd_scripts.json anew, which is to be read before it
+is committed: each line that differs is told otherwise than it was.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from editor.language import Surroundings, compile_document, parse_script, tree_t
 from editor.language.messages.diagnostics import arguments_to_json
 from tests.kit.demo_site import factory
 
-FILE = Path(__file__).parents[2] / "cases" / "odd_scripts.json"
+FILE = Path(__file__).parents[3] / "cases" / "odd_scripts.json"
 HOW_MANY = 1_500
 PLACES = ("shelf", "cans", "booth", "oven", "dock")
 NUMBERS, LISTS = ("n", "m", "k"), ("xs", "ys")

@@ -7,7 +7,7 @@ import json
 import pytest
 
 from tests.kit.demo_site import factory
-from tests.unit.language.odd_scripts import FILE, HOW_MANY, script_of, told_of
+from tests.unit.language.odd.odd_scripts import FILE, HOW_MANY, script_of, told_of
 
 TOLD: list[list[str]] = json.loads(FILE.read_text())
 AT_ONCE = 100

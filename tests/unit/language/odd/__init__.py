@@ -1,0 +1,1 @@
+"""Scripts made by chance, and what is told of them."""
