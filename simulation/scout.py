@@ -55,10 +55,10 @@ class ScoutPlan:
     survey: SurveyPlan
     speed: float = 1.0
     boot: int = 1
-    obstacles: Callable[[], Sequence[Obstacle]] = tuple
-    """What people have put on the floor; may raise SiteUnread."""
     memory_path: Path | None = None
     """Where it is kept over a restart where the robot stands and what it has answered; None keeps nothing."""
+    obstacles: Callable[[], Sequence[Obstacle]] = tuple
+    """What people have put on the floor; may raise SiteUnread."""
 
 
 def describe_scout(plan: ScoutPlan, start: Pose) -> Description:

@@ -212,6 +212,7 @@ def test_the_map_comes_as_facts_cells_and_ros_files(hall: str) -> None:
         "places": [{"id": "dock1", "name": "Dock 1", "kind": "dock", "x": 1.0, "y": 2.0, "theta": 0.5, "label": None}],
         "walls": [[0.0, 2.0, 3.0, 3.0]],
         "zones": [],
+        "obstacles": [],
     }
     cells = client.get("/api/sites/hall/map/cells")
     assert gzip.decompress(cells.content) == bytes([0] * 8 + [100] * 3 + [255])
