@@ -100,7 +100,7 @@ export function LiveScene({ map, devices }: LiveSceneProps) {
   };
   const withCopies = (summary: string) => [summary, ...copiesApart(devices, t)].join(", ");
   return (
-    <div className={styles.scene}>
+    <div className={styles.scene} data-scene>
       <View3D
         map={map ?? undefined}
         devices={devices}
