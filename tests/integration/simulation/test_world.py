@@ -263,8 +263,7 @@ def test_a_robot_stands_before_what_people_put_in_its_way_and_goes_on_when_it_is
     play.wait(8)
     assert play.at().x == pytest.approx(6.0 - 0.25 - 0.18 - 0.4, abs=0.1)
     play.world.put_in_the_way([])
-    assert play.wait_for("m").status == "DONE"
-    assert play.contacts() == []
+    assert (play.wait_for("m").status, play.contacts()) == ("DONE", [])
 
 
 def test_robots_that_meet_touch_and_do_not_drive_through_each_other(driver: DriverName) -> None:
