@@ -26,6 +26,7 @@ NAMES = (
     "library",
     "runs",
     "canvas",
+    "scene",
     "scan",
     "mirror",
 )

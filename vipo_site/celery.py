@@ -10,6 +10,8 @@ from django.conf import settings
 from vipo_device.kit.pulse import EVERY_S
 
 os.environ.setdefault("DJANGO_SETTINGS_MODULE", "vipo_site.settings")
+# Django's checks load all pages, which a worker does not serve; `manage.py prepare` runs them for every version.
+os.environ.setdefault("CELERY_SKIP_CHECKS", "true")
 
 
 def make_app(*, is_current: bool = False) -> Celery:

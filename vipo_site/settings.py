@@ -63,7 +63,6 @@ VIPO_PROXIES = named_proxies(https=SESSION_COOKIE_SECURE)
 SECURE_HSTS_SECONDS = 365 * 24 * 3600 if SESSION_COOKIE_SECURE else 0
 
 INSTALLED_APPS = [
-    "daphne",
     "channels",
     "django.contrib.auth",
     "django.contrib.contenttypes",

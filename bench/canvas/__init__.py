@@ -35,14 +35,15 @@ def measure() -> Iterator[dict[str, object]]:
         folder = Path(name)
         yield from _bare(browser, folder)
         with running_demo(folder / "state", speed=1) as demo:
-            programs = _fill(demo)
-            context = _sign_in(browser, demo)
+            programs = fill_demo(demo)
+            context = sign_in(browser, demo)
             for site in (HALL, FACTORY):
                 for count in COUNTS:
                     yield from _editor(browser, context, demo, site, count, programs[f"{site} {count}"])
 
 
-def _fill(demo: Demo) -> dict[str, str]:
+def fill_demo(demo: Demo) -> dict[str, str]:
+    """Make the hall and its programs beside a running demo; return the ids of the programs by their names."""
     environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state), "VIPO_MODE": "embedded", "VIPO_LOG": "ERROR",
                    "DJANGO_SETTINGS_MODULE": "vipo_site.settings"}  # fmt: skip
     command = [sys.executable, "-m", "bench.canvas.filling", demo.account("author").email]
@@ -53,7 +54,8 @@ def _fill(demo: Demo) -> dict[str, str]:
     return made
 
 
-def _sign_in(browser: Browser, demo: Demo) -> BrowserContext:
+def sign_in(browser: Browser, demo: Demo) -> BrowserContext:
+    """Return a browser of the demo's author, whose pages count the intervals of their frames."""
     context = browser.new_context(
         viewport={"width": WIDTH, "height": HEIGHT}, locale="en-GB", service_workers="block",
         base_url=demo.url, color_scheme="light",
@@ -77,7 +79,7 @@ def _editor(
     page = context.new_page()
     page.set_default_timeout(PATIENCE_MS)
     if site == HALL:
-        page.add_init_script(f"const ROBOTS = {json.dumps(_robots())};{ROBOTS}")
+        page.add_init_script(f"const ROBOTS = {json.dumps(live_robots())};{ROBOTS}")
         more["live_robots"] = ROBOT_COUNT
     for warm in (False, True):
         began = time.perf_counter()
@@ -100,8 +102,9 @@ def _editor(
     page.close()
 
 
-def _robots() -> list[list[object]]:
-    return [[robot_id(n), 6 + n % 10 * 11.0, -(6 + n // 10 * 15.0)] for n in range(ROBOT_COUNT)]
+def live_robots() -> list[list[object]]:
+    """Each robot of the hall: its id and the middle of the circle that it drives, metres."""
+    return [[robot_id(n), 6 + n % 10 * 11.0, -(6 + n // 10 * 13.0)] for n in range(ROBOT_COUNT)]
 
 
 def _construct(page: Page, traced: Traced, demo: Demo, program: str) -> tuple[float, float]:

@@ -109,11 +109,11 @@ class Traced:
 
     def pan(self) -> Seen:
         """Drag the map about with the middle button, 60 moves."""
-        return self._measure(lambda: self._drag(WIDTH / 2 - 100, HEIGHT / 2 - 120, "middle"))
+        return self.measure(lambda: self._drag(WIDTH / 2 - 100, HEIGHT / 2 - 120, "middle"))
 
     def drag(self, at: tuple[float, float]) -> Seen:
         """Drag what lies at a point of the window about, 60 moves."""
-        return self._measure(lambda: self._drag(*at, "left"))
+        return self.measure(lambda: self._drag(*at, "left"))
 
     def zoom(self) -> Seen:
         """Turn the wheel out and in again, 30 turns of 10 %."""
@@ -124,7 +124,7 @@ class Traced:
                 self._page.mouse.wheel(0, 69 if index % 10 < 5 else -69)
                 self._page.wait_for_timeout(16)
 
-        return self._measure(turn)
+        return self.measure(turn)
 
     def elements(self) -> int:
         """How many elements the document has."""
@@ -144,7 +144,8 @@ class Traced:
             self._page.mouse.move(x + 160 * math.sin(angle), y + 90 * (1 - math.cos(angle)) * 0.7)
         self._page.mouse.up(button=button)
 
-    def _measure(self, gesture: Callable[[], None]) -> Seen:
+    def measure(self, gesture: Callable[[], None]) -> Seen:
+        """What a gesture takes, whatever it is."""
         self._browser.start_tracing(page=self._page, categories=["devtools.timeline", "cc"])
         self._page.evaluate("window.__frames.length = 0")
         before, every = self._processor_s()

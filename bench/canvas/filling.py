@@ -14,6 +14,7 @@ import django
 from bench.programs import Json, make_program
 
 HALL, FACTORY = "long-hall", "painting-factory"
+TOUR = "a tour of all robots"
 WIDTH_M, HEIGHT_M, CELL_M = 112, 74, 0.25
 MACHINES, ROBOTS = 30, 50
 COUNTS = (15, 500, 2000)
@@ -43,6 +44,27 @@ def hall_program(count: int) -> Json:
     return {**document, "start_pos": [0.6, -0.5]}
 
 
+def tour_program() -> Json:
+    """Return a program in which every robot drives to places of its own, all at once."""
+    steps: Json = {"all": _parallel(["program", "body", "V"], "abcde")}
+    for number in range(ROBOTS):
+        ten, one = divmod(number, 10)
+        row, branch = f"row{ten}", "abcdefghij"[one]
+        steps.setdefault(row, _parallel(["all", "abcde"[ten], "V"], "abcdefghij"))
+        x, y = 6 + one * 11.0, -(6 + ten * 13.0)
+        for visit, (east, north) in enumerate(((3, 0), (3, 3), (0, 3), (0, 0)) * 4):
+            steps[f"v{number}x{visit}"] = {
+                "kind": "move", "place": [row, branch, f"{visit + 1}V"], "pos": [x + east, y + north],
+                "params": {"role": f"r{number}", "to": _point(x + east, y + north)},
+            }  # fmt: skip
+    roles = {f"r{number}": {"name": f"r{number}", "device": robot_id(number)} for number in range(ROBOTS)}
+    return {"format": 1, "steps": steps, "functions": {}, "roles": roles, "parameters": {}, "zones": {}}
+
+
+def _parallel(place: list[str], branches: str) -> Json:
+    return {"kind": "parallel", "place": place, "pos": [2, -2], "params": {"branches": list(branches)}}
+
+
 def _here(params: Json, x: float, y: float, index: int) -> Json:
     """Let a step speak of the hall's machines and of places beside it."""
     said = {**params}
@@ -66,8 +88,6 @@ def _point(x: float, y: float) -> Json:
 
 
 def _fill(email: str) -> Json:
-    from editor.rooms.writing import read_content, write_document
-    from editor.services import create_program
     from registry import services as registry
     from registry.floorplan.plan import Grid
     from registry.models import User
@@ -81,11 +101,20 @@ def _fill(email: str) -> Json:
     made: Json = {}
     for site, make in ((FACTORY, make_program), (HALL, hall_program)):
         for count in COUNTS:
-            program = create_program(site=site, name=f"{count} constructs", user=user)
-            tag = read_content(program_id=program.id).tag
-            write_document(program_id=program.id, document=make(count), tag=tag, author=user.pk)
-            made[f"{site} {count}"] = str(program.id)
+            made[f"{site} {count}"] = _save(site, f"{count} constructs", make(count), user)
+    made[TOUR] = _save(HALL, TOUR, tour_program(), user)
     return made
+
+
+def _save(site: str, name: str, document: Json, user: Any) -> str:
+    from editor.rooms.writing import read_content, write_document
+    from editor.services import create_program
+
+    program = create_program(site=site, name=name, user=user)
+    write_document(
+        program_id=program.id, document=document, tag=read_content(program_id=program.id).tag, author=user.pk
+    )
+    return str(program.id)
 
 
 def _fill_devices() -> None:
@@ -95,19 +124,21 @@ def _fill_devices() -> None:
 
     def describe(name: str, number: int, kind: Literal["machine", "robot"], at: Pose) -> Description:
         methods = ("move", "pick", "drop") if kind == "robot" else ("heat", "dispense", "accept")
+        value = (ParameterSpec("value", "number"),)
         return Description(
             name, f"{kind.title()} {number}", kind, "turtlebot" if kind == "robot" else "oven", at, Size(0.4, 0.4, 0.4),
             site=HALL, radius_m=0.18 if kind == "robot" else 0.0, speed_m_s=0.5 if kind == "robot" else 0.0,
             properties=(PropertySpec("temperature", "number", "DEG_C", -20, 120),),
-            methods=tuple(MethodSpec(m, f"vipo/v1/dev/{name}/down/{m}", parameters=(ParameterSpec("value", "number"),))
-                          for m in methods),
+            methods=tuple(
+                MethodSpec(m, f"vipo/v1/dev/{name}/down/{m}", parameters=() if m == "move" else value) for m in methods
+            ),
         )  # fmt: skip
 
     site = Site.objects.get(slug=HALL)
     machines = [
         describe(machine_id(n), n, "machine", Pose(9 + n % 10 * 10.4, -(12 + n // 10 * 24.0))) for n in range(MACHINES)
     ]
-    robots = [describe(robot_id(n), n, "robot", Pose(6 + n % 10 * 11.0, -(6 + n // 10 * 15.0))) for n in range(ROBOTS)]
+    robots = [describe(robot_id(n), n, "robot", Pose(6 + n % 10 * 11.0, -(6 + n // 10 * 13.0))) for n in range(ROBOTS)]
     Device.objects.bulk_create(approved_row(each, site) for each in machines + robots)
 
 

@@ -18,6 +18,7 @@ STOP_LIMIT_S = 10
 class ListenerCommand(BaseCommand):
     """Serves until SIGTERM or Ctrl-C."""
 
+    requires_system_checks = ()  # it serves no pages, and starts a second sooner
     kind: ProcessKind
     listener: type[Listener]
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
+import scipy
 
 from editor.language.expressions.names import ROBOT_METHODS
 from editor.language.plan.json_form import expression_from_json
@@ -107,7 +107,7 @@ def _bind_any(turn: Turn, waiting: Mapping[str, FloorTask]) -> None:
     if requests and robots:
         costs = np.array([[_cost(turn, task, robot) for robot in robots] for task in requests.values()])
         keys = list(requests)
-        for i, j in zip(*linear_sum_assignment(costs), strict=True):
+        for i, j in zip(*scipy.optimize.linear_sum_assignment(costs), strict=True):
             if costs[i, j] < UNABLE:
                 _bind(turn, keys[i], requests[keys[i]], robots[j])
     for key, task in requests.items():

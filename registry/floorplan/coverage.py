@@ -14,9 +14,8 @@ from math import atan2, ceil, cos, hypot, inf, sin
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import ndimage
-from scipy.spatial import cKDTree
 
 from registry.floorplan.lattice import STANDING_MARGIN_M, Ground, Lattice, Point, Raster, attach
 
@@ -167,7 +166,7 @@ class _Reachable:
 
     def __init__(self, ground: Ground, lattice: Lattice, is_open: Callable[[Point], bool]) -> None:
         self.ground, self.lattice, self.is_open = ground, lattice, is_open
-        labels, _ = ndimage.label(ground.clearance_m >= ground.radius_m + STANDING_MARGIN_M)
+        labels, _ = scipy.ndimage.label(ground.clearance_m >= ground.radius_m + STANDING_MARGIN_M)
         cells = [ground.grid.cell_of(*lattice.centre(cell)) for cell in lattice.links]
         parts = {int(labels[cell]) for cell in cells if cell is not None} - {0}
         self.floor = np.isin(labels, list(parts))
@@ -292,7 +291,7 @@ def _missed(corners: Floats, lane_m: float, blocks: Sequence[Sequence[Lane]], re
     left = left[reachable.on_floor(left)]
     driven = dense([lane for block in blocks for lane in block])
     if len(driven) and len(left):
-        left = left[cKDTree(driven).query(left)[0] > NEAR * lane_m]
+        left = left[scipy.spatial.cKDTree(driven).query(left)[0] > NEAR * lane_m]
     while len(left):
         point = _rounded((float(left[0, 0]), float(left[0, 1])))
         found = reachable.has(point)
@@ -372,4 +371,4 @@ def covered_share(ground: Ground, outline: Outline, lane_m: float, lanes: Sequen
     if not len(floor) or not len(driven):
         return 0.0
     near_m = lane_m / 2 + 0.03
-    return float(np.mean(cKDTree(driven).query(floor, distance_upper_bound=near_m)[0] <= near_m))
+    return float(np.mean(scipy.spatial.cKDTree(driven).query(floor, distance_upper_bound=near_m)[0] <= near_m))

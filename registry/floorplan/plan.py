@@ -9,8 +9,8 @@ from typing import Literal
 from zlib import crc32
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from registry.floorplan.coverage import CannotCover, plan_lanes
 from registry.floorplan.lattice import Ground, Lattice, attach, make_lattice
@@ -69,7 +69,7 @@ def clearance_m(grid: Grid) -> NDArray[np.float64]:
     Unknown cells and everything off the map count as wall; non-free cells have 0.
     """
     free = np.pad(cells_array(grid) == FREE, 1, constant_values=False)
-    cells: NDArray[np.float64] = ndimage.distance_transform_edt(free)[1:-1, 1:-1]
+    cells: NDArray[np.float64] = scipy.ndimage.distance_transform_edt(free)[1:-1, 1:-1]
     return np.maximum(cells - 0.5, 0.0) * grid.resolution_m
 
 
@@ -309,7 +309,7 @@ class FloorPlan:
     def regions(self, radius_m: float) -> NDArray[np.int32]:
         """Return the number of the connected region of each cell where the robot's middle may be; 0 is nowhere."""
         if radius_m not in self._regions:
-            labels, _ = ndimage.label(self.clearance_m >= radius_m)
+            labels, _ = scipy.ndimage.label(self.clearance_m >= radius_m)
             self._regions[radius_m] = labels
         return self._regions[radius_m]
 

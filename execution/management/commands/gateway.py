@@ -17,6 +17,7 @@ class Command(BaseCommand):
     """`manage.py gateway`; start as many as the load needs."""
 
     help = __doc__ or ""
+    requires_system_checks = ()  # it serves no pages, and starts a second sooner
 
     def handle(self, *_args: Any, **_options: Any) -> None:
         """Serve."""

@@ -6,9 +6,17 @@ import { interpolatePose, type RobotSource, type RobotView } from "@/map/robots/
 import { poseOf } from "./readings";
 import { useLiveStore } from "./store";
 
+/** What was told last, and of what: several layers ask in the same frame. */
+let told: { now: number; of: unknown; views: readonly RobotView[] } = { now: -1, of: null, views: [] };
+
 /** Reads the live store as it is at each frame; nothing subscribes. */
 export const liveRobots: RobotSource = (now) => {
-  const { deviceById, traffic, copies } = useLiveStore.getState();
+  const store = useLiveStore.getState();
+  if (told.now !== now || told.of !== store) told = { now, of: store, views: read(now, store) };
+  return told.views;
+};
+
+function read(now: number, { deviceById, traffic, copies }: ReturnType<typeof useLiveStore.getState>): RobotView[] {
   const views: RobotView[] = [];
   for (const device of Object.values(deviceById)) {
     if (device.kind !== "robot") continue;
@@ -32,4 +40,4 @@ export const liveRobots: RobotSource = (now) => {
     });
   }
   return views;
-};
+}

@@ -1,65 +1,27 @@
 import { useEffect, useMemo, useRef } from "react";
 import * as THREE from "three";
 import { mergeCells } from "@/map/floor/floor";
+import { drawFloor, pixelsPerMetre } from "./floorPicture";
 import type { Palette } from "./palette";
+import type { Prism } from "./shadows";
 import type { SceneMap } from "./types";
 
 export const WALL_HEIGHT_M = 1.1;
-const PIXELS_PER_METRE = 40;
 const OCCUPIED = 100;
-const UNKNOWN = 255;
 
-function drawCells(context: CanvasRenderingContext2D, map: SceneMap, palette: Palette) {
-  const side = map.resolution_m * PIXELS_PER_METRE;
-  context.fillStyle = palette.floor;
-  for (let row = 0; row < map.height; row += 1) {
-    for (let column = 0; column < map.width; column += 1) {
-      if (map.cells[row * map.width + column] === UNKNOWN) continue;
-      context.fillRect(Math.floor(column * side), Math.floor((map.height - 1 - row) * side), side + 1, side + 1);
-    }
-  }
-}
-
-function drawGridAndNames(context: CanvasRenderingContext2D, map: SceneMap, palette: Palette) {
-  const { width, height } = context.canvas;
-  context.globalCompositeOperation = "source-atop";
-  context.strokeStyle = palette.grid;
-  context.lineWidth = 1;
-  for (let x = Math.ceil(map.origin.x); (x - map.origin.x) * PIXELS_PER_METRE < width; x += 1) {
-    const at = (x - map.origin.x) * PIXELS_PER_METRE;
-    context.strokeRect(at, -1, 0, height + 2);
-  }
-  for (let y = Math.ceil(map.origin.y); (y - map.origin.y) * PIXELS_PER_METRE < height; y += 1) {
-    const at = height - (y - map.origin.y) * PIXELS_PER_METRE;
-    context.strokeRect(-1, at, width + 2, 0);
-  }
-  context.fillStyle = palette.text;
-  context.font = `600 ${0.42 * PIXELS_PER_METRE}px Inter Variable, sans-serif`;
-  context.letterSpacing = "3px";
-  for (const place of map.places.filter((p) => p.kind === "room")) {
-    const [labelX, labelY] = place.label ?? [place.x, place.y];
-    const x = (labelX - map.origin.x) * PIXELS_PER_METRE;
-    context.textAlign = x > width * 0.85 ? "right" : "left";
-    context.fillText(place.name.toUpperCase(), x, height - (labelY - map.origin.y) * PIXELS_PER_METRE);
-  }
-}
-
-/** The floor as a picture: the cells that are known, a metre grid, the rooms' names. */
-function useFloorTexture(map: SceneMap, palette: Palette): THREE.Texture {
+/** The floor as a picture: the cells that are known, a metre grid, the rooms' names, what lies in the shadow. */
+function useFloorTexture(map: SceneMap, palette: Palette, prisms: readonly Prism[]): THREE.Texture {
   const texture = useMemo(() => {
     const canvas = document.createElement("canvas");
-    canvas.width = Math.max(1, Math.round(map.width * map.resolution_m * PIXELS_PER_METRE));
-    canvas.height = Math.max(1, Math.round(map.height * map.resolution_m * PIXELS_PER_METRE));
+    canvas.width = Math.max(1, Math.round(map.width * map.resolution_m * pixelsPerMetre(map)));
+    canvas.height = Math.max(1, Math.round(map.height * map.resolution_m * pixelsPerMetre(map)));
     const context = canvas.getContext("2d");
-    if (context) {
-      drawCells(context, map, palette);
-      drawGridAndNames(context, map, palette);
-    }
+    if (context) drawFloor(context, map, palette, prisms);
     const made = new THREE.CanvasTexture(canvas);
     made.colorSpace = THREE.SRGBColorSpace;
-    made.anisotropy = 8;
+    made.anisotropy = 4;
     return made;
-  }, [map, palette]);
+  }, [map, palette, prisms]);
   useEffect(() => () => texture.dispose(), [texture]);
   return texture;
 }
@@ -74,10 +36,31 @@ function wallBoxes(map: SceneMap) {
   });
 }
 
+type WallBox = ReturnType<typeof wallBoxes>[number];
+
+const prismOfWall = ({ x1, y1, x2, y2 }: WallBox): Prism => ({
+  corners: [
+    [x1, y1],
+    [x2, y1],
+    [x2, y2],
+    [x1, y2],
+  ],
+  from_m: 0,
+  to_m: WALL_HEIGHT_M,
+});
+
+interface BuildingProps {
+  map: SceneMap;
+  palette: Palette;
+  /** What else throws a shadow. */
+  standing: readonly Prism[];
+}
+
 /** The floor and the walls of the place, extruded from its map. */
-export function Building({ map, palette }: { map: SceneMap; palette: Palette }) {
-  const texture = useFloorTexture(map, palette);
+export function Building({ map, palette, standing }: BuildingProps) {
   const boxes = useMemo(() => wallBoxes(map), [map]);
+  const prisms = useMemo(() => [...boxes.map(prismOfWall), ...standing], [boxes, standing]);
+  const texture = useFloorTexture(map, palette, prisms);
   const walls = useRef<THREE.InstancedMesh>(null);
   const caps = useRef<THREE.InstancedMesh>(null);
   useEffect(() => {
@@ -96,24 +79,18 @@ export function Building({ map, palette }: { map: SceneMap; palette: Palette }) 
   const depth = map.height * map.resolution_m;
   return (
     <group>
-      <mesh
-        rotation={[-Math.PI / 2, 0, 0]}
-        position={[map.origin.x + width / 2, 0, -(map.origin.y + depth / 2)]}
-        receiveShadow
-      >
+      <mesh rotation={[-Math.PI / 2, 0, 0]} position={[map.origin.x + width / 2, 0, -(map.origin.y + depth / 2)]}>
         <planeGeometry args={[width, depth]} />
-        <meshStandardMaterial map={texture} transparent alphaTest={0.5} roughness={0.95} />
+        <meshLambertMaterial map={texture} transparent alphaTest={0.5} />
       </mesh>
       <instancedMesh
         key={`w${boxes.length}`}
         ref={walls}
         args={[undefined, undefined, boxes.length]}
-        castShadow
-        receiveShadow
         frustumCulled={false}
       >
         <boxGeometry />
-        <meshStandardMaterial color={palette.wall} roughness={0.9} />
+        <meshLambertMaterial color={palette.wall} />
       </instancedMesh>
       <instancedMesh
         key={`c${boxes.length}`}
@@ -122,7 +99,7 @@ export function Building({ map, palette }: { map: SceneMap; palette: Palette }) 
         frustumCulled={false}
       >
         <boxGeometry />
-        <meshStandardMaterial color={palette.wallTop} roughness={0.8} />
+        <meshLambertMaterial color={palette.wallTop} />
       </instancedMesh>
     </group>
   );

@@ -1,6 +1,6 @@
-import { Html, OrbitControls } from "@react-three/drei";
+import { OrbitControls, PerformanceMonitor } from "@react-three/drei";
 import { Canvas, useFrame, useThree } from "@react-three/fiber";
-import { type RefObject, useEffect, useMemo, useRef, useState } from "react";
+import { memo, type RefObject, useEffect, useMemo, useRef, useState } from "react";
 import * as THREE from "three";
 import type { OrbitControls as Controls } from "three-stdlib";
 import type { MapObstacle } from "@/map/floor/floor";
@@ -8,16 +8,20 @@ import { poseAt } from "./frames";
 import type { Incident } from "./incidents";
 import { Building } from "./Building";
 import { Incidents } from "./Incidents";
-import { Machine } from "./Machine";
+import { bodyOf, surroundingsOf } from "./machines/bodies";
+import { Lamps } from "./machines/Lamps";
+import { Machines } from "./machines/Machines";
+import { NamePlaces, NameTags } from "./names/Names";
 import { Obstacles } from "./Obstacles";
 import { type Palette, readPalette } from "./palette";
-import { Robot } from "./Robot";
+import { Robots } from "./robots/Robots";
+import { prismOfObstacle, prismsOf, SUN } from "./shadows";
 import styles from "./Scene3D.module.css";
 import type { CameraMode, CopyOf, Moment, SceneDevice, SceneMap, SceneRecording } from "./types";
 
 interface SceneProps {
   map: SceneMap;
-  devices: SceneDevice[];
+  devices: readonly SceneDevice[];
   recording: SceneRecording | null;
   moment: Moment;
   camera: CameraMode;
@@ -26,6 +30,8 @@ interface SceneProps {
   label: string;
   /** While it plays each picture is drawn; else only when something changes. */
   playing: boolean;
+  /** All pictures are to be as large. */
+  filming?: boolean;
   t_s: number;
   /** What is said of a device at the moment, beside its name. */
   stateOf?: (device: string) => string;
@@ -105,55 +111,6 @@ function CameraRig({ map, recording, moment, camera: mode, follow }: SceneProps)
   );
 }
 
-/** Where names are put; without it drei moves them once the canvas is connected, and loses some on the way. */
-type Layer = RefObject<HTMLDivElement>;
-
-function Label({ device, state, layer }: { device: SceneDevice; state: string; layer: Layer }) {
-  return (
-    <Html
-      portal={layer}
-      position={[device.location.x, 1.9, -device.location.y]}
-      center
-      zIndexRange={[20, 0]}
-      wrapperClass={styles.anchor}
-    >
-      <span className={styles.label}>
-        <b>{device.name}</b> {state}
-      </span>
-    </Html>
-  );
-}
-
-function RobotLabel({
-  device,
-  recording,
-  moment,
-  state,
-  layer,
-}: {
-  device: SceneDevice;
-  recording: SceneRecording;
-  moment: Moment;
-  state: string;
-  layer: Layer;
-}) {
-  const group = useRef<THREE.Group>(null);
-  useFrame(() => {
-    const pose = poseAt(recording.frames, device.id, moment.t_s);
-    if (pose) group.current?.position.set(pose[0], 1.5, -pose[1]);
-  });
-  const [x, y] = poseAt(recording.frames, device.id, moment.t_s) ?? [device.location.x, device.location.y];
-  return (
-    <group ref={group} position={[x, 1.5, -y]}>
-      <Html portal={layer} center zIndexRange={[20, 0]} wrapperClass={styles.anchor}>
-        <span className={styles.robotLabel}>
-          <b>{device.name}</b> {state}
-        </span>
-      </Html>
-    </group>
-  );
-}
-
 /** Draws one more picture, and another for what follows from it, when `on` changes. */
 function Redraw({ on }: { on: number }) {
   const invalidate = useThree((state) => state.invalidate);
@@ -161,89 +118,114 @@ function Redraw({ on }: { on: number }) {
   return null;
 }
 
-function Lights({ palette, map }: { palette: Palette; map: SceneMap }) {
-  const { centre, width } = extent(map);
+function Lights({ palette }: { palette: Palette }) {
   return (
     <>
       <hemisphereLight args={["#ffffff", palette.dark ? "#222a3a" : "#c8d0de", palette.dark ? 1.9 : 1.7]} />
-      <directionalLight
-        position={[centre.x - width * 0.3, width * 0.8, centre.z + width * 0.2]}
-        intensity={palette.dark ? 1.7 : 1.6}
-        castShadow
-        shadow-mapSize={[2048, 2048]}
-        shadow-camera-left={-width}
-        shadow-camera-right={width}
-        shadow-camera-top={width}
-        shadow-camera-bottom={-width}
-        shadow-camera-far={width * 3}
-      />
+      <directionalLight position={SUN} intensity={palette.dark ? 1.7 : 1.6} />
     </>
   );
+}
+
+type StandingProps = Pick<SceneProps, "map" | "recording" | "moment"> & {
+  machines: readonly SceneDevice[];
+  palette: Palette;
+};
+
+/** All that stays where it is, drawn anew by React only when it is another. */
+const Standing = memo(function Standing({ map, machines, palette, recording, moment }: StandingProps) {
+  const obstacles = map.obstacles ?? NO_OBSTACLES;
+  const standing = useMemo(() => {
+    const bodies = machines.flatMap((device) => {
+      const { solids, glowing } = bodyOf(device.device_class, device.size, palette);
+      return prismsOf(device, [...solids, ...glowing, ...surroundingsOf(device.size, palette)]);
+    });
+    return [...bodies, ...obstacles.map(prismOfObstacle)];
+  }, [machines, obstacles, palette]);
+  return (
+    <>
+      <Lights palette={palette} />
+      <Building map={map} palette={palette} standing={standing} />
+      <Obstacles obstacles={obstacles} palette={palette} />
+      <Machines machines={machines} palette={palette} />
+      <Lamps {...{ machines, recording, moment, palette }} />
+    </>
+  );
+});
+
+const SHARPEST = 2;
+const BLUNTEST = 0.4;
+/** Pictures a second: with fewer it is drawn with fewer pixels, with more again with more. */
+const SMOOTH: [number, number] = [29, 50];
+
+/** Pixels for each of the page's: as many as the screen has, fewer while it plays on a machine that cannot keep up. */
+function useSharpness(adapts: boolean) {
+  const [part, setPart] = useState(1);
+  const most = Math.min(Math.max(window.devicePixelRatio, 1), SHARPEST);
+  const monitor = adapts ? (
+    <PerformanceMonitor
+      factor={part}
+      iterations={4}
+      step={0.25}
+      bounds={() => SMOOTH}
+      flipflops={12}
+      onChange={({ factor }) => setPart(factor)}
+    />
+  ) : null;
+  return { dpr: adapts ? most * (BLUNTEST + (1 - BLUNTEST) * part) : most, monitor };
+}
+
+/** Smooth edges cost a third of a picture where the processor draws it, and are not seen where pixels are small. */
+function smoothsEdges(): boolean {
+  const canvas = document.createElement("canvas");
+  return window.devicePixelRatio < 2 && canvas.getContext("webgl2", { failIfMajorPerformanceCaveat: true }) !== null;
 }
 
 /** The whole scene: the place built from its map, its machines, and the robots at the moment that is shown. */
 export function Scene3D(props: SceneProps) {
   const { map, devices, recording, moment, labels, label, stateOf, copyOf, playing, t_s } = props;
   const palette = usePalette();
-  const layer = useRef<HTMLDivElement>(null) as Layer;
-  const machines = devices.filter((device) => device.kind === "machine");
-  const robots = devices.filter((device) => device.kind === "robot");
+  const [antialias] = useState(smoothsEdges);
+  const { dpr, monitor } = useSharpness(playing && !props.filming);
+  const names = useRef<HTMLDivElement>(null);
+  const pins = useRef<HTMLDivElement>(null) as RefObject<HTMLDivElement>;
+  const machines = useMemo(() => devices.filter((device) => device.kind === "machine"), [devices]);
+  const robots = useMemo(() => devices.filter((device) => device.kind === "robot"), [devices]);
+  const named = recording ? devices : machines;
   return (
     <>
       <Canvas
         className={styles.canvas}
-        shadows="percentage"
         frameloop={playing ? "always" : "demand"}
-        dpr={[1, 2]}
+        gl={{ antialias }}
+        dpr={dpr}
         camera={{ fov: FIELD_OF_VIEW, near: 0.1, far: 400 }}
         aria-label={label}
         role="img"
       >
-        <Lights palette={palette} map={map} />
+        {monitor}
         <Redraw on={t_s} />
         <CameraRig {...props} />
-        <Building map={map} palette={palette} />
-        <Obstacles obstacles={map.obstacles ?? NO_OBSTACLES} palette={palette} />
-        {machines.map((device) => (
-          <Machine key={device.id} device={device} recording={recording} moment={moment} palette={palette} />
-        ))}
-        {recording &&
-          robots.map((device) => (
-            <Robot
-              hidden={props.camera === "robot" && props.follow === device.id}
-              key={device.id}
-              device={device}
-              recording={recording}
-              moment={moment}
-              palette={palette}
-              copyOf={copyOf}
-            />
-          ))}
+        <Standing {...{ map, machines, palette, recording, moment }} />
+        {recording && (
+          <Robots
+            {...{ robots, recording, moment, palette, playing, copyOf }}
+            hidden={props.camera === "robot" ? props.follow : null}
+          />
+        )}
         <Incidents
           incidents={props.incidents ?? NONE}
           t_s={t_s}
           palette={palette}
-          layer={layer}
+          layer={pins}
           onJump={(at_s) => props.onJump?.(at_s)}
         />
-        {labels &&
-          machines.map((device) => (
-            <Label key={device.id} device={device} state={stateOf?.(device.id) ?? ""} layer={layer} />
-          ))}
-        {labels &&
-          recording &&
-          robots.map((device) => (
-            <RobotLabel
-              key={device.id}
-              device={device}
-              recording={recording}
-              moment={moment}
-              state={stateOf?.(device.id) ?? ""}
-              layer={layer}
-            />
-          ))}
+        {labels && <NamePlaces {...{ devices: named, recording, moment, layer: names }} />}
       </Canvas>
-      <div ref={layer} className={styles.names} aria-hidden="true" />
+      <div ref={names} className={styles.names} aria-hidden="true">
+        {labels && <NameTags devices={named} stateOf={stateOf} />}
+      </div>
+      <div ref={pins} className={styles.names} aria-hidden="true" />
     </>
   );
 }

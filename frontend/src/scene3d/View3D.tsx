@@ -26,6 +26,8 @@ interface View3DProps {
   t_s: number;
   /** While it plays each picture is drawn; else only when something changes. */
   playing: boolean;
+  /** It is kept as a film, all pictures of which are as large. */
+  filming?: boolean;
   /** What is said of a device at the moment, beside its name. */
   stateOf: (device: string) => string;
   /** The picture in words, of what is said of the robots. */
@@ -126,6 +128,24 @@ export function Toggle({ pressed, icon: Icon, onToggle, children }: ToggleProps)
   );
 }
 
+/** Robots go about: where they are is asked of the recording, in each picture. */
+const lasting = (device?: SceneDevice) => (device?.kind === "robot" ? { ...device, location: null } : device);
+const same = (one: SceneDevice, other?: SceneDevice) => JSON.stringify(lasting(one)) === JSON.stringify(lasting(other));
+
+function placedOf({ id, name, kind, device_class, location, size, radius_m }: Device): SceneDevice {
+  return { id, name, kind, device_class, location, size, radius_m: radius_m ?? USUAL_RADIUS_M };
+}
+
+/** Who has a place on the floor: the very same list and devices as before while nothing of them has changed. */
+function usePlaced(devices: readonly Device[]): SceneDevice[] {
+  const [placed, setPlaced] = useState<SceneDevice[]>([]);
+  const now = devices.filter((device) => device.lifecycle === "approved").map(placedOf);
+  const kept = now.map((each, index) => (same(each, placed[index]) ? (placed[index] ?? each) : each));
+  if (kept.length === placed.length && kept.every((each, index) => each === placed[index])) return placed;
+  setPlaced(kept);
+  return kept;
+}
+
 export function View3D(props: View3DProps) {
   const { t } = useTranslation();
   const { map, devices, recording, moment, t_s, stateOf } = props;
@@ -133,9 +153,7 @@ export function View3D(props: View3DProps) {
   const [follow, setFollow] = useState<string | null>(null);
   const [names, setNames] = useState(true);
   const [webgl] = useState(hasWebgl);
-  const placed = devices
-    .filter((device) => device.lifecycle === "approved")
-    .map((d) => ({ ...d, radius_m: d.radius_m ?? USUAL_RADIUS_M }));
+  const placed = usePlaced(devices);
   const robots = placed.filter((device) => device.kind === "robot");
   const followed = robots.find(({ id }) => id === follow) ?? robots[0];
   const summary = robots.map((robot) => `${robot.name} ${stateOf(robot.id)}`.trim()).join(", ");
@@ -164,6 +182,7 @@ export function View3D(props: View3DProps) {
             follow={followed?.id ?? null}
             labels={names}
             playing={props.playing}
+            filming={props.filming}
             t_s={t_s}
             label={props.labelOf(summary)}
             stateOf={stateOf}

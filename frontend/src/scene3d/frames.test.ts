@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { latest, poseAt, trailBefore } from "./frames";
+import { latest, poseAt, straightened, trailBefore } from "./frames";
 
 const frames = {
   dt_s: 0.5,
@@ -39,4 +39,30 @@ describe("trailBefore", () => {
       [1, 0],
       [2, 0],
     ]));
+});
+
+describe("straightened", () => {
+  it("keeps a straight line's ends and each corner", () => {
+    const line = Array.from({ length: 50 }, (_, index) => [index / 10, 0] as const);
+    const corner = Array.from({ length: 20 }, (_, index) => [4.9, (index + 1) / 10] as const);
+    expect(straightened([...line, ...corner])).toEqual([
+      [0, 0],
+      [4.9, 0],
+      [4.9, 2],
+    ]);
+  });
+  it("follows a curve to within a few centimetres", () => {
+    const curve = Array.from({ length: 200 }, (_, index) => {
+      const angle = (index / 199) * Math.PI;
+      return [2 * Math.cos(angle), 2 * Math.sin(angle)] as const;
+    });
+    const kept = straightened(curve);
+    expect(kept.length).toBeLessThan(90);
+    for (let index = 1; index < kept.length; index += 1) {
+      const [[ax, ay], [bx, by]] = [kept[index - 1] ?? [0, 0], kept[index] ?? [0, 0]];
+      expect(2 - Math.hypot((ax + bx) / 2, (ay + by) / 2)).toBeLessThan(0.03);
+    }
+  });
+  it("is one point for a robot that stands", () =>
+    expect(straightened(Array.from({ length: 9 }, () => [1, 1]))).toEqual([[1, 1]]));
 });

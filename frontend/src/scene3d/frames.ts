@@ -48,17 +48,27 @@ export function latest<T extends readonly [number, ...unknown[]]>(
   return entries[low - 1] ?? null;
 }
 
-/** The way a robot drove in the `seconds` before a time, thinned to points at least 5 cm apart. */
+const STEP_M = 0.05;
+const STRAIGHT_RAD = 0.05;
+
+/** A path with a point only where it turns: points nearer than 5 cm, or within 3° straight on, are left out. */
+export function straightened(path: Iterable<readonly number[]>): [number, number][] {
+  const kept: [number, number][] = [];
+  for (const [x = 0, y = 0] of path) {
+    const [before, last] = [kept.at(-2), kept.at(-1)];
+    if (last && Math.hypot(x - last[0], y - last[1]) < STEP_M) continue;
+    if (before && last) {
+      const heading = Math.atan2(last[1] - before[1], last[0] - before[0]);
+      if (Math.abs(turn(heading, Math.atan2(y - last[1], x - last[0]))) < STRAIGHT_RAD) kept.pop();
+    }
+    kept.push([x, y]);
+  }
+  return kept;
+}
+
+/** The path that a robot drove in the `seconds` before a time. */
 export function trailBefore(frames: Frames, robot: string, t_s: number, seconds: number): [number, number][] {
   const poses = frames.robots[robot] ?? [];
   const first = Math.max(0, Math.floor((t_s - seconds) / frames.dt_s));
-  const last = Math.min(poses.length - 1, Math.floor(t_s / frames.dt_s));
-  const trail: [number, number][] = [];
-  for (let index = first; index <= last; index += 1) {
-    const pose = poses[index];
-    const before = trail[trail.length - 1];
-    if (pose && (!before || Math.hypot(pose[0] - before[0], pose[1] - before[1]) >= 0.05))
-      trail.push([pose[0], pose[1]]);
-  }
-  return trail;
+  return straightened(poses.slice(first, Math.floor(t_s / frames.dt_s) + 1));
 }

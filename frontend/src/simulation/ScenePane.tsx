@@ -17,6 +17,7 @@ interface ScenePaneProps {
   moment: Moment;
   t_s: number;
   playing: boolean;
+  filming: boolean;
   incidents: readonly Incident[];
   onJump: (t_s: number) => void;
 }
@@ -59,6 +60,7 @@ export function ScenePane(props: ScenePaneProps) {
         moment={moment}
         t_s={t_s}
         playing={props.playing}
+        filming={props.filming}
         stateOf={useStateOf(props)}
         labelOf={(summary) => t("simulation.sceneLabel", { time: clock(Math.floor(t_s)), summary })}
         sign={t("simulation.nothingMoves")}

@@ -87,6 +87,7 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
         moment={player.moment}
         t_s={player.t_s}
         playing={player.playing}
+        filming={filming}
       />
       <Transport
         t_s={player.t_s}

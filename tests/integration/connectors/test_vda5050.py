@@ -67,9 +67,8 @@ def test_a_vehicle_appears_with_what_its_factsheet_says(join: Join) -> None:
     assert (found.pose.x, found.pose.y) == (1.0, 2.0)
     assert [m.name for m in found.methods] == ["move", "pick", "drop", "noop"]
     assert found.method("pick").parameter("object").options == ("EPAL",)  # type: ignore[union-attr]
-    state = server.wait_state(done=True)
+    state = server.wait_state(done=True, battery=88)
     assert state["loc"] == [1.0, 2.0, 0.0, 0.0]
-    assert state["props"]["battery"] == 88
     assert (state["props"]["mode"], state["props"]["error"], state["cmd"]) == ("AUTOMATIC", "", "")
 
 

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import signal
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
+from websockets.sync.client import connect
+from websockets.typing import Origin
 
 from tests.integration.web_of_things.node_wot import (
     check_observer,
@@ -20,6 +24,7 @@ from tests.integration.web_of_things.node_wot import (
 )
 from tests.kit.served import WORKER, Served, running_served
 from tests.kit.servers import Redis
+from tests.kit.waiting import PATIENCE_S
 from vipo_device.protocol.mqtt_client import MqttClient, tls_context
 
 pytestmark = pytest.mark.servers
@@ -111,6 +116,44 @@ def test_messages_that_cannot_be_read_are_noted_and_harm_nobody(served: Served) 
         assert devices(page)["dropOff01"]["status"] == "idle"
     client.stop()
     assert served.processes["gateway"].poll() is None
+
+
+def heard_of_obstacles(served: Served, client: httpx.Client, web: int) -> Generator[None]:
+    """Go on once for each time that the other person's site socket says that obstacles have changed."""
+    address = f"127.0.0.1:{served.web_ports[web]}"
+    cookies = "; ".join(f"{name}={value}" for name, value in client.cookies.items())
+    with connect(f"ws://{address}/ws/site/painting-factory", origin=Origin(f"http://{address}"),
+                 additional_headers={"Cookie": cookies}, max_size=None) as socket:  # fmt: skip
+        yield
+        while True:
+            while json.loads(socket.recv(timeout=PATIENCE_S)).get("type") != "obstacles":
+                pass
+            yield
+
+
+def test_obstacles_are_the_same_at_both_web_processes_whoever_moves_them(served: Served) -> None:
+    with served.signed_in("author", 0) as first, served.signed_in("admin", 1) as second:
+        news = heard_of_obstacles(served, second, 1)
+        next(news)
+        made = first.post(f"{SITE}/obstacles", json={"x": 5, "y": -1, "size_m": 0.3}).json()
+        address = f"{SITE}/obstacles/{made['id']}"
+        next(news)
+        assert second.get(f"{SITE}/map").json()["obstacles"] == [made]
+
+        def move_about(client: httpx.Client, y: float) -> None:
+            for number in range(20):
+                moved = client.put(address, json={"x": 5 + number / 100, "y": y, "size_m": 0.3})
+                assert moved.status_code == 200, moved.text
+
+        with ThreadPoolExecutor(2) as people:
+            list(people.map(move_about, (first, second), (-1.25, -1.5)))
+        seen = [client.get(f"{SITE}/map").json()["obstacles"] for client in (first, second)]
+        assert seen[0] == seen[1]
+        assert seen[0] in [[{**made, "x": 5.19, "y": y}] for y in (-1.25, -1.5)]
+        assert second.delete(address).status_code == 204
+        late = first.put(address, json={"x": 5, "y": -1})
+        assert (late.status_code, late.json()["code"]) == (404, "no_such_obstacle")
+        news.close()
 
 
 def test_a_pick_and_drop_runs_to_its_end_with_two_workers(served: Served) -> None:

@@ -19,6 +19,7 @@ class Command(BaseCommand):
     """`manage.py broker_accounts FILE`; run it before the broker starts, which reads the file then only."""
 
     help = __doc__ or ""
+    requires_system_checks = ()  # it serves no pages, and starts a second sooner
 
     def add_arguments(self, parser: ArgumentParser) -> None:
         """Declare the arguments."""

@@ -1,6 +1,7 @@
 /** Live robots on canvases of their own: drawn each frame, outside React. */
 import { useEffect, useRef } from "react";
 import classes from "../map.module.css";
+import { FrameLoop } from "../plane/frameLoop";
 import { watchPalette, type Palette } from "../plane/palette";
 import { paintRobots, paintWays, type IsTaken, type Moment } from "./robotPainter";
 import { Trails, type RobotSource, type RobotView } from "./robots";
@@ -63,26 +64,30 @@ function animate(
   const still = prefersStill();
   let palette: Palette | null = null;
   let painted = "";
-  let frame = 0;
-  const stopPalette = watchPalette((next) => {
-    palette = next;
-    painted = "";
-  });
-  const step = (now: number) => {
-    frame = requestAnimationFrame(step);
+  const loop = new FrameLoop((now) => {
     const time = still ? Math.floor(now / 1000) * 1000 : now;
     const robots = source(time);
     painting.look?.(robots, now);
     const wanted = fingerprint(robots, viewport, element, time, painting.fading);
-    if (!palette || wanted === painted) return;
+    if (!palette || wanted === painted) return false;
     painted = wanted;
     const moment = { robots, viewport: viewport.get(), now };
     paintOnce(element, context, (each, _size, colours) => painting.paint(each, colours, moment), palette);
-  };
-  frame = requestAnimationFrame(step);
+    return true;
+  });
+  const stopPalette = watchPalette((next) => {
+    palette = next;
+    painted = "";
+    loop.wake();
+  });
+  const stopViewport = viewport.subscribe(loop.wake);
+  const resize = new ResizeObserver(loop.wake);
+  resize.observe(element);
   return () => {
     stopPalette();
-    cancelAnimationFrame(frame);
+    stopViewport();
+    resize.disconnect();
+    loop.stop();
   };
 }
 

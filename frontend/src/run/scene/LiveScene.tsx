@@ -37,7 +37,7 @@ function look(devices: readonly Device[], now_ms: number): Seen {
 }
 
 /** Grows as long as the scene is shown; nothing is drawn anew by React for it. */
-function useLiveRecording(devices: readonly Device[]): LiveRecording {
+function useLiveRecording(devices: readonly Device[]): { live: LiveRecording; lively: boolean } {
   const known = useRef(devices);
   useEffect(() => {
     known.current = devices;
@@ -47,10 +47,16 @@ function useLiveRecording(devices: readonly Device[]): LiveRecording {
     made.see(performance.now() / 1000, look(devices, performance.now()));
     return made;
   });
+  const [lively, setLively] = useState(true);
   useEffect(() => {
+    let copied_s = 0;
+    let copies = useLiveStore.getState().copies;
     const timer = setInterval(() => {
       const now_ms = performance.now();
       live.see(now_ms / 1000, look(known.current, now_ms));
+      if (copies !== useLiveStore.getState().copies) copied_s = now_ms / 1000;
+      copies = useLiveStore.getState().copies;
+      setLively(live.isLively(now_ms / 1000) || now_ms / 1000 - copied_s < 1);
     }, EVERY_S * 1000);
     let frame = requestAnimationFrame(function show(now_ms) {
       live.show(now_ms / 1000);
@@ -61,7 +67,7 @@ function useLiveRecording(devices: readonly Device[]): LiveRecording {
       cancelAnimationFrame(frame);
     };
   }, [live]);
-  return live;
+  return { live, lively };
 }
 
 const copyOf = (robot: string) => useLiveStore.getState().copies[robot];
@@ -88,7 +94,8 @@ const isSimulated = (device: Device) => device.simulated || device.stand_in;
 
 export function LiveScene({ map, devices }: LiveSceneProps) {
   const { t } = useTranslation();
-  const { recording, moment } = useLiveRecording(devices);
+  const { live, lively } = useLiveRecording(devices);
+  const { recording, moment } = live;
   const kind = kindOf(devices);
   const now = useNow(1000);
   const still = useReducedMotion();
@@ -107,7 +114,7 @@ export function LiveScene({ map, devices }: LiveSceneProps) {
         recording={recording}
         moment={moment}
         t_s={now / 1000}
-        playing={!still} // else drawn anew with each second that is shown, as maps are
+        playing={lively && !still} // else drawn anew with each second that is shown, as maps are
         stateOf={stateOf}
         copyOf={copyOf}
         labelOf={(summary) => {

@@ -84,3 +84,20 @@ test("after a long sleep of the page it begins anew", () => {
   expect(live.recording.frames.robots.r).toEqual([[9, 0, 0]]);
   expect(poseAt(live.recording.frames, "r", live.moment.t_s)?.[0]).toBe(9);
 });
+
+test.each([
+  ["a robot that drives", at(1)],
+  ["a load", at(0, { box: 1 })],
+  ["a path", at(0, {}, [[1, 0]])],
+  ["a machine at work", at(0, {}, [], true)],
+])("%s makes it lively for two seconds", (_, then) => {
+  const live = new LiveRecording();
+  live.see(0, at(0));
+  live.see(5, at(0));
+  expect(live.isLively(5)).toBe(false);
+  live.see(6, then);
+  live.see(7, then);
+  expect(live.isLively(7.9)).toBe(true);
+  live.see(8.1, then);
+  expect(live.isLively(8.1)).toBe(false);
+});

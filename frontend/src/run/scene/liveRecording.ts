@@ -18,6 +18,8 @@ export interface SeenRobot {
 export const EVERY_S = 0.1;
 /** So much is kept at least; what is older is let go in pieces of as much. */
 const KEPT_S = 120;
+/** Longer than poses come apart from each other. */
+const LIVELY_S = 2;
 
 /** By reference first: what has not changed is mostly the same object. */
 const same = (a: unknown, b: unknown) => a === b || JSON.stringify(a) === JSON.stringify(b);
@@ -35,10 +37,16 @@ export class LiveRecording {
   /** The moment that is shown, in seconds of the recording. */
   readonly moment: Moment = { t_s: 0 };
   private begun_s: number | null = null;
+  private changed_s = -Infinity;
 
   /** Show the moment `now_s`, a little late, so that there are poses on both sides of it. */
   show(now_s: number): void {
     if (this.begun_s !== null) this.moment.t_s = Math.max(0, now_s - this.begun_s - EVERY_S);
+  }
+
+  /** Whether anything was different in the last moments before `now_s`, so that pictures of them differ. */
+  isLively(now_s: number): boolean {
+    return now_s - this.changed_s < LIVELY_S;
   }
 
   /** Keep how devices are at `now_s`; what was not seen meanwhile stood as it had been. */
@@ -46,18 +54,21 @@ export class LiveRecording {
     if (this.begun_s === null || now_s - this.begun_s > 3 * KEPT_S) this.beginAnew(now_s);
     const t_s = now_s - (this.begun_s ?? now_s);
     const last = Math.floor(t_s / EVERY_S + 1e-6);
-    for (const [id, robot] of Object.entries(seen.robots)) this.seeRobot(id, robot, t_s, last);
-    for (const [id, busy] of Object.entries(seen.machines)) note(this.recording.machine_states, id, t_s, busy);
+    const robots = Object.entries(seen.robots).map(([id, robot]) => this.seeRobot(id, robot, t_s, last));
+    const { machine_states } = this.recording;
+    const machines = Object.entries(seen.machines).map(([id, busy]) => note(machine_states, id, t_s, busy));
+    if ([...robots, ...machines].some(Boolean)) this.changed_s = now_s;
     if (t_s > 2 * KEPT_S) this.forget(KEPT_S);
   }
 
-  private seeRobot(id: string, { pose, carrying, route }: SeenRobot, t_s: number, last: number): void {
+  private seeRobot(id: string, { pose, carrying, route }: SeenRobot, t_s: number, last: number): boolean {
     const poses = (this.recording.frames.robots[id] ??= []);
     const before = poses.at(-1) ?? pose;
     while (poses.length < last) poses.push(before);
     poses[last] = pose;
-    note(this.recording.carrying, id, t_s, carrying);
-    note(this.recording.routes, id, t_s, route);
+    const { carrying: loads, routes } = this.recording;
+    const noted = [note(loads, id, t_s, carrying), note(routes, id, t_s, route)];
+    return noted.some(Boolean) || before.some((value, axis) => value !== pose[axis]);
   }
 
   private beginAnew(now_s: number): void {
@@ -81,7 +92,9 @@ export class LiveRecording {
   }
 }
 
-function note<T>(notes: Record<string, [number, T][]>, id: string, t_s: number, value: T): void {
+function note<T>(notes: Record<string, [number, T][]>, id: string, t_s: number, value: T): boolean {
   const list = (notes[id] ??= []);
-  if (list.length === 0 || !same(list.at(-1)?.[1], value)) list.push([t_s, value]);
+  if (list.length > 0 && same(list.at(-1)?.[1], value)) return false;
+  list.push([t_s, value]);
+  return true;
 }

@@ -2,6 +2,7 @@
 import { useStore } from "@xyflow/react";
 import { useEffect, useRef } from "react";
 import type { Device } from "@/api/types";
+import { FrameLoop } from "@/map/plane/frameLoop";
 import { toPixels } from "@/map/plane/projection";
 import { poseAt, type Frames } from "@/scene3d/frames";
 import styles from "./IncidentMarks.module.css";
@@ -33,18 +34,19 @@ export function InSmall(props: InSmallProps) {
     stage?.toggleAttribute("data-small", scale > 1);
   }, [scale]);
   useEffect(() => {
-    let frame = 0;
-    const place = () => {
-      frame = requestAnimationFrame(place);
+    const loop = new FrameLoop(() => {
+      let moved = false;
       for (const each of layer.current?.querySelectorAll<HTMLElement>("[data-robot]") ?? []) {
         const pose = poseAt(frames, each.dataset.robot ?? "", moment.t_s);
         const at = pose && toPixels([pose[0], pose[1]]);
         const to = at ? `${at.x.toFixed(1)}px ${at.y.toFixed(1)}px` : "";
-        if (each.style.translate !== to) each.style.translate = to;
+        if (each.style.translate === to) continue;
+        each.style.translate = to;
+        moved = true;
       }
-    };
-    place();
-    return () => cancelAnimationFrame(frame);
+      return moved;
+    });
+    return () => loop.stop();
   }, [frames, moment, robots]);
   return (
     <div ref={layer} className={styles.names} aria-hidden="true">

@@ -4,6 +4,7 @@ import { useTranslation } from "react-i18next";
 import { type Frames, poseAt } from "@/scene3d/frames";
 import { outlinesOf, RANGE_M, RAYS, scan } from "./rays";
 import styles from "./Lidar.module.css";
+import { FrameLoop } from "@/map/plane/frameLoop";
 import type { Moment, SceneDevice, SceneMap } from "@/scene3d/types";
 
 const SIDE = 168;
@@ -25,12 +26,10 @@ export function Lidar({ map, devices, frames, robot, moment }: LidarProps) {
     [devices, robot.id],
   );
   useEffect(() => {
-    let frame = 0;
     let shown = -1;
-    const look = () => {
-      frame = requestAnimationFrame(look);
+    const loop = new FrameLoop(() => {
       const context = canvas.current?.getContext("2d");
-      if (!context || moment.t_s === shown) return;
+      if (!context || moment.t_s === shown) return false;
       shown = moment.t_s;
       const pose = poseAt(frames, robot.id, shown);
       const rounds = others.flatMap(({ id, radius_m }) => {
@@ -38,9 +37,9 @@ export function Lidar({ map, devices, frames, robot, moment }: LidarProps) {
         return at ? [{ x: at[0], y: at[1], radius_m }] : [];
       });
       draw(context, pose ? scan(map, pose, outlines, rounds) : []);
-    };
-    look();
-    return () => cancelAnimationFrame(frame);
+      return true;
+    });
+    return () => loop.stop();
   }, [map, frames, robot.id, moment, outlines, others]);
   return (
     <figure className={styles.lidar}>

@@ -29,7 +29,7 @@ def pair(tmp_path_factory: pytest.TempPathFactory, postgres: Postgres, shared_re
     folder = tmp_path_factory.mktemp("pair")
     told = served_without_broker(folder, postgres.url, shared_redis.url)
     extra = {name: value for name, value in told.items() if name.startswith("VIPO_")}
-    migrate = [sys.executable, "manage.py", "migrate", "--verbosity", "0"]
+    migrate = [sys.executable, "manage.py", "migrate", "-v0", "--skip-checks"]
     subprocess.run(migrate, check=True, cwd=ROOT, env=environment(folder, extra))
     with running_pair(folder, postgres.url, shared_redis) as running:
         yield running

@@ -2,10 +2,10 @@ import { useFrame } from "@react-three/fiber";
 import { useRef } from "react";
 import type * as THREE from "three";
 import { apartOf } from "@/map/robots/robots";
-import { poseAt } from "./frames";
-import type { Palette } from "./palette";
+import { poseAt } from "../frames";
+import type { Palette } from "../palette";
 import { ROBOT_SCALE } from "./scale";
-import type { CopyOf, Moment, SceneDevice, SceneRecording } from "./types";
+import type { CopyOf, Moment, SceneDevice, SceneRecording } from "../types";
 
 interface RobotCopyProps {
   device: SceneDevice;
