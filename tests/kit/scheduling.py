@@ -31,13 +31,21 @@ FIRST = (
     "PostgreSQL",
     "the demo that nobody ends",
     "tests/integration/breaking/test_restart.py",
+    "tests/integration/wire/virtual",
+    "tests/integration/wire/dashboards",
+    "tests/firmware",
+    "tests/robot_agent",
+    "tests/integration/wire/test_accounts.py",
+    "tests/integration/wire/test_sites_apart.py",
+    "tests/integration/registry/thing_directory",
     "tests/integration/execution/test_runs.py",
     "tests/integration/registry/test_sparql.py",
     "tests/integration",
-    "tests/firmware",
-    "tests/robot_agent",
 )
-"""The longest ones, measured with `make test`; then the folders; what is not named here is short and comes last."""
+"""The longest ones, measured with `make test`; those that mostly wait, beside which others compute; then the folders.
+
+What is not named here is short, computes, and comes last: at the end no processor waits.
+"""
 
 _GROUPS = {file: name for name, files in TOGETHER.items() for file in files}
 
