@@ -14,6 +14,7 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any, Literal
 
 import paho.mqtt.client as paho
@@ -24,6 +25,10 @@ from paho.mqtt.reasoncodes import ReasonCode
 from paho.mqtt.subscribeoptions import SubscribeOptions
 
 from vipo_device.protocol.errors import VipoError
+from vipo_device.protocol.readiness import wait_ready
+
+# paho waits by select() and takes a socket with a number above 1,023 for a lost connection, again and again.
+paho.__dict__["select"] = SimpleNamespace(select=wait_ready)
 
 log = logging.getLogger(__name__)
 
@@ -209,6 +214,9 @@ class MqttClient:
         client.disconnect()
         client.loop_stop()
         self._online.clear()
+        with self._guard:
+            if self._stopping and client is self._paho and not client._out_messages:
+                self._paho = self._make_client()  # the old one lets its sockets go at once, not at some collection
 
     def _make_client(self) -> paho.Client:
         version = MQTTProtocolVersion.MQTTv5 if self._version == "5" else MQTTProtocolVersion.MQTTv311

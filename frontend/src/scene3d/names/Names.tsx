@@ -5,6 +5,7 @@ import * as THREE from "three";
 import { poseAt } from "../frames";
 import styles from "../Scene3D.module.css";
 import type { Moment, SceneDevice, SceneRecording } from "../types";
+import { type Name, placesOf } from "./places";
 
 const MACHINE_HEIGHT_M = 1.9;
 const ROBOT_HEIGHT_M = 1.5;
@@ -51,19 +52,45 @@ function above(device: SceneDevice, recording: SceneRecording | null, t_s: numbe
 
 const POINT = new THREE.Vector3();
 
-/** Puts each name above its device, nearer ones over farther ones; those behind who looks are hidden. */
+interface Seen extends Name {
+  tag: HTMLElement;
+  depth: number;
+}
+
+/** How large each name is, measured anew when its text is another. */
+const sizes = new WeakMap<HTMLElement, { text: string; width: number; height: number }>();
+
+function sizeOf(tag: HTMLElement) {
+  const text = tag.textContent;
+  const known = sizes.get(tag);
+  if (known?.text === text) return known;
+  const size = { text, width: tag.offsetWidth, height: tag.offsetHeight };
+  sizes.set(tag, size);
+  return size;
+}
+
+/** Puts each name above its device and off the others; those that find no place, or are out of view, are hidden. */
 export function NamePlaces({ devices, recording, moment, layer }: NamePlacesProps) {
   useFrame(({ camera, size }) => {
-    const tags = layer.current?.children ?? [];
-    for (let index = 0; index < tags.length; index += 1) {
-      const [tag, device] = [tags[index], devices[index]];
-      if (!(tag instanceof HTMLElement) || tag.dataset.device !== device?.id || !device) continue;
+    const seen: Seen[] = [];
+    for (const [index, tag] of [...(layer.current?.children ?? [])].entries()) {
+      const device = devices[index];
+      if (!(tag instanceof HTMLElement) || !device || tag.dataset.device !== device.id) continue;
       above(device, recording, moment.t_s, POINT);
       POINT.project(camera);
-      const seen = Math.abs(POINT.z) <= 1 && Math.abs(POINT.x) <= 1.2 && Math.abs(POINT.y) <= 1.2;
+      if (Math.abs(POINT.z) > 1 || Math.abs(POINT.x) > 1.2 || Math.abs(POINT.y) > 1.2) {
+        put(tag, "", 0);
+        continue;
+      }
       const x = Math.round(((POINT.x + 1) / 2) * size.width);
       const y = Math.round(((1 - POINT.y) / 2) * size.height);
-      put(tag, seen ? `translate(${x}px, ${y}px) translate(-50%, -50%)` : "", Math.round((1 - POINT.z) * 1000));
+      seen.push({ tag, x, y, ...sizeOf(tag), depth: Math.round((1 - POINT.z) * 1000) });
+    }
+    for (const [index, up] of placesOf(seen).entries()) {
+      const name = seen[index];
+      if (!name) continue;
+      const at = `translate(${name.x}px, ${name.y - (up ?? 0)}px) translate(-50%, -50%)`;
+      put(name.tag, up === null ? "" : at, name.depth);
     }
   });
   return null;
@@ -72,7 +99,7 @@ export function NamePlaces({ devices, recording, moment, layer }: NamePlacesProp
 /** Writes only what has changed: each writing makes the page reckon its styles anew. */
 function put(tag: HTMLElement, transform: string, depth: number): void {
   const { style } = tag;
-  if (style.transform !== transform) style.transform = transform;
+  if (transform && style.transform !== transform) style.transform = transform;
   const [visibility, zIndex] = [transform ? "visible" : "hidden", String(depth)];
   if (style.visibility !== visibility) style.visibility = visibility;
   if (style.zIndex !== zIndex) style.zIndex = zIndex;

@@ -99,7 +99,7 @@ def test_tokens_are_told_without_their_secret(fresh: str) -> None:
         ("Admin Person", "token_revoked"),
         ("Viewer Person", "token_made"),
     ]
-    assert made["token"].split("_")[2] not in str(list(AuditLine.objects.values()))
+    assert made["token"][-20:] not in str(list(AuditLine.objects.values()))
 
 
 def test_guessing_that_is_held_up_is_told_once(fresh: str) -> None:
