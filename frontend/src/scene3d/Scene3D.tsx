@@ -7,6 +7,7 @@ import type { MapObstacle } from "@/map/floor/floor";
 import { poseAt } from "./frames";
 import type { Incident } from "./incidents";
 import { Building } from "./Building";
+import { distanceFor } from "./camera";
 import { Incidents } from "./Incidents";
 import { bodyOf, surroundingsOf } from "./machines/bodies";
 import { Lamps } from "./machines/Lamps";
@@ -74,10 +75,9 @@ function CameraRig({ map, recording, moment, camera: mode, follow }: SceneProps)
     camera.fov = mode === "robot" ? ROBOT_CAMERA.field : FIELD_OF_VIEW;
     camera.updateProjectionMatrix();
     if (mode === "robot") return;
-    const half = Math.tan(((camera.fov / 2) * Math.PI) / 180);
-    const distance = Math.max((area.width * 0.56) / (half * aspect), (area.depth * 0.7) / half);
-    const direction = mode === "top" ? new THREE.Vector3(0, 1, 0.001) : new THREE.Vector3(-0.22, 0.72, 0.66);
-    camera.position.copy(area.centre).addScaledVector(direction.normalize(), mode === "follow" ? 7 : distance);
+    const from = mode === "top" ? new THREE.Vector3(0, 1, 0.001) : new THREE.Vector3(-0.22, 0.72, 0.66);
+    const distance = mode === "follow" ? 7 : distanceFor(area.width, area.depth, from, camera.fov, aspect);
+    camera.position.copy(area.centre).addScaledVector(from.normalize(), distance);
     controls.current?.target.copy(area.centre);
     controls.current?.update();
   }, [camera, area, mode, aspect]);
@@ -106,7 +106,7 @@ function CameraRig({ map, recording, moment, camera: mode, follow }: SceneProps)
       makeDefault
       maxPolarAngle={Math.PI / 2.1}
       minDistance={3}
-      maxDistance={120}
+      maxDistance={Math.max(120, area.width + area.depth)}
     />
   );
 }
@@ -191,7 +191,7 @@ export function Scene3D(props: SceneProps) {
   const pins = useRef<HTMLDivElement>(null) as RefObject<HTMLDivElement>;
   const machines = useMemo(() => devices.filter((device) => device.kind === "machine"), [devices]);
   const robots = useMemo(() => devices.filter((device) => device.kind === "robot"), [devices]);
-  const named = recording ? devices : machines;
+  const named = useMemo(() => (recording ? [...robots, ...machines] : machines), [recording, robots, machines]);
   return (
     <>
       <Canvas
@@ -199,7 +199,7 @@ export function Scene3D(props: SceneProps) {
         frameloop={playing ? "always" : "demand"}
         gl={{ antialias }}
         dpr={dpr}
-        camera={{ fov: FIELD_OF_VIEW, near: 0.1, far: 400 }}
+        camera={{ fov: FIELD_OF_VIEW, near: 0.1, far: 2000 }}
         aria-label={label}
         role="img"
       >

@@ -69,7 +69,7 @@ function sizeOf(tag: HTMLElement) {
   return size;
 }
 
-/** Puts each name above its device and off the others; those that find no place, or are out of view, are hidden. */
+/** Puts each name above its device and off those before it, robots first; those that find no place, or are out of view, are hidden. */
 export function NamePlaces({ devices, recording, moment, layer }: NamePlacesProps) {
   useFrame(({ camera, size }) => {
     const seen: Seen[] = [];
@@ -83,8 +83,9 @@ export function NamePlaces({ devices, recording, moment, layer }: NamePlacesProp
         continue;
       }
       const x = Math.round(((POINT.x + 1) / 2) * size.width);
-      const y = Math.round(((1 - POINT.y) / 2) * size.height);
-      seen.push({ tag, x, y, ...sizeOf(tag), depth: Math.round((1 - POINT.z) * 1000) });
+      const own = sizeOf(tag);
+      const y = Math.round(((1 - POINT.y) / 2) * size.height - own.height / 2);
+      seen.push({ tag, x, y, ...own, depth: Math.round((1 - POINT.z) * 1000) });
     }
     for (const [index, up] of placesOf(seen).entries()) {
       const name = seen[index];
