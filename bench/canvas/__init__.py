@@ -17,7 +17,7 @@ from pathlib import Path
 
 from playwright.sync_api import Browser, BrowserContext, Page
 
-from bench.canvas.browser import FRAMES, HEIGHT, MOVES, ROBOTS, WIDTH, Seen, Traced, chromium
+from bench.canvas.browser import BARE, FRAMES, HEIGHT, MOVES, ROBOTS, WIDTH, Seen, Traced, bare_page, chromium
 from bench.canvas.filling import COUNTS, FACTORY, HALL, robot_id
 from bench.canvas.filling import ROBOTS as ROBOT_COUNT
 from bench.figures import figure, share
@@ -120,20 +120,9 @@ def _construct(page: Page, traced: Traced, demo: Demo, program: str) -> tuple[fl
 
 
 def _bare(browser: Browser, folder: Path) -> Iterator[dict[str, object]]:
-    vite = ROOT / "frontend" / "node_modules" / "vite" / "bin" / "vite.js"
-    built = folder / "bare"
-    subprocess.run(
-        ["node", str(vite), "build", "-c", str(HERE / "bare" / "vite.config.mjs"), "--outDir", str(built)],
-        check=True, capture_output=True, cwd=ROOT,
-    )  # fmt: skip
-    page = browser.new_page(viewport={"width": WIDTH, "height": HEIGHT})
-    page.add_init_script(FRAMES)
-    page.route(
-        "http://bare.test/**",
-        lambda route: route.fulfill(path=built / route.request.url.split("/", 3)[3].split("?")[0]),
-    )
+    page = bare_page(browser, HERE / "bare", folder / "bare")
     for count in COUNTS:
-        page.goto(f"http://bare.test/index.html?nodes={count}")
+        page.goto(f"{BARE}/index.html?nodes={count}")
         page.wait_for_selector(".react-flow__node")
         page.wait_for_timeout(1500)
         traced = Traced(browser, page)

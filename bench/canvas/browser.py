@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import json
 import math
+import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from playwright.sync_api import Browser, CDPSession, Page, sync_playwright
+
+from bench.flow import ROOT
 
 CHROMIUM = "/usr/bin/chromium-headless-shell"
 FLAGS = ["--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-first-run"]
 WIDTH, HEIGHT = 1600, 1000
 MOVES = 60
 MB = 1_000_000
+BARE = "http://bare.test"
 
 FRAMES = """
 window.__frames = [];
@@ -80,6 +85,20 @@ def chromium() -> Iterator[Browser]:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
         yield browser
         browser.close()
+
+
+def bare_page(browser: Browser, source: Path, built: Path) -> Page:
+    """Build a folder's page with the frontend's libraries into another; return a page that finds it at BARE."""
+    vite = ROOT / "frontend" / "node_modules" / "vite" / "bin" / "vite.js"
+    config = ROOT / "bench" / "bare.config.mjs"
+    subprocess.run(
+        ["node", str(vite), "build", str(source), "-c", str(config), "--outDir", str(built)],
+        check=True, capture_output=True, cwd=ROOT,
+    )  # fmt: skip
+    page = browser.new_page(viewport={"width": WIDTH, "height": HEIGHT})
+    page.add_init_script(FRAMES)
+    page.route(f"{BARE}/**", lambda route: route.fulfill(path=built / route.request.url.split("/", 3)[3].split("?")[0]))
+    return page
 
 
 class Traced:

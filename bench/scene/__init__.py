@@ -7,7 +7,6 @@ frame asks of the page's main thread, and how many calls it makes to draw, hold 
 from __future__ import annotations
 
 import json
-import subprocess
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,11 +14,10 @@ from pathlib import Path
 from playwright.sync_api import Browser, BrowserContext, Page
 
 from bench.canvas import PATIENCE_MS, fill_demo, live_robots, sign_in
-from bench.canvas.browser import FRAMES, HEIGHT, ROBOTS, WIDTH, Seen, Traced, chromium
+from bench.canvas.browser import BARE, ROBOTS, Seen, Traced, bare_page, chromium
 from bench.canvas.filling import ROBOTS as ROBOT_COUNT
 from bench.canvas.filling import TOUR
 from bench.figures import figure, share
-from bench.flow import ROOT
 from tests.kit.demo import running_demo
 
 HERE = Path(__file__).resolve().parent
@@ -98,23 +96,9 @@ def _run(browser: Browser, context: BrowserContext, program: str) -> Iterator[di
 
 
 def _bare(browser: Browser, folder: Path) -> Iterator[dict[str, object]]:
-    vite = ROOT / "frontend" / "node_modules" / "vite" / "bin" / "vite.js"
-    built = folder / "bare"
-    config = HERE / "bare" / "vite.config.mjs"
-    subprocess.run(
-        ["node", str(vite), "build", "-c", str(config), "--outDir", str(built)],
-        check=True,
-        capture_output=True,
-        cwd=ROOT,
-    )
-    page = browser.new_page(viewport={"width": WIDTH, "height": HEIGHT})
-    for script in (FRAMES, DRAWS):
-        page.add_init_script(script)
-    page.route(
-        "http://bare.test/**",
-        lambda route: route.fulfill(path=built / route.request.url.split("/", 3)[3].split("?")[0]),
-    )
-    page.goto(f"http://bare.test/index.html?robots={ROBOT_COUNT}")
+    page = bare_page(browser, HERE / "bare", folder / "bare")
+    page.add_init_script(DRAWS)
+    page.goto(f"{BARE}/index.html?robots={ROBOT_COUNT}")
     page.wait_for_selector("canvas")
     yield from _figures(page, Traced(browser, page), {"of": "three.js alone", "names": False})
     page.close()

@@ -178,7 +178,9 @@ function useSharpness(adapts: boolean) {
 /** Smooth edges cost a third of a picture where the processor draws it, and are not seen where pixels are small. */
 function smoothsEdges(): boolean {
   const canvas = document.createElement("canvas");
-  return window.devicePixelRatio < 2 && canvas.getContext("webgl2", { failIfMajorPerformanceCaveat: true }) !== null;
+  const tried = canvas.getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+  tried?.getExtension("WEBGL_lose_context")?.loseContext(); // a browser has few of them
+  return window.devicePixelRatio < 2 && tried !== null;
 }
 
 /** The whole scene: the place built from its map, its machines, and the robots at the moment that is shown. */

@@ -133,7 +133,7 @@ const lasting = (device?: SceneDevice) => (device?.kind === "robot" ? { ...devic
 const same = (one: SceneDevice, other?: SceneDevice) => JSON.stringify(lasting(one)) === JSON.stringify(lasting(other));
 
 function placedOf({ id, name, kind, device_class, location, size, radius_m }: Device): SceneDevice {
-  return { id, name, kind, device_class, location, size, radius_m: radius_m ?? USUAL_RADIUS_M };
+  return { id, name, kind, device_class, location, size, radius_m: radius_m || USUAL_RADIUS_M };
 }
 
 /** Who has a place on the floor: the very same list and devices as before while nothing of them has changed. */

@@ -18,7 +18,7 @@ interface RobotCopyProps {
 /** Where the simulated copy of a robot is, while it is not where the robot is: a body that one sees through. */
 export function RobotCopy({ device, recording, moment, palette, copyOf }: RobotCopyProps) {
   const body = useRef<THREE.Group>(null);
-  const radius = device.radius_m || 0.18;
+  const radius = device.radius_m;
   useFrame(() => {
     if (!body.current) return;
     const [copy, pose] = [copyOf(device.id), poseAt(recording.frames, device.id, moment.t_s)];

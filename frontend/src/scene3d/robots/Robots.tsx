@@ -12,8 +12,6 @@ import { RobotCopy } from "./RobotCopy";
 import { ROBOT_SCALE } from "./scale";
 import { boxGeometry, canGeometry, frontGeometry, shadowGeometry, turtleGeometry } from "./turtle";
 
-const USUAL_RADIUS_M = 0.18;
-
 interface AllProps extends RobotsProps {
   playing: boolean;
   /** The one from whose place the view is. */
@@ -32,7 +30,7 @@ function useGeometry(make: () => THREE.BufferGeometry, needs: unknown[]): THREE.
 const UP = new THREE.Vector3(0, 1, 0);
 const SCALE = new THREE.Vector3(ROBOT_SCALE, ROBOT_SCALE, ROBOT_SCALE);
 
-/** Where a robot stands at a moment, as the scene has it; false where that is not known. */
+/** Where a robot stands at a moment, as the scene has it: where it was told to be when nothing was recorded. */
 function place(into: THREE.Matrix4, recording: SceneRecording, robot: SceneDevice, t_s: number): void {
   const { x: atX, y: atY } = robot.location;
   const [x, y, theta] = poseAt(recording.frames, robot.id, t_s) ?? [atX, atY, robot.location.theta];
@@ -99,11 +97,9 @@ function Fleet({ robots, recording, moment, palette, radius, hidden }: FleetProp
 
 const useMesh = () => useRef<THREE.InstancedMesh>(null);
 
-const radiusOf = (robot: SceneDevice) => robot.radius_m || USUAL_RADIUS_M;
-
 /** The robots where the recording has them, with their loads, their trails and their paths. */
 export const Robots = memo(function Robots({ copyOf, hidden, playing, ...props }: AllProps) {
-  const fleets = useMemo(() => byLook(props.robots, (robot) => String(radiusOf(robot))), [props.robots]);
+  const fleets = useMemo(() => byLook(props.robots, (robot) => String(robot.radius_m)), [props.robots]);
   return (
     <>
       {fleets.map(([look, robots]) => (

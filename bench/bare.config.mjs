@@ -1,10 +1,9 @@
-/** Builds the page beside this file with the libraries of the frontend. */
+/** Builds the page of the folder that the command names with the libraries of the frontend. */
 import { fileURLToPath } from "node:url";
 
-const frontend = fileURLToPath(new URL("../../../frontend/src/main.tsx", import.meta.url));
+const frontend = fileURLToPath(new URL("../frontend/src/main.tsx", import.meta.url));
 
 export default {
-  root: fileURLToPath(new URL(".", import.meta.url)),
   base: "./",
   plugins: [
     {
