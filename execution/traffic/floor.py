@@ -24,6 +24,7 @@ from execution.traffic.path_release import (
     heed_zones,
     keep_stations,
     leave_gone,
+    leave_other_lattice,
     place,
     release_next,
     take_pose,
@@ -58,6 +59,7 @@ def step(
     """Take in what happened, in order, at the time `now` (s), and decide once."""
     turn = Turn(layout, _without_gap(state, now), now)
     _know_robots(turn)
+    leave_other_lattice(turn)
     leave_gone(turn)
     heed_zones(turn)
     for event in events:

@@ -162,6 +162,8 @@ class FloorState:
     admissions: tuple[Admission, ...] = ()
     awaiting: Mapping[str, str] = field(default_factory=dict)
     """By robot: the key of the zone that it waits to be let into."""
+    lattice: str = ""
+    """The mark of the lattice by which cells are numbered; empty: the one at the map's corner, as all once were."""
 
 
 STORED_AS: Mapping[type, Mapping[str, str]] = {
@@ -172,7 +174,7 @@ STORED_AS: Mapping[type, Mapping[str, str]] = {
 """What kept states call the parts that have got another name since; the tasks themselves they call `jobs`."""
 
 
-LATER = frozenset({"passages", "doors", "admissions", "awaiting"})
+LATER = frozenset({"passages", "doors", "admissions", "awaiting", "lattice"})
 """Parts that states did not have at first: they are written where they say something."""
 WRITTEN_WHERE_SET = frozenset(
     {

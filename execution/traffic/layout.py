@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import sqrt
 
 from editor.language.site.surroundings import PlaceFacts
 from execution.machine.floor_task import Target
@@ -17,8 +18,12 @@ from registry.floorplan.lattice import STANDING_MARGIN_M, Ground, Lattice, Point
 from registry.floorplan.plan import FloorPlan, Grid, stations
 from vipo_device.protocol.description import Description
 
-BODY_M = 0.6
-"""A robot off the lattice keeps others off all cells this near; see docs/execution.md for the sum."""
+BODY_M, APART_M = 0.6, 0.1
+"""A robot off the lattice keeps others off all cells that near, larger ones off more: two that share none stand so far
+apart at least, from body to body. docs/execution.md has the sum."""
+CLEAR_M, LEFT_M = 0.44, 0.08
+"""A cell is given back when the robot's middle is that far from the cell's, larger ones' farther: two radii and that
+margin."""
 MOST_POINTS = 50_000
 """So many points are kept at a time; more are worked out anew."""
 DEFAULT_RADIUS_M = 0.18
@@ -59,6 +64,17 @@ class Layout:
     """Where real robots stand that are simulated for a while, with the key `body/<id>`: all other robots keep out."""
     points: dict[str, Spot] = field(default_factory=dict)
     zone_cells: dict[tuple[tuple[Point, ...], bool], frozenset[int]] = field(default_factory=dict)
+
+    @property
+    def clear_of_m(self) -> float:
+        """How far a robot's middle is from that of a cell, in metres, when the cell is free for others."""
+        return max(CLEAR_M, 2 * self.ground.radius_m + LEFT_M)
+
+    @property
+    def is_shifted(self) -> bool:
+        """Tell whether the lattice begins elsewhere than at the map's corner."""
+        grid = self.ground.grid
+        return self.lattice.origin != (grid.origin_x_m, grid.origin_y_m)
 
     @cached_property
     def against(self) -> frozenset[Way]:
@@ -172,5 +188,6 @@ def _attach(ground: Ground, lattice: Lattice, name: str, point: Point, theta: fl
     cell = attach(ground, lattice, point)
     if cell is None:
         raise NoSuchSpot(f"No robot can reach ({point[0]:.2f}, {point[1]:.2f}).")
-    body = frozenset((cell, *lattice.cells_within(point, BODY_M)))
+    body_m = max(BODY_M, lattice.side_m / sqrt(2) + ground.radius_m + APART_M / 2)
+    body = frozenset((cell, *lattice.cells_within(point, body_m)))
     return Spot(name, point[0], point[1], theta, cell, body)

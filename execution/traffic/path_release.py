@@ -23,8 +23,6 @@ EXTEND_AT = 2
 """With so many nodes left it gets the next piece, so that it drives on without stopping."""
 LAST_NODES = 5
 """The end of the path to a machine, entered only by the robot that the machine serves."""
-CLEAR_OF_M = 0.44
-"""A cell is given back when the robot's middle is this far from the cell's: two radii and a margin."""
 LOST_M = 0.4
 SITE = ""
 """Under this name, which no run has, the floor remembers which zones of the site its robots heed."""
@@ -99,7 +97,7 @@ def release_behind(turn: Turn, robot: Robot) -> None:
     kept = {cell for node in robot.path[robot.passed : robot.released + 1] for cell in layout.needed(node)}
     for cell in set(robot.held) - kept:
         x, y = layout.lattice.centre(cell)
-        if hypot(x - robot.x, y - robot.y) < CLEAR_OF_M:
+        if hypot(x - robot.x, y - robot.y) < layout.clear_of_m:
             kept.add(cell)
     held = tuple(sorted(kept & set(robot.held)))
     if held != robot.held:
@@ -223,6 +221,21 @@ def leave_gone(turn: Turn) -> None:
             _stand_here(turn, robot)
 
 
+def leave_other_lattice(turn: Turn) -> None:
+    """Let all robots plan anew when cells are numbered by another lattice, as when a wider robot was let in.
+
+    They are told to stop, and hold the cells where they are; what they hold by the other numbers says nothing.
+    """
+    numbered_by = turn.before.lattice
+    if numbered_by == turn.layout.lattice.mark or not (numbered_by or turn.layout.is_shifted):
+        return
+    robots = [robot for robot in turn.robots.values() if robot.path]
+    for robot in robots:
+        turn.put(robot, held=())
+    for robot in robots:
+        _stand_here(turn, turn.robots[robot.id])
+
+
 def _stand_here(turn: Turn, robot: Robot) -> None:
     """Let a robot stop where it is and forget its path."""
     drop_pieces(turn, robot, cancel=True)
@@ -263,7 +276,7 @@ def keep_stations(turn: Turn) -> None:
     for machine, holder in list(turn.stations.items()):
         robot = turn.robots[holder]
         x, y = turn.layout.point(machine)
-        near = hypot(x - robot.x, y - robot.y) < CLEAR_OF_M
+        near = hypot(x - robot.x, y - robot.y) < turn.layout.clear_of_m
         task = turn.task_of(robot)
         wanted = task is not None and task.order.target.id == machine
         if not (near or wanted or machine in robot.path[robot.passed :]):

@@ -63,6 +63,7 @@ class Turn:
             doors=self.doors,
             admissions=tuple(self.admissions.values()),
             awaiting=self.awaiting,
+            lattice=self.layout.lattice.mark,
         )
         return state, tuple(self.actions)
 

@@ -1,0 +1,87 @@
+"""The lattice on which robots drive: what is a link, and that it is shifted where that opens much more of a floor."""
+
+import random
+
+import pytest
+
+from registry.floorplan.lattice import (
+    MARGIN_M,
+    PASSING_MARGIN_M,
+    SIDE_M,
+    Ground,
+    attach,
+    make_lattice,
+)
+from registry.floorplan.plan import FREE, OCCUPIED, Grid, clearance_m
+
+
+def ground_of(grid, radius_m):
+    return Ground(grid, clearance_m(grid), radius_m)
+
+
+def scribbled(seed):
+    """A floor with walls by chance, its origin and cells as odd as may be."""
+    chance = random.Random(seed)
+    width, height = chance.randint(3, 90), chance.randint(3, 90)
+    cells = bytearray(width * height)
+    for _ in range(chance.randint(0, 20)):
+        x, y = chance.randrange(width), chance.randrange(height)
+        for _ in range(chance.randint(1, 20)):
+            x, y = (min(width - 1, x + 1), y) if chance.random() < 0.5 else (x, min(height - 1, y + 1))
+            cells[y * width + x] = chance.choice((OCCUPIED, 255))
+    side = chance.choice((0.02, 0.033, 0.05, 0.1, 0.25))
+    return Grid(width, height, side, chance.uniform(-20, 20), chance.uniform(-20, 20), bytes(cells))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_links_lead_where_a_robot_can_drive_straight_and_nowhere_else(seed):
+    ground = ground_of(scribbled(seed), random.Random(seed).uniform(0.05, 0.5))
+    lattice = make_lattice(ground)
+    for cell, links in lattice.links.items():
+        assert ground.room_m(lattice.centre(cell)) >= ground.radius_m + MARGIN_M
+        row, column = divmod(cell, lattice.columns)
+        around = [(row, column + 1), (row + 1, column), (row, column - 1), (row - 1, column)]
+        near = [r * lattice.columns + c for r, c in around if 0 <= r < lattice.rows and 0 <= c < lattice.columns]
+        room_m = ground.radius_m + PASSING_MARGIN_M
+        assert links == tuple(
+            other
+            for other in near
+            if other in lattice.links and ground.is_passable(lattice.centre(cell), lattice.centre(other), room_m)
+        )
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_all_cells_of_a_lattice_are_joined(seed):
+    lattice = make_lattice(ground_of(scribbled(seed), 0.1))
+    if lattice.links:
+        assert set(lattice.distances(min(lattice.links))) == set(lattice.links)
+
+
+def two_rooms(door_from_m, door_to_m):
+    """Two rooms of 4 x 4 m side by side, with a door between these heights."""
+    cells = bytearray(164 * 80)
+    for row in range(80):
+        for column in range(80, 84):
+            if not door_from_m <= (row + 0.5) * 0.05 < door_to_m:
+                cells[row * 164 + column] = OCCUPIED
+    return Grid(164, 80, 0.05, 0.0, 0.0, bytes(cells))
+
+
+@pytest.mark.parametrize("shift_cm", range(0, 100, 10))
+def test_a_wide_robot_comes_through_a_door_wherever_that_is(shift_cm):
+    ground = ground_of(two_rooms(1.0 + shift_cm / 100, 2.2 + shift_cm / 100), 0.4)
+    lattice = make_lattice(ground)
+    start = attach(ground, lattice, (2.0, 2.0))
+    assert start is not None
+    assert attach(ground, lattice, (6.2, 2.0)) in lattice.distances(start)
+
+
+def test_the_lattice_stays_at_the_maps_corner_where_a_shift_would_gain_little():
+    grid = Grid(100, 100, 0.05, -1.5, 2.0, bytes([FREE]) * 10_000)
+    lattice = make_lattice(ground_of(grid, 0.18))
+    assert lattice.origin == (-1.5, 2.0)
+    assert lattice.side_m == SIDE_M
+
+
+def test_a_floor_on_which_nobody_fits_has_no_cells():
+    assert not make_lattice(ground_of(Grid(4, 4, 0.05, 0.0, 0.0, bytes(16)), 0.4)).links
