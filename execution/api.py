@@ -13,6 +13,7 @@ from execution import services
 from execution.errors import NotFound, NoWay
 from execution.floor.admission_routes import router as admission_router
 from execution.floor.exports.routes import router as exports_router
+from execution.floor.floor_check_routes import router as floor_check_router
 from execution.floor.map_routes import router as map_router
 from execution.mirror.measurements import list_of_run
 from execution.mirror.routes import router as mirror_router
@@ -63,6 +64,7 @@ from vipo_device.descriptions.thing_description import DEVICE_URN
 router = Router(tags=["execution"])
 router.add_router("", admission_router)
 router.add_router("", zone_costs_router)
+router.add_router("", floor_check_router)
 router.add_router("", map_router)
 router.add_router("", exports_router)
 router.add_router("", mirror_router)

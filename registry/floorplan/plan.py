@@ -214,6 +214,12 @@ def stations(grid: Grid, devices: Iterable[Description], radius_m: float) -> dic
     return found
 
 
+def points_beside(device: Description, radius_m: float) -> tuple[tuple[float, float], ...]:
+    """Return where the middle of a robot of that radius would be in front of, behind, right and left of a machine."""
+    front_and_back, right_and_left = _sides(device, radius_m + STATION_GAP_M, 0.0)
+    return tuple((pose.x, pose.y) for pose in (*front_and_back, *right_and_left))
+
+
 def _station(plan: FloorPlan, floor: NDArray[np.bool_], device: Description, radius_m: float) -> Pose | None:
     gap_m = radius_m + STATION_GAP_M
     for spare_m in (COMFORT_M, 0.05):

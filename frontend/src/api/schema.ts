@@ -1987,6 +1987,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site}/floor-check": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Floor Check
+         * @description Tell what robots cannot come to on a site's floor and why, and where one is in another's way.
+         *
+         *     All robots of a site keep the room that the widest needs, so its check holds for all.
+         */
+        get: operations["get_floor_check"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site}/map.building.yaml": {
         parameters: {
             query?: never;
@@ -4135,6 +4157,10 @@ export interface components {
             program: string;
             version: number;
         };
+        /** @description For which robots a floor is checked: of this width in metres, else for the site's widest. */
+        AskFloorCheck: {
+            width_m?: number | null;
+        };
         /** @description Two ends of a way: `[x, y]` or a Place; in JSON the first is called `from`. */
         AskRoute: {
             from: [
@@ -4799,6 +4825,41 @@ export interface components {
             labels: components["schemas"]["Words"];
             step: string;
             value: unknown;
+        };
+        /** @description What a site's floor offers robots so wide. `robot` is the device that is so wide, null for another width. */
+        FloorCheckShape: {
+            findings: components["schemas"]["FloorFindingShape"][];
+            machines: components["schemas"]["Reached"];
+            map_version: number;
+            places: components["schemas"]["Reached"];
+            robot: string | null;
+            width_m: number;
+            zones: components["schemas"]["ZoneWidthShape"][];
+        };
+        /**
+         * @description Something that keeps robots from a place or machine (`target`), or may.
+         *
+         *     `no_room`, `too_narrow`, `no_way`, `off_lattice`: nobody comes there, by the map. `keep_out`, `cut_off`,
+         *     `no_way_in`, `no_way_out`: by a zone, `other` if it is one alone. `together`: no two robots can be at `target` and
+         *     `other` at once. `in_the_way`: a robot that stands at `other` keeps others from `target`.
+         *
+         *     Metres: where it is (`x`, `y`), `width_m` what there is, `needs_m` what a robot needs, `sides` the ends of that
+         *     width and `beside` the machines there (null: a wall).
+         */
+        FloorFindingShape: {
+            beside: (string | null)[];
+            /** @enum {string} */
+            code: "no_room" | "too_narrow" | "no_way" | "off_lattice" | "keep_out" | "cut_off" | "no_way_in" | "no_way_out" | "together" | "in_the_way";
+            needs_m: number | null;
+            other: string | null;
+            sides: [
+                number,
+                number
+            ][];
+            target: string;
+            width_m: number | null;
+            x: number;
+            y: number;
         };
         /** @description Where each robot was, every `dt_s`: x, y, theta. */
         Frames: {
@@ -5811,6 +5872,11 @@ export interface components {
             name: string;
             oldest_s: number | null;
             waiting: number;
+        };
+        /** @description How many of the site's machines or places robots come to, of how many. */
+        Reached: {
+            of: number;
+            reached: number;
         };
         /**
          * @description Something that is otherwise for who calls a newer version; `breaks`: calls that stand may not hold.
@@ -6850,6 +6916,12 @@ export interface components {
         ZoneWait: {
             mark: string;
             waited_s: number;
+        };
+        /** @description How wide the way through a zone for so many robots is at its narrowest, and what two beside each other need. */
+        ZoneWidthShape: {
+            needs_m: number;
+            width_m: number;
+            zone: string;
         };
     };
     responses: {
@@ -11969,6 +12041,47 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["FindingShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_floor_check: {
+        parameters: {
+            query?: {
+                width_m?: number | null;
+            };
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FloorCheckShape"];
                 };
             };
             400: components["responses"]["Refused400"];

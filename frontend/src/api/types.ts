@@ -31,6 +31,8 @@ export type MapZone = Schemas["SiteZoneShape"];
 export type Obstacle = Schemas["ObstacleShape"];
 /** What a zone for so many robots at once cost in rehearsals. */
 export type ZoneCost = Schemas["ZoneCostShape"];
+export type FloorCheck = Schemas["FloorCheckShape"];
+export type FloorFinding = Schemas["FloorFindingShape"];
 /** A map with its cells: row by row from the bottom row, 0 free, 100 wall, 255 unknown. */
 export type SiteMap = SiteMapInfo & { cells: Uint8Array };
 export type MapVersion = Schemas["MapVersionShape"];

@@ -17,6 +17,9 @@ import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { type Point, toPixels } from "@/map/plane/projection";
 import { MovableMachine } from "../devices/MovableMachine";
+import { FloorCheckMarks } from "./check/FloorCheckMarks";
+import { FloorCheckPanel } from "./check/FloorCheckPanel";
+import { useFloorCheckView } from "./check/useFloorCheckView";
 import { EditMapButton } from "./EditMapButton";
 import { MapExports } from "./MapExports";
 import styles from "./MapPage.module.css";
@@ -113,6 +116,7 @@ function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | n
   const places = usePlaces(site.slug, map);
   const zones = useZones(site.slug, map);
   const obstacles = useObstacles(site.slug);
+  const check = useFloorCheckView(site.slug, map);
   const asked = map.places.find((each) => each.id === query.get("place"));
   const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
   const movable = mode === "machines" ? devices.filter((device) => device.kind === "machine") : [];
@@ -139,12 +143,14 @@ function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | n
           {mode === "places" ? <PlaceHandles slug={site.slug} map={map} places={places} /> : null}
           {mode === "zones" ? <ZoneHandles slug={site.slug} map={map} zones={zones} /> : null}
           {mode === "obstacles" ? <ObstacleHandles map={map} editing={obstacles} /> : null}
+          {mode === null ? <FloorCheckMarks view={check} /> : null}
           {asked && mode !== "places" ? <PlaceMark at={[asked.x, asked.y]} /> : null}
         </StaticMap>
       </Panel>
       <Panel className={styles.about}>
         {mode === "machines" ? <p id="placing-help">{t("placing.help")}</p> : null}
         {mode === null || mode === "machines" ? <About map={map} /> : null}
+        {mode === null ? <FloorCheckPanel slug={site.slug} map={map} view={check} /> : null}
         {mode === null || mode === "obstacles" ? (
           <ObstaclesPanel map={map} editing={mode === "obstacles" ? obstacles : null} />
         ) : null}

@@ -3,7 +3,9 @@ import { Button } from "@mantine/core";
 import { SquareDashed, X } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import type { MapZone, SiteMap, ZoneCost } from "@/api/types";
+import { useFloorCheck } from "@/api/floorCheck";
+import { useDevices } from "@/api/queries";
+import type { FloorCheck, MapZone, SiteMap, ZoneCost } from "@/api/types";
 import { useZoneCosts } from "@/api/zones";
 import { Chip } from "@/design/Chip";
 import { formatNumber, withUnit } from "@/i18n/format";
@@ -30,6 +32,7 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
   const at = useZonesAt(map.zones);
   const [removing, setRemoving] = useState<MapZone | null>(null);
   const costs = useZoneCosts(slug, map.zones).data ?? [];
+  const widths = useFloorCheck(slug, map, useDevices(slug).data ?? []).data?.zones ?? [];
   return (
     <section aria-labelledby="zones">
       <h2 id="zones">{t("zone.zones")}</h2>
@@ -40,7 +43,7 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
           <li key={zone.id}>
             <Row zone={zone} at={at} editing={editing} />
             {zone.rule === "release" ? <ReleasedZone slug={slug} zone={zone} at={at} /> : null}
-            <CostOf zone={zone} costs={costs} />
+            <CostOf zone={zone} costs={costs} widths={widths} />
             {editing?.zone?.id === zone.id ? (
               <ZoneForm slug={slug} map={map} zone={zone} remove={() => setRemoving(zone)} />
             ) : null}
@@ -52,9 +55,15 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
   );
 }
 
-function CostOf({ zone, costs }: { zone: MapZone; costs: readonly ZoneCost[] }) {
+interface CostOfProps {
+  zone: MapZone;
+  costs: readonly ZoneCost[];
+  widths: FloorCheck["zones"];
+}
+
+function CostOf({ zone, costs, widths }: CostOfProps) {
   const cost = costs.find((each) => each.zone === zone.id);
-  return cost ? <ZoneCosts cost={cost} /> : null;
+  return cost ? <ZoneCosts cost={cost} width={widths.find((each) => each.zone === zone.id)} /> : null;
 }
 
 function Adding({ editing }: { editing: ZoneEditing }) {

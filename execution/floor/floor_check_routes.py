@@ -1,0 +1,161 @@
+"""The floor check over HTTP: for the site's own robots, or for one of another width that somebody thinks of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict, replace
+from typing import Any
+
+from django.http import HttpRequest
+from ninja import Query, Router, Schema
+from pydantic import Field
+
+from editor.language.site.surroundings import PlaceFacts
+from execution.errors import ExecutionError
+from execution.floor.floor_check import FindingCode, FloorCheck, check_floor
+from execution.floor.layouts import get_layout, place_facts
+from execution.traffic.layout import DEFAULT_RADIUS_M, Layout, make_layout
+from registry import services as registry
+from registry.floorplan.plan import Grid
+from registry.requests import signed_in
+from vipo_device.protocol.description import Description, Pose, Size
+
+router = Router(tags=["execution"])
+LEAST_WIDTH_M, MOST_WIDTH_M = 0.1, 3.0
+PATIENCE_S = 5.0
+KEPT = 64
+"""So many checks are kept, of all sites."""
+check_places = registry.Places(in_all=2, of_site=2, of_person=1, most_waiting=1)
+"""Floors that are checked at once."""
+_kept: dict[tuple[str, float | None], tuple[Layout, FloorCheck]] = {}
+
+
+class TooManyChecks(ExecutionError):
+    """This process checks as many floors as it may, in all or for this person."""
+
+    code = "too_many_floor_checks"
+    status = 429
+
+
+class FloorFindingShape(Schema):
+    """Something that keeps robots from a place or machine (`target`), or may.
+
+    `no_room`, `too_narrow`, `no_way`, `off_lattice`: nobody comes there, by the map. `keep_out`, `cut_off`,
+    `no_way_in`, `no_way_out`: by a zone, `other` if it is one alone. `together`: no two robots can be at `target` and
+    `other` at once. `in_the_way`: a robot that stands at `other` keeps others from `target`.
+
+    Metres: where it is (`x`, `y`), `width_m` what there is, `needs_m` what a robot needs, `sides` the ends of that
+    width and `beside` the machines there (null: a wall).
+    """
+
+    code: FindingCode
+    target: str
+    x: float
+    y: float
+    other: str | None
+    width_m: float | None
+    needs_m: float | None
+    sides: list[tuple[float, float]]
+    beside: list[str | None]
+
+
+class Reached(Schema):
+    """How many of the site's machines or places robots come to, of how many."""
+
+    reached: int
+    of: int
+
+
+class ZoneWidthShape(Schema):
+    """How wide the way through a zone for so many robots is at its narrowest, and what two beside each other need."""
+
+    zone: str
+    width_m: float
+    needs_m: float
+
+
+class FloorCheckShape(Schema):
+    """What a site's floor offers robots so wide. `robot` is the device that is so wide, null for another width."""
+
+    map_version: int
+    width_m: float
+    robot: str | None
+    machines: Reached
+    places: Reached
+    findings: list[FloorFindingShape]
+    zones: list[ZoneWidthShape]
+
+
+class AskFloorCheck(Schema):
+    """For which robots a floor is checked: of this width in metres, else for the site's widest."""
+
+    width_m: float | None = Field(None, ge=LEAST_WIDTH_M, le=MOST_WIDTH_M)
+
+
+@router.get("/sites/{slug:site}/floor-check", response=FloorCheckShape)
+def get_floor_check(request: HttpRequest, site: str, asked: Query[AskFloorCheck]) -> dict[str, Any]:
+    """Tell what robots cannot come to on a site's floor and why, and where one is in another's way.
+
+    All robots of a site keep the room that the widest needs, so its check holds for all.
+    """
+    user = signed_in(request)
+    registry.require(user, site, "viewer")
+    claim = registry.Claim(user.pk)
+    if not check_places.take(claim, patience_s=PATIENCE_S):
+        raise TooManyChecks("Other floors are being checked, by you or others. Try again in a moment.")
+    try:
+        return _check(site, asked.width_m)
+    finally:
+        check_places.give_back(claim)
+
+
+def _check(site: str, width_m: float | None) -> dict[str, Any]:
+    layout, floor = get_layout(site), registry.get_map(site=site)
+    key = (site, width_m)
+    kept = _kept.get(key)
+    if kept is None or kept[0] is not layout:
+        places = [place_facts(place) for place in registry.list_places(site=site)]
+        found = check_floor(floor.grid, _for_width(layout, floor.grid, places, width_m), places)
+        if len(_kept) >= KEPT:
+            _kept.clear()
+        kept = _kept[key] = (layout, found)
+    return _to_json(kept[1], floor.version, None if width_m else _widest(layout.devices.values()))
+
+
+def _for_width(layout: Layout, grid: Grid, places: Iterable[PlaceFacts], width_m: float | None) -> Layout:
+    """Return the floor as it would be laid out if all robots were so wide."""
+    if width_m is None:
+        return layout
+    devices = [
+        replace(device, radius_m=width_m / 2) if device.kind == "robot" else device
+        for device in layout.devices.values()
+    ]
+    if not any(device.kind == "robot" for device in devices):
+        devices.append(Description("-", "-", "robot", "", Pose(0.0, 0.0), Size(0.0, 0.0, 0.0), radius_m=width_m / 2))
+    return replace(make_layout(grid, devices, places, layout.zones), bodies=layout.bodies)
+
+
+def _widest(devices: Iterable[Description]) -> str | None:
+    robots = [device for device in devices if device.kind == "robot"]
+    widest = max(robots, key=lambda robot: (robot.radius_m, robot.id), default=None)
+    return widest.id if widest and widest.radius_m > 0 else None
+
+
+def _to_json(check: FloorCheck, version: int, robot: str | None) -> dict[str, Any]:
+    return {
+        "map_version": version,
+        "width_m": round(2 * (check.radius_m or DEFAULT_RADIUS_M), 3),
+        "robot": robot,
+        "machines": dict(zip(("reached", "of"), check.machines, strict=True)),
+        "places": dict(zip(("reached", "of"), check.places, strict=True)),
+        "findings": [
+            {**asdict(found), "other": _id_of(found.other), "x": round(found.at[0], 3), "y": round(found.at[1], 3)}
+            for found in check.findings
+        ],
+        "zones": [asdict(zone) for zone in check.zones],
+    }
+
+
+def _id_of(other: str | None) -> str | None:
+    """Return the id of a place or a zone of the site, by which its key of the floor is told."""
+    return other.removeprefix("site/") if other else None

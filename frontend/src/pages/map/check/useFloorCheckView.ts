@@ -1,0 +1,40 @@
+/** A floor check as it is looked at: for whose width, and which finding is shown on the map. */
+import { useDebouncedValue } from "@mantine/hooks";
+import { useState } from "react";
+import { useFloorCheck } from "@/api/floorCheck";
+import { useDevices } from "@/api/queries";
+import type { FloorCheck, FloorFinding, SiteMap } from "@/api/types";
+import { keyOf } from "./findingWords";
+
+const [NARROWEST_M, WIDEST_M] = [0.1, 3];
+
+export interface FloorCheckView {
+  readonly check: FloorCheck | undefined;
+  readonly error: Error | null;
+  readonly isChecking: boolean;
+  readonly again: () => void;
+  /** What is written as the width of another robot, in metres; null: the site's own. */
+  readonly width_m: number | null;
+  readonly setWidth: (width_m: number | null) => void;
+  readonly chosen: FloorFinding | undefined;
+  readonly choose: (finding: FloorFinding) => void;
+}
+
+export function useFloorCheckView(slug: string, map: SiteMap): FloorCheckView {
+  const [width_m, setWidth] = useState<number | null>(null);
+  const [asked] = useDebouncedValue(width_m, 400);
+  const [chosen, setChosen] = useState<string | null>(null);
+  const devices = useDevices(slug).data ?? [];
+  const isSound = asked !== null && asked >= NARROWEST_M && asked <= WIDEST_M;
+  const { data: check, error, isFetching, refetch } = useFloorCheck(slug, map, devices, isSound ? asked : null);
+  return {
+    check,
+    error,
+    isChecking: isFetching,
+    again: () => void refetch(),
+    width_m,
+    setWidth,
+    chosen: check?.findings.find((each) => keyOf(each) === chosen),
+    choose: (finding) => setChosen((known) => (known === keyOf(finding) ? null : keyOf(finding))),
+  };
+}

@@ -1,0 +1,99 @@
+"""The floor check over HTTP: who may ask, for which widths, and when it is worked out anew."""
+
+import pytest
+
+from execution.floor import floor_check_routes as routes
+from registry import services as registry
+from tests.kit.programs import SITE
+from tests.kit.sign_in import from_role, sign_in_member
+
+pytestmark = pytest.mark.django_db(transaction=True)
+CHECK = f"/api/sites/{SITE}/floor-check"
+SPILL = ((8.0, -10.0), (14.0, -10.0), (14.0, -6.0), (8.0, -6.0))
+
+
+@pytest.fixture(autouse=True)
+def _forgetful():
+    routes._kept.clear()
+
+
+@pytest.fixture
+def viewer(factory):
+    return sign_in_member("viewer", SITE)
+
+
+def test_the_painting_factory_is_sound_for_its_own_robots(viewer):
+    found = viewer.get(CHECK).json()
+    assert (found["width_m"], found["findings"]) == (0.36, [])
+    assert found["robot"].startswith("robot")
+    assert found["machines"]["reached"] == found["machines"]["of"] > 0
+
+
+def test_another_width_is_checked_as_if_all_were_so_wide(viewer):
+    found = viewer.get(f"{CHECK}?width_m=1.2").json()
+    assert (found["width_m"], found["robot"]) == (1.2, None)
+    assert found["machines"]["reached"] < found["machines"]["of"]
+    assert {each["code"] for each in found["findings"]} <= {
+        "too_narrow",
+        "off_lattice",
+        "no_room",
+        "together",
+        "in_the_way",
+    }
+    assert viewer.get(CHECK).json()["findings"] == []
+
+
+@pytest.mark.parametrize("width", ["0", "-1", "3.1", "1e9", "nan", "inf", "wide", ""])
+def test_a_width_that_no_robot_has_is_refused_with_its_bounds(viewer, width):
+    answer = viewer.get(f"{CHECK}?width_m={width}")
+    assert answer.status_code == 422
+    assert "width_m" in answer.content.decode()
+
+
+def test_a_zone_that_is_drawn_is_in_the_next_check_and_the_one_before_is_kept_until_then(viewer, monkeypatch):
+    made = []
+    check = routes.check_floor
+    monkeypatch.setattr(routes, "check_floor", lambda *given: made.append(1) or check(*given))
+    assert viewer.get(CHECK).json() == viewer.get(CHECK).json()
+    assert len(made) == 1
+    registry.add_zone(site=SITE, zone=registry.ZoneChange(name="Spill", rule="keep_out", points=SPILL))
+    found = viewer.get(CHECK).json()["findings"]
+    assert len(made) == 2
+    assert {each["code"] for each in found} & {"keep_out", "cut_off"}
+    zone = registry.list_zones(site=SITE)[0].id
+    assert {each["other"] for each in found} <= {zone, None}
+
+
+def test_zones_for_so_many_robots_have_their_width(viewer):
+    zone = registry.ZoneChange(name="Corridor", rule="one_at_a_time", points=SPILL, robots=1)
+    made = registry.add_zone(site=SITE, zone=zone).id
+    (width,) = viewer.get(CHECK).json()["zones"] or [None]
+    assert width is None or width["zone"] == made
+
+
+@pytest.mark.parametrize("role", from_role("viewer"))
+def test_every_role_may_ask(factory, role):
+    assert sign_in_member(role, SITE).get(CHECK).status_code == 200
+
+
+def test_a_stranger_learns_nothing_nor_does_who_is_not_signed_in(factory, client):
+    assert sign_in_member("stranger", SITE).get(CHECK).status_code == 404
+    assert client.get(CHECK).status_code == 401
+
+
+def test_a_site_without_a_map_says_so(db):
+    registry.create_site(name="Bare", slug="bare")
+    answer = sign_in_member("viewer", "bare").get("/api/sites/bare/floor-check")
+    assert (answer.status_code, answer.json()["code"]) == (404, "no_map")
+
+
+def test_who_has_a_check_under_way_waits_for_a_moment_and_is_told(viewer, monkeypatch):
+    monkeypatch.setattr(routes, "PATIENCE_S", 0.05)
+    person = registry.Claim(int(viewer.session["_auth_user_id"]))
+    assert routes.check_places.take(person)
+    try:
+        answer = viewer.get(CHECK)
+        assert (answer.status_code, answer.json()["code"]) == (429, "too_many_floor_checks")
+    finally:
+        routes.check_places.give_back(person)
+    assert viewer.get(CHECK).status_code == 200
