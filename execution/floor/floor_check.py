@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from math import hypot
-from typing import Literal
+from typing import Literal, get_args
 
 from editor.language.site.surroundings import PlaceFacts
 from execution.traffic.layout import Layout, Spot
@@ -25,6 +25,8 @@ FindingCode = Literal[
     "no_room", "too_narrow", "no_way", "off_lattice", "keep_out", "cut_off", "no_way_in", "no_way_out", "together",
     "in_the_way",
 ]  # fmt: skip
+_ORDER: tuple[FindingCode, ...] = get_args(FindingCode)
+"""What is found is told in this order, the same together."""
 MOST_TOGETHER = 200
 """So many places are looked at for what a robot that stands there is in the way of."""
 AT_WALL_M = 0.15
@@ -89,7 +91,7 @@ def check_floor(grid: Grid, layout: Layout, places: Iterable[PlaceFacts]) -> Flo
         layout.ground.radius_m,
         (len(set(machines) - kept_out), len(machines)),
         (len(set(stops) - kept_out), len(stops)),
-        tuple(findings),
+        tuple(sorted(findings, key=lambda found: _ORDER.index(found.code))),
         tuple(_widths(grid, layout)),
     )
 

@@ -43,7 +43,7 @@ function Width({ finding: { sides, width_m } }: { finding: FloorFinding }) {
       <line x1={a.x} y1={a.y} x2={b.x} y2={b.y} />
       <circle cx={a.x} cy={a.y} r={4} />
       <circle cx={b.x} cy={b.y} r={4} />
-      <text x={(a.x + b.x) / 2} y={Math.max(a.y, b.y) + 22} textAnchor="middle">
+      <text x={(a.x + b.x) / 2 + RADIUS * 2} y={(a.y + b.y) / 2 + 24}>
         {metres(width_m)}
       </text>
     </g>

@@ -26,6 +26,19 @@ export function FloorCheckPanel({ slug, map, view }: FloorCheckPanelProps) {
         <h2 id="floor-check">{t("floorCheck.floorCheck")}</h2>
         {check ? <Counts findings={check.findings} /> : null}
       </div>
+      <NumberInput
+        className={styles.other}
+        label={t("floorCheck.other")}
+        description={t("floorCheck.otherHelp")}
+        placeholder={check ? metres(check.width_m) : ""}
+        value={view.width}
+        min={0.1}
+        max={3}
+        step={0.05}
+        decimalScale={2}
+        suffix=" m"
+        onChange={view.setWidth}
+      />
       {error ? (
         <div role="alert" className={styles.failed}>
           <p>{problemText(error, t("floorCheck.failed"))}</p>
@@ -36,19 +49,6 @@ export function FloorCheckPanel({ slug, map, view }: FloorCheckPanelProps) {
       ) : null}
       {!check && !error ? <Skeleton height={72} /> : null}
       {check ? <Found slug={slug} map={map} check={check} view={view} /> : null}
-      <NumberInput
-        className={styles.other}
-        label={t("floorCheck.other")}
-        description={t("floorCheck.otherHelp")}
-        placeholder={check ? metres(check.width_m) : ""}
-        value={view.width_m ?? ""}
-        min={0.1}
-        max={3}
-        step={0.05}
-        decimalScale={2}
-        suffix=" m"
-        onChange={(value) => view.setWidth(typeof value === "number" ? value : null)}
-      />
     </section>
   );
 }
@@ -81,7 +81,14 @@ function Found({ slug, map, check, view }: FloorCheckPanelProps & { check: Floor
       <ol className={styles.findings} aria-label={t("floorCheck.findings")}>
         {check.findings.map((finding, index) => (
           <li key={keyOf(finding)}>
-            <Row slug={slug} finding={finding} number={index + 1} nameOf={nameOf} view={view} />
+            <Row
+              slug={slug}
+              finding={finding}
+              number={index + 1}
+              isExplained={finding.code === "off_lattice" && check.findings[index - 1]?.code === finding.code}
+              nameOf={nameOf}
+              view={view}
+            />
           </li>
         ))}
       </ol>
@@ -103,11 +110,13 @@ interface RowProps {
   slug: string;
   finding: FloorFinding;
   number: number;
+  /** The finding before says the same and has explained it. */
+  isExplained: boolean;
   nameOf: (id: string) => string;
   view: FloorCheckView;
 }
 
-function Row({ slug, finding, number, nameOf, view }: RowProps) {
+function Row({ slug, finding, number, isExplained, nameOf, view }: RowProps) {
   const { t } = useTranslation();
   const { title, text } = findingWords(finding, nameOf, t);
   const Sign = isError(finding) ? OctagonAlert : TriangleAlert;
@@ -123,7 +132,7 @@ function Row({ slug, finding, number, nameOf, view }: RowProps) {
       <span className={styles.number}>{number}</span>
       <span className={styles.words}>
         <strong>{title}</strong>
-        <span>{text}</span>
+        {isExplained ? null : <span>{text}</span>}
         {programs && programs.length > 0 ? (
           <span>{t("floorCheck.stops", { names: programs.map(({ name }) => name).join(", ") })}</span>
         ) : null}

@@ -13,26 +13,26 @@ export interface FloorCheckView {
   readonly error: Error | null;
   readonly isChecking: boolean;
   readonly again: () => void;
-  /** What is written as the width of another robot, in metres; null: the site's own. */
-  readonly width_m: number | null;
-  readonly setWidth: (width_m: number | null) => void;
+  /** What is written as the width of another robot, in metres; a text while somebody writes; empty: the site's own. */
+  readonly width: number | string;
+  readonly setWidth: (width: number | string) => void;
   readonly chosen: FloorFinding | undefined;
   readonly choose: (finding: FloorFinding) => void;
 }
 
 export function useFloorCheckView(slug: string, map: SiteMap): FloorCheckView {
-  const [width_m, setWidth] = useState<number | null>(null);
-  const [asked] = useDebouncedValue(width_m, 400);
+  const [width, setWidth] = useState<number | string>("");
+  const [asked] = useDebouncedValue(width, 400);
   const [chosen, setChosen] = useState<string | null>(null);
   const devices = useDevices(slug).data ?? [];
-  const isSound = asked !== null && asked >= NARROWEST_M && asked <= WIDEST_M;
+  const isSound = typeof asked === "number" && asked >= NARROWEST_M && asked <= WIDEST_M;
   const { data: check, error, isFetching, refetch } = useFloorCheck(slug, map, devices, isSound ? asked : null);
   return {
     check,
     error,
     isChecking: isFetching,
     again: () => void refetch(),
-    width_m,
+    width,
     setWidth,
     chosen: check?.findings.find((each) => keyOf(each) === chosen),
     choose: (finding) => setChosen((known) => (known === keyOf(finding) ? null : keyOf(finding))),
