@@ -1,4 +1,4 @@
-"""Twenty-five rounds of `rounds`, which a command plays a thousand times."""
+"""Twelve rounds of `rounds`, which a command plays a thousand times."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tests.integration.editor.kills.rounds import Judged, play
 from tests.integration.editor.web_pairs import running_pair
 from tests.kit.servers import Redis
 
-ROUNDS = 25
+ROUNDS = 12
 
 
 @pytest.mark.servers
