@@ -47,7 +47,9 @@ SENTENCES: Mapping[str, str] = {
     "body_stands": (
         "The real {body} stands where {robot} has to pass to {target}. Let it be moved, or use the real one again."
     ),
-    "no_standing": "No robot can stand at {place}; there is no free side that it can reach.",
+    "no_standing": (
+        "No robot can stand at {place}; there is no free side that it can reach. The map's floor check says why."
+    ),
     "no_room": "A robot cannot stand at ({point}); choose a place with more room.",
     "not_reached": "No robot can reach ({point}).",
     "no_spot": "There is no device or place called “{name}” on this site.",

@@ -132,7 +132,10 @@ class Layout:
         if target.id in self.stations or target.id in self.places:
             return self.spot(target.id)
         if target.id in self.devices:
-            raise NoSuchSpot(f"No robot can stand at {self.name(target.id)}; there is no free side that it can reach.")
+            raise NoSuchSpot(
+                f"No robot can stand at {self.name(target.id)}; there is no free side that it can reach. "
+                "The map's floor check says why."
+            )
         raise NoSuchSpot(f"There is no device or place called “{target.id}” on this site.")
 
     def point(self, node: Node) -> Point:

@@ -220,7 +220,9 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "contradiction": "Diese Bedingungen schließen einander aus; deshalb gilt das nie.",
     "waits_for_ever": "Das tritt nie ein; das Programm wartet für immer. Ändern Sie es, oder setzen Sie eine Grenze.",
     # machines on the floor, and zones
-    "station_unreachable": "{robot} findet keinen Weg zu {device} oder keinen Platz daneben.",
+    "station_unreachable": (
+        "{robot} findet keinen Weg zu {device} oder keinen Platz daneben. Die Prüfung der Fläche sagt, warum."
+    ),
     "place_in_keep_out": (
         "Dieser Ort liegt in {zone}, wo kein Roboter hineinfährt. Wählen Sie einen anderen, "
         "oder ändern Sie die Zone."

@@ -242,7 +242,10 @@ TEXTS: Final[Mapping[str, Text]] = {
     "contradiction": ("warning", "These conditions exclude each other, so this is never true."),
     "waits_for_ever": ("error", "This never comes true, so the program waits for ever. Change it, or enter a limit."),
     # machines on the floor, and zones
-    "station_unreachable": ("error", "{robot} finds no way to {device}, or no room to stand beside it."),
+    "station_unreachable": (
+        "error",
+        "{robot} finds no way to {device}, or no room to stand beside it. The map's floor check says why.",
+    ),
     "place_in_keep_out": (
         "error",
         "This place lies in {zone}, which robots keep out of. Choose another, or change the "
