@@ -240,7 +240,7 @@ def _kept_from(layout: Layout, parts: _Parts, spots: Mapping[str, Spot], taken: 
 
 def _widths(grid: Grid, layout: Layout) -> Iterator[ZoneWidth]:
     """Return how wide the ways through the zones are that only so many robots may be in at once."""
-    needs_m = round(layout.lattice.side_m + 2 * (layout.ground.radius_m + MARGIN_M), 3)
+    needs_m = round(layout.lattice.gap_m + 2 * (layout.ground.radius_m + MARGIN_M), 3)
     for zone in layout.zones:
         if zone.rule == "one_at_a_time" and (width_m := width_through(grid, layout.ground, zone.points)) is not None:
             yield ZoneWidth(zone.key.removeprefix("site/"), width_m, needs_m)

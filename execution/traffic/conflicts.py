@@ -113,7 +113,7 @@ def _unblock(turn: Turn, robot: Robot) -> None:
         if turn.node(robot) in turn.layout.stations:
             _evade(turn, robot, robot)
         return
-    holders = turn.holders()
+    holders = turn.holders(robot.id)
     blockers = sorted(
         {holders[c] for c in turn.layout.needed(robot.path[index]) if holders.get(c, robot.id) != robot.id}
     )

@@ -52,5 +52,5 @@ def preferred_cells(lattice: Lattice, zones: Iterable[FloorZone]) -> frozenset[i
 def _cells_near(lattice: Lattice, zone: FloorZone) -> Iterator[int]:
     """Go through the cells in a zone's bounding box, and those beside it."""
     (left, right), (bottom, top) = ((min(axis), max(axis)) for axis in zip(*zone.points, strict=True))
-    near_m = lattice.side_m * 1.001
+    near_m = lattice.gap_m * 1.001
     return lattice.cells_in_box(left - near_m, bottom - near_m, right + near_m, top + near_m)

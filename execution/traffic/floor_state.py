@@ -163,7 +163,7 @@ class FloorState:
     awaiting: Mapping[str, str] = field(default_factory=dict)
     """By robot: the key of the zone that it waits to be let into."""
     lattice: str = ""
-    """The mark of the lattice by which cells are numbered; empty: the one at the map's corner, as all once were."""
+    """The mark of the lattice by which cells are numbered; empty: one with even lines, as all once were."""
 
 
 STORED_AS: Mapping[type, Mapping[str, str]] = {

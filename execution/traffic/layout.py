@@ -71,10 +71,14 @@ class Layout:
         return max(CLEAR_M, 2 * self.ground.radius_m + LEFT_M)
 
     @property
-    def is_shifted(self) -> bool:
-        """Tell whether the lattice begins elsewhere than at the map's corner."""
-        grid = self.ground.grid
-        return self.lattice.origin != (grid.origin_x_m, grid.origin_y_m)
+    def is_even(self) -> bool:
+        """Tell whether the lattice's lines begin at the map's corner and are evenly spaced, as all once were."""
+        grid, lattice = self.ground.grid, self.lattice
+        return all(
+            abs(line - begin - (number + 0.5) * lattice.side_m) < 1e-6
+            for begin, lines in ((grid.origin_x_m, lattice.xs), (grid.origin_y_m, lattice.ys))
+            for number, line in enumerate(lines)
+        )
 
     @cached_property
     def against(self) -> frozenset[Way]:
@@ -191,6 +195,6 @@ def _attach(ground: Ground, lattice: Lattice, name: str, point: Point, theta: fl
     cell = attach(ground, lattice, point)
     if cell is None:
         raise NoSuchSpot(f"No robot can reach ({point[0]:.2f}, {point[1]:.2f}).")
-    body_m = max(BODY_M, lattice.side_m / sqrt(2) + ground.radius_m + APART_M / 2)
+    body_m = max(BODY_M, lattice.gap_m / sqrt(2) + ground.radius_m + APART_M / 2)
     body = frozenset((cell, *lattice.cells_within(point, body_m)))
     return Spot(name, point[0], point[1], theta, cell, body)

@@ -141,7 +141,7 @@ def release_next(turn: Turn, robot: Robot) -> None:
         return
     end = robot.released
     held = set(robot.held)
-    holders = turn.holders()
+    holders = turn.holders(robot.id)
     while end + 1 < len(robot.path) and end + 1 - robot.passed <= AHEAD and may_enter(turn, robot, end + 1):
         needed = turn.layout.needed(robot.path[end + 1])
         if any(holders.get(cell, robot.id) != robot.id for cell in needed):
@@ -227,7 +227,7 @@ def leave_other_lattice(turn: Turn) -> None:
     They are told to stop, and hold the cells where they are; what they hold by the other numbers says nothing.
     """
     numbered_by = turn.before.lattice
-    if numbered_by == turn.layout.lattice.mark or not (numbered_by or turn.layout.is_shifted):
+    if numbered_by == turn.layout.lattice.mark or (not numbered_by and turn.layout.is_even):
         return
     robots = [robot for robot in turn.robots.values() if robot.path]
     for robot in robots:

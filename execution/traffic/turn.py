@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from math import hypot
 from typing import Any
 from uuid import UUID, uuid5
 
@@ -11,6 +12,9 @@ from execution.traffic.floor_state import FloorState, FloorTask, Robot, Sent
 from execution.traffic.layout import Layout, Node
 from execution.traffic.messages import Action, Reason, SendCommand, TaskOver, WaitChanged
 from vipo_device.protocol.description import Scalar
+
+TOUCH_M = 0.04
+"""Bodies so near to each other count as touching."""
 
 
 class Turn:
@@ -150,9 +154,25 @@ class Turn:
         free = len(robot.path) == robot.passed + 1 and not self.is_driving(robot) and not self.is_acting(robot)
         return free and self.task_of(robot) is None
 
-    def holders(self) -> dict[int, str]:
-        """Return who holds each cell."""
-        return {cell: robot.id for robot in self.robots.values() for cell in robot.held}
+    def holders(self, entering: str) -> dict[int, str]:
+        """Return who holds each cell, or stands so near to it that a robot which is `entering` would touch it there.
+
+        Robots that came to stand too near to each other share out the cells around them; none may enter one that is
+        near the other, although it is its own.
+        """
+        holders = {cell: robot.id for robot in self.robots.values() for cell in robot.held}
+        for robot in self.robots.values():
+            if robot.id != entering and robot.path and not self.is_driving(robot):
+                holders |= dict.fromkeys(self._shared_near(robot), robot.id)
+        return holders
+
+    def _shared_near(self, robot: Robot) -> list[int]:
+        """Return the cells that a standing robot does not hold though others would touch it there."""
+        node = self.node(robot)
+        shared = self.layout.needed(node) - set(robot.held) if isinstance(node, str) else frozenset()
+        here, near_m = (robot.x, robot.y), 2 * self.layout.ground.radius_m + TOUCH_M
+        points = {cell: self.layout.lattice.centre(cell) for cell in shared}
+        return [cell for cell, (x, y) in points.items() if hypot(x - here[0], y - here[1]) < near_m]
 
     def in_order(self) -> Iterator[FloorTask]:
         """Go through the tasks, the oldest first; tasks that end meanwhile are left out."""

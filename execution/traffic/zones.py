@@ -36,7 +36,7 @@ def cells_of(layout: Layout, zone: FloorZone) -> frozenset[int]:
 
 def _find_cells(layout: Layout, zone: FloorZone) -> Iterator[int]:
     lattice, reach_m = layout.lattice, layout.ground.radius_m
-    near_m = reach_m + lattice.side_m / 2
+    near_m = reach_m + lattice.gap_m / 2
     (left, right), (bottom, top) = ((min(axis), max(axis)) for axis in zip(*zone.points, strict=True))
     for cell in lattice.cells_in_box(left - near_m, bottom - near_m, right + near_m, top + near_m):
         x, y = lattice.centre(cell)

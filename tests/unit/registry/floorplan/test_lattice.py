@@ -1,8 +1,12 @@
-"""The lattice on which robots drive: what is a link, and that it is shifted where that opens much more of a floor."""
+"""The lattice on which robots drive: what is a link, and that its lines go through doors that even ones would miss."""
 
 import random
+from itertools import pairwise
+from math import hypot
 
+import numpy as np
 import pytest
+from scipy import ndimage
 
 from registry.floorplan.lattice import (
     MARGIN_M,
@@ -13,6 +17,8 @@ from registry.floorplan.lattice import (
     make_lattice,
 )
 from registry.floorplan.plan import FREE, OCCUPIED, Grid, clearance_m
+
+CELL = 0.05
 
 
 def ground_of(grid, radius_m):
@@ -76,11 +82,91 @@ def test_a_wide_robot_comes_through_a_door_wherever_that_is(shift_cm):
     assert attach(ground, lattice, (6.2, 2.0)) in lattice.distances(start)
 
 
-def test_the_lattice_stays_at_the_maps_corner_where_a_shift_would_gain_little():
+def test_lines_are_even_from_the_maps_corner_on_where_robots_come_everywhere_so():
     grid = Grid(100, 100, 0.05, -1.5, 2.0, bytes([FREE]) * 10_000)
     lattice = make_lattice(ground_of(grid, 0.18))
-    assert lattice.origin == (-1.5, 2.0)
-    assert lattice.side_m == SIDE_M
+    assert lattice.side_m == lattice.gap_m == SIDE_M
+    assert (lattice.xs[:2], lattice.ys[:2]) == ((-1.25, -0.75), (2.25, 2.75))
+
+
+def building(seed, width_m=26, height_m=16):
+    """Rooms behind rooms: walls of 20 cm halve the floor again and again, each with a door of 1.0 to 1.6 m."""
+    chance = random.Random(seed)
+    cells = np.zeros((round(height_m / CELL), round(width_m / CELL)), np.uint8)
+    _halve(cells, chance, (2, 2, cells.shape[0] - 2, cells.shape[1] - 2), 4)
+    cells[:2] = cells[-2:] = cells[:, :2] = cells[:, -2:] = OCCUPIED
+    return Grid(cells.shape[1], cells.shape[0], CELL, 0.0, 0.0, cells.tobytes())
+
+
+def _halve(cells, chance, room, times):
+    bottom, left, top, right = room
+    if times == 0 or max(top - bottom, right - left) < 6 / CELL:
+        return
+    if top - bottom > right - left:
+        _halve(cells.T, chance, (left, bottom, right, top), times)
+        return
+    wall = chance.randint(left + 50, right - 50)
+    door = chance.randint(20, 32)
+    low = chance.randint(bottom + 6, top - 6 - door)
+    cells[bottom:top, wall : wall + 4] = OCCUPIED
+    cells[low : low + door, wall : wall + 4] = FREE
+    _halve(cells, chance, (bottom, left, top, wall), times - 1)
+    _halve(cells, chance, (bottom, wall + 4, top, right), times - 1)
+
+
+def share_reached(ground, lattice):
+    """Return to how much of the floor on which a robot fits and can come it does, some cell being within 1.2 m."""
+    labels, _ = ndimage.label(ground.clearance_m >= ground.radius_m + MARGIN_M)
+    sizes = np.bincount(labels.ravel())
+    floor = labels == 1 + int(np.argmax(sizes[1:]))
+    far = np.ones(floor.shape, np.bool_)
+    for cell in lattice.links:
+        far[ground.grid.cell_of(*lattice.centre(cell))] = False
+    return float((floor & (ndimage.distance_transform_edt(far) * CELL < 1.2)).sum() / floor.sum())
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_turtlebot_comes_to_all_rooms_of_a_building(seed):
+    ground = ground_of(building(seed), 0.18)
+    assert share_reached(ground, make_lattice(ground)) > 0.97
+
+
+@pytest.mark.parametrize(("radius_m", "least"), [(0.3, 0.95), (0.4, 0.85)])
+def test_wide_robots_come_to_most_of_many_buildings(radius_m, least):
+    grounds = [ground_of(building(seed), radius_m) for seed in range(12)]
+    assert sum(share_reached(ground, make_lattice(ground)) for ground in grounds) / len(grounds) > least
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("radius_m", [0.18, 0.4])
+def test_lines_are_never_nearer_than_a_side_nor_much_farther(seed, radius_m):
+    lattice = make_lattice(ground_of(building(seed), radius_m))
+    gaps = [after - before for lines in (lattice.xs, lattice.ys) for before, after in pairwise(lines)]
+    assert min(gaps) >= lattice.side_m - 1e-9
+    assert max(gaps) <= 1.25 * lattice.side_m + CELL
+    assert lattice.gap_m == max(gaps)
+
+
+def test_the_same_floor_gives_the_same_lattice_and_another_one_another_mark():
+    one, again, other = (make_lattice(ground_of(building(seed), 0.4)) for seed in (1, 1, 2))
+    assert one == again
+    assert one.mark == again.mark != other.mark
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_cells_near_a_point_and_in_a_box_are_those_whose_middle_is(seed):
+    lattice, chance = make_lattice(ground_of(building(seed), 0.4)), random.Random(seed)
+    x, y = chance.uniform(0, 26), chance.uniform(0, 16)
+    every = [(cell, lattice.centre(cell)) for cell in range(lattice.columns * lattice.rows)]
+    near = {cell for cell, (cx, cy) in every if hypot(cx - x, cy - y) <= 2.5}
+    found = lattice.cells_within((x, y), 2.5)
+    assert set(found) == near
+    far = [hypot(lattice.centre(cell)[0] - x, lattice.centre(cell)[1] - y) for cell in found]
+    assert far == sorted(far)
+    inside = {
+        cell for cell, (cx, cy) in every if x - 3 <= cx <= x + 1 and y - 1 <= cy <= y + 4 and cell in lattice.links
+    }
+    assert set(lattice.cells_in_box(x - 3, y - 1, x + 1, y + 4)) == inside
 
 
 def test_a_floor_on_which_nobody_fits_has_no_cells():
