@@ -14,6 +14,7 @@ NAMES = (
     "rehearsal",
     "beside_rehearsals",
     "traffic",
+    "lattice",
     "rooms",
     "compiled_frames",
     "devices",

@@ -27,7 +27,7 @@ REACH_M = 1.2
 """How far off the lattice a robot may stand."""
 STEP_M = 0.05
 """A straight way is looked at point by point, so far apart."""
-WHOLE_SHARE = 0.98
+WHOLE_SHARE = 0.995
 """Where robots come to so much of the cells that they fit on, or would over other lines, lines are evenly spaced."""
 TRIES = 3
 """So often lines through narrow ways are tried."""
@@ -192,10 +192,8 @@ def make_lattice(ground: Ground) -> Lattice:
     Its lines begin at the corner of the map and are evenly spaced, unless it falls apart so and robots come to much
     more of the floor over lines that are laid through narrow ways.
     """
-    grid = ground.grid
-    side_m = max(SIDE_M, 2 * ground.radius_m + 0.14)
-    columns, rows = (max(1, int(cells * grid.resolution_m / side_m)) for cells in (grid.width, grid.height))
-    even = _lay(ground, side_m, _even(grid.origin_x_m, columns, side_m), _even(grid.origin_y_m, rows, side_m))
+    grid, even = ground.grid, _lay_even(ground)
+    side_m = even.side_m
     if even.size >= WHOLE_SHARE * even.free:
         return even.lattice(ground)
     fits = ground.clearance_m >= ground.radius_m + MARGIN_M
@@ -205,6 +203,17 @@ def make_lattice(ground: Ground) -> Lattice:
     laid = max(others, key=lambda each: (_reached(ways, ground, each), each.size))
     is_enough = _reached(ways, ground, even) >= WHOLE_SHARE * _reached(ways, ground, laid)
     return (even if is_enough else laid).lattice(ground)
+
+
+def make_even_lattice(ground: Ground) -> Lattice:
+    """Lay a lattice of even lines over the ground, whatever it comes to: what others are measured against."""
+    return _lay_even(ground).lattice(ground)
+
+
+def _lay_even(ground: Ground) -> _Laid:
+    grid, side_m = ground.grid, max(SIDE_M, 2 * ground.radius_m + 0.14)
+    columns, rows = (max(1, int(cells * grid.resolution_m / side_m)) for cells in (grid.width, grid.height))
+    return _lay(ground, side_m, _even(grid.origin_x_m, columns, side_m), _even(grid.origin_y_m, rows, side_m))
 
 
 def _even(begin_m: float, count: int, side_m: float) -> Metres:

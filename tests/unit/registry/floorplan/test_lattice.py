@@ -4,10 +4,9 @@ import random
 from itertools import pairwise
 from math import hypot
 
-import numpy as np
 import pytest
-from scipy import ndimage
 
+from bench.lattice.buildings import make_building, share_reached
 from registry.floorplan.lattice import (
     MARGIN_M,
     PASSING_MARGIN_M,
@@ -17,8 +16,6 @@ from registry.floorplan.lattice import (
     make_lattice,
 )
 from registry.floorplan.plan import FREE, OCCUPIED, Grid, clearance_m
-
-CELL = 0.05
 
 
 def ground_of(grid, radius_m):
@@ -89,73 +86,37 @@ def test_lines_are_even_from_the_maps_corner_on_where_robots_come_everywhere_so(
     assert (lattice.xs[:2], lattice.ys[:2]) == ((-1.25, -0.75), (2.25, 2.75))
 
 
-def building(seed, width_m=26, height_m=16):
-    """Rooms behind rooms: walls of 20 cm halve the floor again and again, each with a door of 1.0 to 1.6 m."""
-    chance = random.Random(seed)
-    cells = np.zeros((round(height_m / CELL), round(width_m / CELL)), np.uint8)
-    _halve(cells, chance, (2, 2, cells.shape[0] - 2, cells.shape[1] - 2), 4)
-    cells[:2] = cells[-2:] = cells[:, :2] = cells[:, -2:] = OCCUPIED
-    return Grid(cells.shape[1], cells.shape[0], CELL, 0.0, 0.0, cells.tobytes())
-
-
-def _halve(cells, chance, room, times):
-    bottom, left, top, right = room
-    if times == 0 or max(top - bottom, right - left) < 6 / CELL:
-        return
-    if top - bottom > right - left:
-        _halve(cells.T, chance, (left, bottom, right, top), times)
-        return
-    wall = chance.randint(left + 50, right - 50)
-    door = chance.randint(20, 32)
-    low = chance.randint(bottom + 6, top - 6 - door)
-    cells[bottom:top, wall : wall + 4] = OCCUPIED
-    cells[low : low + door, wall : wall + 4] = FREE
-    _halve(cells, chance, (bottom, left, top, wall), times - 1)
-    _halve(cells, chance, (bottom, wall + 4, top, right), times - 1)
-
-
-def share_reached(ground, lattice):
-    """Return to how much of the floor on which a robot fits and can come it does, some cell being within 1.2 m."""
-    labels, _ = ndimage.label(ground.clearance_m >= ground.radius_m + MARGIN_M)
-    sizes = np.bincount(labels.ravel())
-    floor = labels == 1 + int(np.argmax(sizes[1:]))
-    far = np.ones(floor.shape, np.bool_)
-    for cell in lattice.links:
-        far[ground.grid.cell_of(*lattice.centre(cell))] = False
-    return float((floor & (ndimage.distance_transform_edt(far) * CELL < 1.2)).sum() / floor.sum())
-
-
 @pytest.mark.parametrize("seed", range(12))
-def test_a_turtlebot_comes_to_all_rooms_of_a_building(seed):
-    ground = ground_of(building(seed), 0.18)
+def test_a_turtlebot_comes_to_all_rooms_of_a_make_building(seed):
+    ground = ground_of(make_building(seed), 0.18)
     assert share_reached(ground, make_lattice(ground)) > 0.97
 
 
 @pytest.mark.parametrize(("radius_m", "least"), [(0.3, 0.95), (0.4, 0.85)])
 def test_wide_robots_come_to_most_of_many_buildings(radius_m, least):
-    grounds = [ground_of(building(seed), radius_m) for seed in range(12)]
+    grounds = [ground_of(make_building(seed), radius_m) for seed in range(12)]
     assert sum(share_reached(ground, make_lattice(ground)) for ground in grounds) / len(grounds) > least
 
 
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("radius_m", [0.18, 0.4])
 def test_lines_are_never_nearer_than_a_side_nor_much_farther(seed, radius_m):
-    lattice = make_lattice(ground_of(building(seed), radius_m))
+    lattice = make_lattice(ground_of(make_building(seed), radius_m))
     gaps = [after - before for lines in (lattice.xs, lattice.ys) for before, after in pairwise(lines)]
     assert min(gaps) >= lattice.side_m - 1e-9
-    assert max(gaps) <= 1.25 * lattice.side_m + CELL
+    assert max(gaps) <= 1.25 * lattice.side_m + 0.05
     assert lattice.gap_m == max(gaps)
 
 
 def test_the_same_floor_gives_the_same_lattice_and_another_one_another_mark():
-    one, again, other = (make_lattice(ground_of(building(seed), 0.4)) for seed in (1, 1, 2))
+    one, again, other = (make_lattice(ground_of(make_building(seed), 0.4)) for seed in (1, 1, 2))
     assert one == again
     assert one.mark == again.mark != other.mark
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_cells_near_a_point_and_in_a_box_are_those_whose_middle_is(seed):
-    lattice, chance = make_lattice(ground_of(building(seed), 0.4)), random.Random(seed)
+    lattice, chance = make_lattice(ground_of(make_building(seed), 0.4)), random.Random(seed)
     x, y = chance.uniform(0, 26), chance.uniform(0, 16)
     every = [(cell, lattice.centre(cell)) for cell in range(lattice.columns * lattice.rows)]
     near = {cell for cell, (cx, cy) in every if hypot(cx - x, cy - y) <= 2.5}
