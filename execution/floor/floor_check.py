@@ -227,6 +227,8 @@ def _one_in_another_s_way(
 def _kept_from(layout: Layout, parts: _Parts, spots: Mapping[str, Spot], taken: Spot) -> list[str]:
     """Return the spots that nobody comes to from most of the others while a robot stands at one."""
     closed = parts.shut | taken.body
+    if _goes_round(layout, closed, taken):
+        return []
     left = {spot.cell for spot in spots.values()} - closed
     most: set[int] = set()
     inside = 0
@@ -236,6 +238,21 @@ def _kept_from(layout: Layout, parts: _Parts, spots: Mapping[str, Spot], taken: 
             most, inside = part, len(left & part)
         left -= part
     return [name for name, spot in spots.items() if spot.id != taken.id and spot.cell not in most | taken.body]
+
+
+def _goes_round(layout: Layout, closed: Collection[int], taken: Spot) -> bool:
+    """Tell whether all cells beside a robot that stands somewhere are joined by others near it: it parts no floor."""
+    lattice = layout.lattice
+    beside = {near for cell in taken.body for near in lattice.links.get(cell, ())} - set(closed)
+    reach_m = max(hypot(x - taken.x, y - taken.y) for x, y in map(lattice.centre, taken.body)) + 2 * lattice.gap_m
+    far = set(lattice.cells_within((taken.x, taken.y), reach_m))
+    left = [next(iter(beside))] if beside else []
+    found = set(left)
+    while left:
+        ahead = [near for near in lattice.links[left.pop()] if near in far and near not in closed and near not in found]
+        found.update(ahead)
+        left += ahead
+    return beside <= found
 
 
 def _widths(grid: Grid, layout: Layout) -> Iterator[ZoneWidth]:

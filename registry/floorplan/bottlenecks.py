@@ -19,7 +19,9 @@ from registry.floorplan.zone_masks import cells_touched
 Cell = tuple[int, int]
 Cells = NDArray[np.bool_]
 Labels = NDArray[np.int32]
-MOST_LEVELS = 64
+MOST_SEARCHED = 20
+"""So many narrow ways are looked for; of others it is told how wide they are, but not where."""
+MOST_LEVELS = 24
 """Into so many widths the ones that are too narrow are told apart at most; else by half a cell."""
 SIDE_REACH_M = 3.0
 """Farther from its middle nobody looks for what makes a passage narrow."""
@@ -45,21 +47,34 @@ class Bottleneck:
 def find_bottlenecks(ground: Ground, places: Sequence[Point], rest: Point, width_m: float) -> list[Bottleneck | None]:
     """Return for each place what keeps a way so wide from leading to `rest`; None where there is such a way.
 
-    Widths are those that the clearance of the floor tells: by up to a cell less than what is there.
+    Widths are those that the clearance of the floor tells: by up to a cell less than what is there. Places that are
+    joined by ways that are wide enough have the same.
     """
     goal = ground.grid.cell_of(*rest)
     cells = {number: cell for number, place in enumerate(places) if (cell := ground.grid.cell_of(*place))}
     found: list[Bottleneck | None] = [Bottleneck(*place, 0.0) for place in places]
     wider: Labels | None = None
+    searched = 0
     for level in _levels(width_m / 2, ground.grid.resolution_m):
         if goal is None or not cells:
             break
         labels, _ = ndimage.label(ground.clearance_m >= level)
+        search = None if wider is None else _Search(labels, wider)
+        known: dict[object, Bottleneck] = {}
         for number, start in list(cells.items()):
-            if labels[start] and labels[start] == labels[goal]:
-                joined = labels == labels[start]
-                found[number] = None if wider is None else _narrowest(ground, joined, wider, start, goal)
-                del cells[number]
+            if not labels[start] or labels[start] != labels[goal]:
+                continue
+            del cells[number]
+            if search is None:
+                found[number] = None
+                continue
+            part: object = int(search.wider[start]) or start
+            if part not in known and searched < MOST_SEARCHED:
+                searched += 1
+                path = search.way_between(start, goal)
+                narrowest = min(path, key=lambda cell: float(ground.clearance_m[cell]), default=start)
+                known[part] = bottleneck_at(ground, narrowest)
+            found[number] = known.get(part, Bottleneck(*places[number], round(2 * level, 3)))
         wider = labels
     return found
 
@@ -71,40 +86,44 @@ def _levels(widest_m: float, cell_m: float) -> list[float]:
     return [level for level in levels if level > _OPEN] + [_OPEN]
 
 
-def _narrowest(ground: Ground, joined: Cells, wider: Labels, start: Cell, goal: Cell) -> Bottleneck:
-    """Return the narrowest cell of a way over as few narrow cells as can be: those between what is wider."""
-    narrow = joined & (wider == 0)
-    path = _way_between(narrow, wider, start, goal)
-    return bottleneck_at(ground, min(path, key=lambda cell: float(ground.clearance_m[cell]), default=start))
+class _Search:
+    """Ways over the narrow cells that join what is wider, by the connected parts of both: 0 is no part."""
 
+    def __init__(self, joined: Labels, wider: Labels) -> None:
+        self._joined, self.wider = joined, wider
+        self._boxes = ndimage.find_objects(wider)
 
-def _way_between(narrow: Cells, wider: Labels, start: Cell, goal: Cell) -> list[Cell]:
-    """Return the narrow cells of such a way; over what is wider one comes for nothing, from its rim to its rim."""
-    came: dict[Cell, Cell | None] = dict.fromkeys(_rim(narrow, wider, start))
-    crossed, queue = {int(wider[start])}, deque(came)
-    while queue:
-        cell = queue.popleft()
-        for near in _neighbours(cell, narrow.shape):
-            part = int(wider[near])
-            if near == goal or (part and part == wider[goal]):
-                return _back(came, cell)
-            ahead = [near] if narrow[near] else []
-            if part and part not in crossed:
-                crossed.add(part)
-                ahead = _rim(narrow, wider, near)
-            for each in ahead:
-                if each not in came:
-                    came[each] = cell
-                    queue.append(each)
-    return []
+    def way_between(self, start: Cell, goal: Cell) -> list[Cell]:
+        """Return the narrow cells of a way over as few of them as can be; where it is wider, it comes for nothing."""
+        whole, end = int(self._joined[start]), int(self.wider[goal])
+        came: dict[Cell, Cell | None] = dict.fromkeys(self._rim(start))
+        crossed, queue = {int(self.wider[start])}, deque(came)
+        while queue:
+            cell = queue.popleft()
+            for near in _neighbours(cell, self.wider.shape):
+                part = int(self.wider[near])
+                if near == goal or (part and part == end):
+                    return _back(came, cell)
+                ahead = [near] if not part and self._joined[near] == whole else []
+                if part and part not in crossed:
+                    crossed.add(part)
+                    ahead = self._rim(near)
+                for each in ahead:
+                    if each not in came:
+                        came[each] = cell
+                        queue.append(each)
+        return []
 
-
-def _rim(narrow: Cells, wider: Labels, end: Cell) -> list[Cell]:
-    """Return the narrow cells beside the wider part in which a cell is, or the cell itself where it is in none."""
-    if not wider[end]:
-        return [end]
-    rows, columns = np.nonzero(ndimage.binary_dilation(wider == wider[end]) & narrow)
-    return list(zip(rows.tolist(), columns.tolist(), strict=True))
+    def _rim(self, end: Cell) -> list[Cell]:
+        """Return the narrow cells beside the wider part in which a cell is, or the cell itself where it is in none."""
+        part = int(self.wider[end])
+        if not part:
+            return [end]
+        box = tuple(slice(max(0, side.start - 1), side.stop + 1) for side in self._boxes[part - 1])
+        near = ndimage.binary_dilation(self.wider[box] == part)
+        rows, columns = np.nonzero(near & (self.wider[box] == 0) & (self._joined[box] == self._joined[end]))
+        low, left = box[0].start, box[1].start
+        return [(row + low, column + left) for row, column in zip(rows.tolist(), columns.tolist(), strict=True)]
 
 
 def _neighbours(cell: Cell, shape: tuple[int, ...]) -> Iterator[Cell]:

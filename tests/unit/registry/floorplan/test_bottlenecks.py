@@ -2,6 +2,7 @@
 
 import pytest
 
+from registry.floorplan import bottlenecks
 from registry.floorplan.bottlenecks import find_bottlenecks, width_through
 from registry.floorplan.lattice import Ground
 from registry.floorplan.plan import OCCUPIED, UNKNOWN, Grid, clearance_m
@@ -101,3 +102,20 @@ def test_a_zone_with_one_opening_or_none_has_no_width_through():
     assert width_through(grid, ground, ((2.0, -1.0), (5.0, -1.0), (5.0, 3.0), (2.0, 3.0))) is None
     assert width_through(grid, ground, ((-1.0, -1.0), (9.0, -1.0), (9.0, 3.0), (-1.0, 3.0))) is None
     assert width_through(grid, ground, ((6.0, 0.5), (7.0, 0.5), (7.0, 1.5), (6.0, 1.5))) is None
+
+
+def test_many_places_behind_one_door_share_what_was_found_of_it():
+    ground = ground_of(with_door(1.5, 1.95))
+    places = [(0.5 + 0.1 * number, 0.5 + 0.05 * number) for number in range(30)]
+    found = find_bottlenecks(ground, places, (7.0, 1.0), 0.8)
+    assert len(set(found)) == 1
+    assert found[0].x > 3.9
+
+
+def test_of_more_narrow_ways_than_are_looked_for_the_width_is_told_where_the_place_is(monkeypatch):
+    monkeypatch.setattr(bottlenecks, "MOST_SEARCHED", 1)
+    grid = floor_of(12, 4, (4, 0, 4.2, 1.5), (4, 1.95, 4.2, 4), (8, 0, 8.2, 1.5), (8, 1.95, 8.2, 4))
+    first, second = find_bottlenecks(ground_of(grid), [(1.0, 1.0), (11.0, 1.0)], (6.0, 1.0), 0.8)
+    assert 3.9 < first.x < 4.3
+    assert (second.x, second.y, second.sides) == (11.0, 1.0, ())
+    assert second.width_m == pytest.approx(0.45, abs=CELL)
