@@ -27,6 +27,26 @@ def make_building(seed: int) -> Grid:
     return Grid(cells.shape[1], cells.shape[0], CELL_M, 0.0, 0.0, cells.tobytes())
 
 
+def make_town(side: int) -> Grid:
+    """Return so many times so many buildings with streets of 4 m between them, each with a gate of 1.5 m."""
+    street, gate = round(4 / CELL_M), round(1.5 / CELL_M)
+    high, wide = round(HIGH_M / CELL_M), round(WIDE_M / CELL_M)
+    cells = np.full((side * (high + street) + street, side * (wide + street) + street), FREE, np.uint8)
+    for number in range(side * side):
+        house = np.frombuffer(make_building(number).cells, np.uint8).reshape(high, wide).copy()
+        chance = random.Random(number)
+        begin = next(
+            at for _ in range(999) if (house[2:10, (at := chance.randint(4, wide - 40)) : at + gate] == FREE).all()
+        )
+        house[:2, begin : begin + gate] = FREE
+        row, column = (
+            street + (each * (size + street)) for each, size in zip(divmod(number, side), (high, wide), strict=True)
+        )
+        cells[row : row + high, column : column + wide] = house
+    cells[:2] = cells[-2:] = cells[:, :2] = cells[:, -2:] = OCCUPIED
+    return Grid(cells.shape[1], cells.shape[0], CELL_M, 0.0, 0.0, cells.tobytes())
+
+
 def _halve(cells: NDArray[np.uint8], chance: random.Random, room: Room, times: int) -> None:
     """Put a wall across the longer side of a room (bottom, left, top, right, in cells), and others into both halves."""
     bottom, left, top, right = room
