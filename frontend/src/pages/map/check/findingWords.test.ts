@@ -1,7 +1,9 @@
 import i18next from "i18next";
 import { beforeAll, expect, test } from "vitest";
 import type { FloorFinding } from "@/api/types";
+import german from "@/i18n/de/screens/floorCheck.json";
 import floorCheck from "@/i18n/en/screens/floorCheck.json";
+import openapi from "../../../../../docs/openapi.json";
 import { findingWords, isError, keyOf, shortBy } from "./findingWords";
 
 beforeAll(() => i18next.init({ lng: "en", resources: { en: { translation: { floorCheck } } } }));
@@ -64,4 +66,13 @@ test("what is short is rounded up, and never nothing", () => {
 test("two findings of one target have keys of their own", () => {
   const together = { ...FINDING, code: "together" as const };
   expect(new Set([keyOf(FINDING), keyOf(together), keyOf({ ...together, other: "dock2" })]).size).toBe(3);
+});
+
+test("each kind of finding has a title and a text in every language", () => {
+  const codes = openapi.components.schemas.FloorFindingShape.properties.code.enum;
+  expect(codes.length).toBeGreaterThan(8);
+  for (const { title, text } of [floorCheck, german]) {
+    expect(Object.keys(title).sort()).toEqual([...codes].sort());
+    expect(codes.filter((code) => !(code in text))).toEqual([]);
+  }
 });
