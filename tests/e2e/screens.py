@@ -192,6 +192,11 @@ def themed(page: Page, scheme: str) -> None:
 
 
 def violations(page: Page) -> list[str]:
+    """Return what axe finds of serious faults; what it finds is looked at again, since something may have faded in."""
+    return _violations(page) and _violations(page)
+
+
+def _violations(page: Page) -> list[str]:
     page.evaluate(FRAMES)  # what a change of style sets off begins with a frame
     until(page, STILL)
     page.evaluate(AXE.read_text())
