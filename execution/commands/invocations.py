@@ -25,17 +25,13 @@ def invoke_action(
 
     Raises TooManyWaiting before anything is done, what `call_method` raises, and ActionFailed.
     """
-    claim = registry.Claim(person, site)
-    if not _places.take(claim):
-        raise TooManyWaiting("Too many wait for devices at once, so nothing was done. Wait until one is over.")
-    try:
+    refusal = TooManyWaiting("Too many wait for devices at once, so nothing was done. Wait until one is over.")
+    with _places.held(registry.Claim(person, site), refusal):
         call = call_method(site=site, device_id=device_id, method=action, arguments=given, by=by)
         until = time.monotonic() + MOST_WAIT_S
         while not call.is_over and time.monotonic() < until:
             time.sleep(LOOK_EVERY_S)
             call = get_call(site=site, call_id=call.id)
-    finally:
-        _places.give_back(claim)
     if call.is_over and call.status != "done":
         raise ActionFailed(_why(call), {"call": str(call.id), "status": call.status})
     return call

@@ -6,8 +6,8 @@ Pure. Whether robots come somewhere is what the planner of traffic says; why the
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import combinations
+from dataclasses import dataclass, replace
+from itertools import combinations, product
 from math import hypot
 from typing import Literal, get_args
 
@@ -27,8 +27,6 @@ FindingCode = Literal[
 ]  # fmt: skip
 _ORDER: tuple[FindingCode, ...] = get_args(FindingCode)
 """What is found is told in this order, the same together."""
-MOST_TOGETHER = 200
-"""So many places are looked at for what a robot that stands there is in the way of."""
 AT_WALL_M = 0.15
 """What is that near to a machine's outline belongs to it, not to a wall: an outline is rounded up to whole cells."""
 
@@ -153,25 +151,21 @@ def _why_no_spot(
 def _at_bottleneck(layout: Layout, finding: Finding, narrow: Bottleneck) -> Finding:
     beside = tuple(_machine_at(layout, side) for side in narrow.sides)
     at = finding.at if finding.code == "no_room" else (narrow.x, narrow.y)
-    return Finding(
-        finding.code, finding.target, at, None, narrow.width_m, finding.needs_m, narrow.sides, beside
-    )  # fmt: skip
+    return replace(finding, at=at, width_m=narrow.width_m, sides=narrow.sides, beside=beside)
 
 
 def _machine_at(layout: Layout, point: Point) -> str | None:
     """Return the machine to which a point belongs that is not free; None for a wall."""
-    around = [(dx, dy) for dx in (-AT_WALL_M, 0.0, AT_WALL_M) for dy in (-AT_WALL_M, 0.0, AT_WALL_M)]
-    around.sort(key=lambda step: hypot(*step))
-    outlines = device_footprints(layout.devices.values())
-    return next(
-        (
-            name
-            for dx, dy in around
-            for name, outline in outlines.items()
-            if lies_in((point[0] + dx, point[1] + dy), outline)
-        ),
-        None,
-    )
+    steps = sorted(product((-AT_WALL_M, 0.0, AT_WALL_M), repeat=2), key=lambda step: hypot(*step))
+    near = (device for device in layout.devices.values() if _is_near(device, point))
+    outlines = device_footprints(near)
+    around = ((point[0] + dx, point[1] + dy) for dx, dy in steps)
+    return next((name for at in around for name, outline in outlines.items() if lies_in(at, outline)), None)
+
+
+def _is_near(device: Description, point: Point) -> bool:
+    reach_m = hypot(device.size.x, device.size.y) / 2 + 2 * AT_WALL_M
+    return hypot(device.pose.x - point[0], device.pose.y - point[1]) <= reach_m
 
 
 def _in_zones(layout: Layout, parts: _Parts, spots: Mapping[str, Spot]) -> Iterator[Finding]:
@@ -182,36 +176,45 @@ def _in_zones(layout: Layout, parts: _Parts, spots: Mapping[str, Spot]) -> Itera
     if home is not None and layout.against:
         there = layout.lattice.distances(home, parts.shut, layout.against)
         back = layout.lattice.distances(home, parts.shut, layout.against_backwards)
+    cut_off = []
     for name, spot in sorted(spots.items()):
         at = (spot.x, spot.y)
         if zone := _zone_around(layout, keep_outs, name):
             yield Finding("keep_out", name, at, zone.key)
         elif spot.cell not in parts.main:
-            yield Finding("cut_off", name, at, _zone_that_cuts(layout, keep_outs, parts, spot))
+            cut_off.append(spot)
         elif there is not None and spot.cell not in there:
             yield Finding("no_way_in", name, at)
         elif back is not None and spot.cell not in back:
             yield Finding("no_way_out", name, at)
+    if cut_off and home is not None:
+        yield from _cut_off(layout, keep_outs, home, cut_off)
 
 
 def _zone_around(layout: Layout, zones: Sequence[FloorZone], spot: str) -> FloorZone | None:
     return next((zone for zone in zones if is_in(layout, spot, zone) or is_shut_spot(layout, [zone], spot)), None)
 
 
-def _zone_that_cuts(layout: Layout, zones: Sequence[FloorZone], parts: _Parts, spot: Spot) -> str | None:
-    """Return the keep-out zone without which robots could come to a spot; None where it takes more than one."""
+def _cut_off(layout: Layout, zones: Sequence[FloorZone], home: int, spots: Sequence[Spot]) -> Iterator[Finding]:
+    """Tell of spots that are cut off which zone does it; none is named where it takes more than one."""
+    left = {spot.id: spot for spot in spots}
     for zone in zones:
         others = shut_cells(layout, [each for each in zones if each is not zone])
-        if any(cell in parts.main for cell in layout.lattice.distances(spot.cell, others)):
-            return zone.key
-    return None
+        reached = layout.lattice.distances(home, others)
+        for spot in [spot for spot in left.values() if spot.cell in reached]:
+            del left[spot.id]
+            yield Finding("cut_off", spot.id, (spot.x, spot.y), zone.key)
+        if not left:
+            return
+    for spot in left.values():
+        yield Finding("cut_off", spot.id, (spot.x, spot.y))
 
 
 def _one_in_another_s_way(
     layout: Layout, parts: _Parts, spots: Mapping[str, Spot], stops: Mapping[str, PlaceFacts]
 ) -> Iterator[Finding]:
     """Tell of places where two robots cannot stand at once, and where one that stands keeps others from a spot."""
-    standing = [name for name in sorted(stops) if name in spots and spots[name].cell in parts.main][:MOST_TOGETHER]
+    standing = [name for name in sorted(stops) if name in spots and spots[name].cell in parts.main]
     reachable = {name: spot for name, spot in sorted(spots.items()) if spot.cell in parts.main}
     near = {frozenset(pair) for pair in combinations(standing, 2) if spots[pair[0]].body & spots[pair[1]].body}
     for one, other in sorted(sorted(pair) for pair in near):

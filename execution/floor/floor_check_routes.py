@@ -100,13 +100,9 @@ def get_floor_check(request: HttpRequest, site: str, asked: Query[AskFloorCheck]
     """
     user = signed_in(request)
     registry.require(user, site, "viewer")
-    claim = registry.Claim(user.pk)
-    if not check_places.take(claim, patience_s=PATIENCE_S):
-        raise TooManyChecks("Other floors are being checked, by you or others. Try again in a moment.")
-    try:
+    refusal = TooManyChecks("Other floors are being checked, by you or others. Try again in a moment.")
+    with check_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
         return _check(site, asked.width_m)
-    finally:
-        check_places.give_back(claim)
 
 
 def _check(site: str, width_m: float | None) -> dict[str, Any]:

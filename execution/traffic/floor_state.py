@@ -163,7 +163,7 @@ class FloorState:
     awaiting: Mapping[str, str] = field(default_factory=dict)
     """By robot: the key of the zone that it waits to be let into."""
     lattice: str = ""
-    """The mark of the lattice by which cells are numbered; empty: one with even lines, as all once were."""
+    """By which lattice cells are numbered, as `Layout.numbering` says."""
 
 
 STORED_AS: Mapping[type, Mapping[str, str]] = {

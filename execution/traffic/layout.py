@@ -14,7 +14,7 @@ from editor.language.site.surroundings import PlaceFacts
 from execution.machine.floor_task import Target
 from execution.traffic.directions import Way, preferred_cells, ways_against
 from execution.traffic.messages import FloorZone
-from registry.floorplan.lattice import STANDING_MARGIN_M, Ground, Lattice, Point, attach, make_lattice
+from registry.floorplan.lattice import SIDE_M, STANDING_MARGIN_M, Ground, Lattice, Point, attach, make_lattice
 from registry.floorplan.plan import FloorPlan, Grid, stations
 from vipo_device.protocol.description import Description
 
@@ -70,15 +70,18 @@ class Layout:
         """How far a robot's middle is from that of a cell, in metres, when the cell is free for others."""
         return max(CLEAR_M, 2 * self.ground.radius_m + LEFT_M)
 
-    @property
-    def is_even(self) -> bool:
-        """Tell whether the lattice's lines begin at the map's corner and are evenly spaced, as all once were."""
+    @cached_property
+    def numbering(self) -> str:
+        """What tells by which lattice cells are numbered: nothing where its lines are half a metre apart from the map's
+        corner on, as those of most floors are, so that the version before reads what is kept of these.
+        """
         grid, lattice = self.ground.grid, self.lattice
-        return all(
-            abs(line - begin - (number + 0.5) * lattice.side_m) < 1e-6
+        is_usual = all(
+            abs(line - begin - (number + 0.5) * SIDE_M) < 1e-6
             for begin, lines in ((grid.origin_x_m, lattice.xs), (grid.origin_y_m, lattice.ys))
             for number, line in enumerate(lines)
         )
+        return "" if is_usual else lattice.mark
 
     @cached_property
     def against(self) -> frozenset[Way]:

@@ -226,8 +226,7 @@ def leave_other_lattice(turn: Turn) -> None:
 
     They are told to stop, and hold the cells where they are; what they hold by the other numbers says nothing.
     """
-    numbered_by = turn.before.lattice
-    if numbered_by == turn.layout.lattice.mark or (not numbered_by and turn.layout.is_even):
+    if turn.before.lattice == turn.layout.numbering:
         return
     robots = [robot for robot in turn.robots.values() if robot.path]
     for robot in robots:

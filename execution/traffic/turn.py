@@ -67,7 +67,7 @@ class Turn:
             doors=self.doors,
             admissions=tuple(self.admissions.values()),
             awaiting=self.awaiting,
-            lattice=self.layout.lattice.mark,
+            lattice=self.layout.numbering,
         )
         return state, tuple(self.actions)
 

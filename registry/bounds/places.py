@@ -8,7 +8,8 @@ from __future__ import annotations
 import threading
 import time
 from collections import Counter, deque
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -57,6 +58,16 @@ class Places:
             finally:
                 self._waiting.remove((me, claim))
                 self._changed.notify_all()
+
+    @contextmanager
+    def held(self, claim: Claim, refusal: Exception, *, patience_s: float = 0.0) -> Iterator[None]:
+        """Hold a place while something is done, waiting for it so long at most; raises `refusal` when there is none."""
+        if not self.take(claim, patience_s=patience_s):
+            raise refusal
+        try:
+            yield
+        finally:
+            self.give_back(claim)
 
     def give_back(self, claim: Claim) -> None:
         """Give a place back that was taken."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from registry.floorplan.lattice import Ground, Point, Raster
+from registry.floorplan.lattice import AROUND, Ground, Point
 from registry.floorplan.plan import Grid
 from registry.floorplan.polygons import Outline
 from registry.floorplan.zone_masks import cells_touched
@@ -27,7 +27,6 @@ SIDE_REACH_M = 3.0
 """Farther from its middle nobody looks for what makes a passage narrow."""
 MOST_OPENINGS = 32
 _OPEN = 1e-9
-_AROUND = ((0, 1), (1, 0), (0, -1), (-1, 0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +126,7 @@ class _Search:
 
 
 def _neighbours(cell: Cell, shape: tuple[int, ...]) -> Iterator[Cell]:
-    for up, right in _AROUND:
+    for up, right in AROUND:
         row, column = cell[0] + up, cell[1] + right
         if 0 <= row < shape[0] and 0 <= column < shape[1]:
             yield row, column
@@ -143,16 +142,9 @@ def _back(came: dict[Cell, Cell | None], end: Cell) -> list[Cell]:
 
 def bottleneck_at(ground: Ground, cell: Cell) -> Bottleneck:
     """Return how wide the floor is at a cell, and what is on either side."""
-    x, y = _centre(ground.grid, cell)
+    x, y = ground.grid.centre_of(*cell)
     width_m = 2 * float(ground.clearance_m[cell])
     return Bottleneck(round(x, 3), round(y, 3), round(width_m, 3), _sides(ground, cell))
-
-
-def _centre(grid: Raster, cell: Cell) -> Point:
-    return (
-        grid.origin_x_m + (cell[1] + 0.5) * grid.resolution_m,
-        grid.origin_y_m + (cell[0] + 0.5) * grid.resolution_m,
-    )
 
 
 def _sides(ground: Ground, cell: Cell) -> tuple[Point, ...]:
@@ -172,7 +164,7 @@ def _sides(ground: Ground, cell: Cell) -> tuple[Point, ...]:
     if across.any():
         second = int(np.argmin(np.where(across, far, np.inf)))
         offsets.append((int(up[second]), int(right[second])))
-    points = (_centre(ground.grid, (cell[0] + each[0], cell[1] + each[1])) for each in offsets)
+    points = (ground.grid.centre_of(cell[0] + up, cell[1] + right) for up, right in offsets)
     return tuple((round(x, 3), round(y, 3)) for x, y in points)
 
 

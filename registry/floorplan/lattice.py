@@ -36,7 +36,7 @@ SHIFTS = 4
 MOST_SHIFTED = 40_000
 """So many cells are shifted at most; larger floors have lines through narrow ways alone."""
 _HAIR_M = 1e-9
-_AROUND = ((0, 1), (1, 0), (0, -1), (-1, 0))
+AROUND = ((0, 1), (1, 0), (0, -1), (-1, 0))
 """Rows up and columns to the right of a cell to each of its neighbours, in the order of its links."""
 Point = tuple[float, float]
 Metres = NDArray[np.floating[Any]]
@@ -69,6 +69,9 @@ class Raster(Protocol):
 
     def cell_of(self, x_m: float, y_m: float) -> tuple[int, int] | None:
         """Return (row, column) of the cell that holds the point, or None off the map."""
+
+    def centre_of(self, row: int, column: int) -> Point:
+        """Return the middle of a cell in metres."""
 
 
 @dataclass(frozen=True)
@@ -287,8 +290,8 @@ class _Laid:
     def lattice(self, ground: Ground) -> Lattice:
         columns = self.kept.shape[1]
         cells = np.flatnonzero(self.kept)
-        around = zip(*(self._open(up, right)[self.kept].tolist() for up, right in _AROUND), strict=True)
-        steps = [up * columns + right for up, right in _AROUND]
+        around = zip(*(self._open(up, right)[self.kept].tolist() for up, right in AROUND), strict=True)
+        steps = [up * columns + right for up, right in AROUND]
         links = {
             cell: tuple(cell + step for step, is_open in zip(steps, opened, strict=True) if is_open)
             for cell, opened in zip(cells.tolist(), around, strict=True)

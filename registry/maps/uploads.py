@@ -85,13 +85,9 @@ def look_at_upload(*, site: str, files: MapFiles, by: User) -> tuple[Grid, int, 
 
 def in_turn(by: User, work: Callable[[], Made]) -> Made:
     """Do what costs much, two at once in this process and one of a person. Raises TooManyUploads."""
-    claim = Claim(by.pk)
-    if not reading_places.take(claim, patience_s=READING_PATIENCE_S):
-        raise TooManyUploads("Other maps are being read, yours or others'. Try again in a moment.")
-    try:
+    refusal = TooManyUploads("Other maps are being read, yours or others'. Try again in a moment.")
+    with reading_places.held(Claim(by.pk), refusal, patience_s=READING_PATIENCE_S):
         return work()
-    finally:
-        reading_places.give_back(claim)
 
 
 def _read(files: MapFiles) -> Grid:

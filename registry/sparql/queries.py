@@ -73,13 +73,9 @@ def run_query(*, site: str, query: str, forms: Sequence[str] = (), person: int =
         raise BadQuery(f"A query has 1 to {MOST_QUERY_CHARACTERS} characters. Give it as `query`.")
     devices = [_device(view) for view in list_devices(site=site)]
     job = {"query": query, "forms": list(forms), "devices": devices, "cpu_s": CPU_S, "memory_bytes": MEMORY_BYTES}
-    claim = Claim(person, site)
-    if not _places.take(claim, patience_s=PATIENCE_S):
-        raise TooManyQueries("Other queries are still being answered. Try again in a moment.")
-    try:
+    refusal = TooManyQueries("Other queries are still being answered. Try again in a moment.")
+    with _places.held(Claim(person, site), refusal, patience_s=PATIENCE_S):
         code, output = _run(json.dumps(job).encode())
-    finally:
-        _places.give_back(claim)
     return _read(code, output)
 
 

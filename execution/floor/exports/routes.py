@@ -63,13 +63,9 @@ def download_building(request: HttpRequest, site: str) -> HttpResponse:
 
 
 def _in_turn(request: HttpRequest, work: Callable[[], Made]) -> Made:
-    claim = registry.Claim(signed_in(request).pk)
-    if not export_places.take(claim, patience_s=PATIENCE_S):
-        raise TooManyExports("Other floors are being exported, by you or others. Try again in a moment.")
-    try:
+    refusal = TooManyExports("Other floors are being exported, by you or others. Try again in a moment.")
+    with export_places.held(registry.Claim(signed_in(request).pk), refusal, patience_s=PATIENCE_S):
         return work()
-    finally:
-        export_places.give_back(claim)
 
 
 def _roads_of(site: str) -> tuple[Layout, RoadMap]:

@@ -13,8 +13,14 @@ function stampOf({ version, places, zones }: SiteMap, devices: readonly Device[]
 }
 
 /** The check for robots of a width in metres, or for the site's widest; the one before stays until the next is here. */
-export const useFloorCheck = (slug: string, map: SiteMap, devices: readonly Device[], width_m: number | null = null) =>
+export const useFloorCheck = (
+  slug: string,
+  map: SiteMap,
+  devices: readonly Device[],
+  { width_m = null, enabled = true }: { width_m?: number | null; enabled?: boolean } = {},
+) =>
   useQuery({
+    enabled,
     queryKey: ["floor-check", slug, stampOf(map, devices), width_m],
     queryFn: () => {
       const width = width_m === null ? "" : `?width_m=${width_m}`;

@@ -156,6 +156,19 @@ def test_obstacles_are_the_same_at_both_web_processes_whoever_moves_them(served:
         news.close()
 
 
+def test_a_floor_check_at_one_web_process_knows_the_zone_that_was_drawn_at_the_other(served: Served) -> None:
+    with served.signed_in("author", 0) as first, served.signed_in("admin", 1) as second:
+        assert [client.get(f"{SITE}/floor-check").json()["findings"] for client in (first, second)] == [[], []]
+        points = [[8.0, -13.5], [14.0, -13.5], [14.0, -8.5], [8.0, -8.5]]
+        made = second.post(f"{SITE}/zones", json={"name": "Wet", "rule": "keep_out", "points": points}).json()
+        try:
+            found = first.get(f"{SITE}/floor-check").json()["findings"]
+            assert {each["other"] for each in found} == {made["id"]}
+        finally:
+            assert second.delete(f"{SITE}/zones/{made['id']}").status_code == 204
+        assert first.get(f"{SITE}/floor-check").json()["findings"] == []
+
+
 def test_a_pick_and_drop_runs_to_its_end_with_two_workers(served: Served) -> None:
     with served.signed_in("author", 0) as first, served.signed_in("admin", 1) as second:
         before = devices(first)

@@ -8,6 +8,7 @@ from editor.language.site.surroundings import PlaceFacts
 from execution.floor.floor_check import check_floor
 from execution.traffic.layout import make_layout
 from execution.traffic.messages import FloorZone
+from registry.floorplan.lattice import Lattice
 from registry.floorplan.plan import FREE, OCCUPIED, Grid
 from tests.kit import demo_floor
 from vipo_device.protocol.description import Pose, Size
@@ -146,3 +147,19 @@ def test_a_floor_on_which_nobody_fits_and_one_without_anything():
     assert (nothing.findings, nothing.machines, nothing.places) == ((), (0, 0), (0, 0))
     tiny = check(floor_of(1, 1), machines=(machine("press", 0.5, 0.5, 0.4, 0.4),), places=(place("a", 0.2, 0.2),))
     assert {each.target for each in tiny.findings} == {"press", "a"}
+
+
+def test_how_often_the_floor_is_looked_at_does_not_grow_with_what_is_cut_off(monkeypatch):
+    """Twenty zones cut off two hundred places: who draws them must not keep a process busy for hours."""
+    looks = []
+    distances = Lattice.distances
+    monkeypatch.setattr(Lattice, "distances", lambda *given, **more: looks.append(1) or distances(*given, **more))
+    places = (
+        *(place(f"near{n}", 1 + n % 15 / 10, 1 + n // 15 / 10) for n in range(250)),
+        *(place(f"far{n}", 17 + n % 20 / 10, 1 + n // 20 / 10, "dock") for n in range(200)),
+    )
+    zones = [zone("keep_out", 4 + n / 2, 0, 4.3 + n / 2, 4, f"zone{n}") for n in range(20)]
+    found = check(floor_of(22, 4), places=places, zones=zones)
+    assert {each.code for each in found.findings if each.target.startswith("far")} == {"cut_off"}
+    assert {each.other for each in found.findings if each.code == "cut_off"} == {None}
+    assert len(looks) < 60

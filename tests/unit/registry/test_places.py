@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import threading
 
+import pytest
+
 from registry.bounds.places import Claim, Places
 from registry.maps.kept_work import KeptWork
 from tests.kit.waiting import wait_for
@@ -15,6 +17,16 @@ def test_a_person_a_site_and_all_have_so_many_places() -> None:
     assert [places.take(Claim(*each)) for each in wanted] == [True, True, False, True, False, True, False]
     places.give_back(Claim(1, "a"))
     assert (places.take(Claim(4, "a")), places.take(Claim(1, "a")), places.taken) == (True, False, 4)
+
+
+def test_a_place_is_held_while_something_is_done_and_given_back_whatever_becomes_of_it() -> None:
+    places = Places(in_all=1, of_site=1, of_person=1)
+    with pytest.raises(ZeroDivisionError), places.held(Claim(1), LookupError("full")):
+        with pytest.raises(LookupError, match="full"), places.held(Claim(2), LookupError("full")):
+            raise AssertionError("there was no place")
+        assert places.taken == 1
+        raise ZeroDivisionError
+    assert places.taken == 0
 
 
 def test_whoever_waits_comes_in_turn_past_those_whose_own_site_is_full() -> None:

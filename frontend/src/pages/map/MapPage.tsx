@@ -116,7 +116,7 @@ function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | n
   const places = usePlaces(site.slug, map);
   const zones = useZones(site.slug, map);
   const obstacles = useObstacles(site.slug);
-  const check = useFloorCheckView(site.slug, map);
+  const check = useFloorCheckView(site.slug, map, mode === null);
   const asked = map.places.find((each) => each.id === query.get("place"));
   const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
   const movable = mode === "machines" ? devices.filter((device) => device.kind === "machine") : [];

@@ -6,6 +6,7 @@ from math import hypot
 
 import pytest
 
+from bench.lattice.buildings import make_building
 from execution.traffic import messages as m
 from execution.traffic.floor_state import from_json, to_json
 from execution.traffic.layout import make_layout
@@ -76,7 +77,7 @@ def test_a_wider_robot_that_joins_lets_all_plan_anew_and_nobody_touches():
     floor.state = from_json(to_json(floor.state))
     floor.at[wide.id], floor.queue[wide.id] = (12.0, 12.0), []
     floor.tell(m.DeviceOnline(wide.id), m.RobotMoved(wide.id, 12.0, 12.0))
-    assert floor.state.lattice == floor.layout.lattice.mark != before
+    assert floor.state.lattice == floor.layout.numbering != before
     for robot in floor.state.robots.values():
         nearest = min(floor.layout.point(node) for node in robot.path)
         assert hypot(nearest[0] - robot.x, nearest[1] - robot.y) < 1.0 or len(robot.path) > 1
@@ -87,14 +88,32 @@ def test_a_wider_robot_that_joins_lets_all_plan_anew_and_nobody_touches():
     assert floor.nearest > 0.36
 
 
-def test_a_state_from_before_lattices_were_told_is_of_the_one_at_the_corner():
+def test_what_is_kept_of_a_usual_floor_is_read_by_the_version_before_and_goes_on():
     floor = PretendFloor(make_layout(hall(), robots(0.18, 1)), {"robot01": (3.0, 3.0)})
     go(floor, "a", (20.0, 10.0), "robot01")
     for _ in range(20):
         floor.pass_time()
     stored = to_json(floor.state)
-    assert stored.pop("lattice")
+    assert "lattice" not in stored
     floor.state = from_json(stored)
     path = floor.state.robots["robot01"].path
     floor.pass_time()
     assert floor.state.robots["robot01"].path == path
+
+
+def test_what_was_kept_before_lines_went_through_doors_is_numbered_otherwise_and_robots_plan_anew():
+    grid = make_building(1)
+    layout = make_layout(grid, robots(0.4, 1))
+    assert layout.numbering
+    start, goal = (layout.lattice.centre(cell) for cell in (min(layout.lattice.links), max(layout.lattice.links)))
+    floor = PretendFloor(layout, {"robot01": start})
+    go(floor, "a", goal, "robot01")
+    for _ in range(20):
+        floor.pass_time()
+    floor.state = replace(floor.state, lattice="")
+    sent = len(floor.sent)
+    floor.pass_time()
+    assert "cancel" in {command.method for command in floor.sent[sent:]}
+    floor.run_until(lambda: floor.over)
+    assert floor.over == {("a", 1): ("", "")}
+    assert hypot(floor.at["robot01"][0] - goal[0], floor.at["robot01"][1] - goal[1]) < 0.1

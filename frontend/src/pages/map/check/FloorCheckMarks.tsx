@@ -2,7 +2,7 @@
 import type { FloorFinding } from "@/api/types";
 import { toPixels, type Point } from "@/map/plane/projection";
 import styles from "./check.module.css";
-import { isError, metres } from "./findingWords";
+import { isError, keyOf, metres } from "./findingWords";
 import type { FloorCheckView } from "./useFloorCheckView";
 
 const RADIUS = 11;
@@ -14,7 +14,7 @@ export function FloorCheckMarks({ view }: { view: FloorCheckView }) {
     <g aria-hidden="true" className={styles.marks}>
       {chosen ? <Width finding={chosen} /> : null}
       {check.findings.map((finding, index) => (
-        <Mark key={index} finding={finding} number={index + 1} isChosen={finding === chosen} />
+        <Mark key={keyOf(finding)} finding={finding} number={index + 1} isChosen={finding === chosen} />
       ))}
     </g>
   );

@@ -20,13 +20,22 @@ export interface FloorCheckView {
   readonly choose: (finding: FloorFinding) => void;
 }
 
-export function useFloorCheckView(slug: string, map: SiteMap): FloorCheckView {
+/** It is not asked for while somebody changes the map: what it says comes with the last change. */
+export function useFloorCheckView(slug: string, map: SiteMap, enabled: boolean): FloorCheckView {
   const [width, setWidth] = useState<number | string>("");
   const [asked] = useDebouncedValue(width, 400);
   const [chosen, setChosen] = useState<string | null>(null);
   const devices = useDevices(slug).data ?? [];
   const isSound = typeof asked === "number" && asked >= NARROWEST_M && asked <= WIDEST_M;
-  const { data: check, error, isFetching, refetch } = useFloorCheck(slug, map, devices, isSound ? asked : null);
+  const {
+    data: check,
+    error,
+    isFetching,
+    refetch,
+  } = useFloorCheck(slug, map, devices, {
+    width_m: isSound ? asked : null,
+    enabled,
+  });
   return {
     check,
     error,

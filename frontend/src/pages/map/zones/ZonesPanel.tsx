@@ -32,7 +32,7 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
   const at = useZonesAt(map.zones);
   const [removing, setRemoving] = useState<MapZone | null>(null);
   const costs = useZoneCosts(slug, map.zones).data ?? [];
-  const widths = useFloorCheck(slug, map, useDevices(slug).data ?? []).data?.zones ?? [];
+  const widths = useFloorCheck(slug, map, useDevices(slug).data ?? [], { enabled: costs.length > 0 }).data?.zones ?? [];
   return (
     <section aria-labelledby="zones">
       <h2 id="zones">{t("zone.zones")}</h2>
