@@ -21,11 +21,16 @@ def test_a_person_a_site_and_all_have_so_many_places() -> None:
 
 def test_a_place_is_held_while_something_is_done_and_given_back_whatever_becomes_of_it() -> None:
     places = Places(in_all=1, of_site=1, of_person=1)
-    with pytest.raises(ZeroDivisionError), places.held(Claim(1), LookupError("full")):
-        with pytest.raises(LookupError, match="full"), places.held(Claim(2), LookupError("full")):
-            raise AssertionError("there was no place")
-        assert places.taken == 1
-        raise ZeroDivisionError
+
+    def fail() -> None:
+        with places.held(Claim(1), LookupError("full")):
+            assert places.taken == 1
+            with pytest.raises(LookupError, match="full"):
+                places.held(Claim(2), LookupError("full")).__enter__()
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
     assert places.taken == 0
 
 
