@@ -36,7 +36,7 @@ def test_a_place_is_made_moved_and_removed_by_keyboard_and_others_see_it(sign_in
     admin.keyboard.press("Enter")
     handle = admin.get_by_role("button", name="Quality table at")
     expect(handle).to_have_attribute("aria-pressed", "true")
-    expect(author.get_by_text("Quality table")).to_be_visible()
+    expect(author.get_by_role("region", name="Places").get_by_text("Quality table")).to_be_visible()
     assert violations(admin) == []
     x, y = where(admin, "quality_table")
     handle.focus()
