@@ -26,10 +26,11 @@ function send(slug: string, change: PlaceChange): Promise<MapPlace | undefined> 
   }
 }
 
-/** Change a place; whatever comes of it, the map's places are fetched anew. */
+/** Change a place; whatever comes of it, the map's places are fetched anew. Changes go out one after another. */
 export function useChangePlace(slug: string) {
   const queries = useQueryClient();
   return useMutation({
+    scope: { id: `places ${slug}` },
     mutationFn: (change: PlaceChange) => send(slug, change),
     onSettled: () =>
       Promise.all(staleWithSiteMap(slug).map((queryKey) => queries.invalidateQueries({ queryKey, exact: false }))),

@@ -43,10 +43,11 @@ export const useZoneCosts = (slug: string, zones: readonly MapZone[]) =>
     enabled: zones.some(({ rule }) => rule === "one_at_a_time"),
   });
 
-/** Change a zone; whatever comes of it, the map's zones are fetched anew. */
+/** Change a zone; whatever comes of it, the map's zones are fetched anew. Changes go out one after another. */
 export function useChangeZone(slug: string) {
   const queries = useQueryClient();
   return useMutation({
+    scope: { id: `zones ${slug}` },
     mutationFn: (change: ZoneChange) => send(slug, change),
     onSettled: () =>
       Promise.all(staleWithSiteMap(slug).map((queryKey) => queries.invalidateQueries({ queryKey, exact: false }))),
