@@ -6,16 +6,24 @@ import asyncio
 import re
 import ssl
 import stat
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import closing
+from email.message import EmailMessage
 from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 import websockets
+from aiosmtpd.controller import Controller
+from aiosmtpd.handlers import Message
+from aiosmtpd.smtp import SMTP, AuthResult, Envelope, LoginPassword, Session
 
 from tests.integration.wire.composed import Composed, running_composed, wait_open
+from tests.kit.files import ROOT
+from tests.kit.servers import free_port
 from tests.kit.sign_in import sign_in
 from tests.kit.waiting import wait_for
 from vipo_device.kit.pulse import beats
@@ -165,6 +173,57 @@ def test_the_broker_takes_nobody_without_a_password(site: Composed) -> None:
         client.start()
         assert client.wait_connected(10 if taken else 2) is taken
         client.stop()
+
+
+SEND = """
+import django
+django.setup()
+from registry import services as registry
+assert registry.can_mail()
+assert registry.send_mail(to="member@example.com", subject="1 comment", text="Warum? Grüße.")
+"""
+
+
+class Letters(Message):
+    """A mail server's memory: what it was given, and by whom."""
+
+    def __init__(self) -> None:
+        super().__init__(EmailMessage)
+        self.kept: list[EmailMessage] = []
+
+    def handle_message(self, message: EmailMessage) -> None:
+        self.kept.append(message)
+
+    def authenticate(
+        self, server: SMTP, session: Session, envelope: Envelope, mechanism: str, said: LoginPassword
+    ) -> AuthResult:
+        return AuthResult(success=said == LoginPassword(b"vipo", b"of the mail server"))
+
+
+@pytest.mark.filterwarnings("ignore:Requiring AUTH while not requiring TLS")  # on this machine alone
+@pytest.mark.parametrize("service", ["web-1", "rehearsals"])
+def test_whoever_sends_mail_signs_in_at_a_real_mail_server(site: Composed, service: str) -> None:
+    """Invitations come from a web process, comments from the worker of upkeep."""
+    given = site.environment(service)
+    assert given["VIPO_MAIL_HOST"] == ""
+    letters = Letters()
+    port = free_port()
+    controller = Controller(letters, "127.0.0.1", port, authenticator=letters.authenticate, auth_required=True,
+                            auth_require_tls=False)  # fmt: skip
+    controller.start()
+    try:
+        way = {"VIPO_MAIL_HOST": "127.0.0.1", "VIPO_MAIL_PORT": str(port), "VIPO_MAIL_TLS": "none",
+               "VIPO_MAIL_USER": "vipo", "VIPO_MAIL_PASSWORD": "of the mail server",
+               "VIPO_MAIL_FROM": "vipo@example.com"}  # fmt: skip
+        assert way.keys() <= given.keys()
+        command = [sys.executable, "-c", SEND]
+        done = subprocess.run(command, cwd=ROOT, env=given | way, capture_output=True, text=True)
+    finally:
+        controller.stop()
+    assert done.returncode == 0, done.stderr
+    assert [(each["From"], each["To"], each["Subject"]) for each in letters.kept] == [
+        ("vipo@example.com", "member@example.com", "1 comment")
+    ]
 
 
 def test_each_process_shows_that_it_lives(site: Composed) -> None:

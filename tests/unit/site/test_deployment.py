@@ -59,6 +59,18 @@ def test_a_setting_is_given_to_the_processes_of_the_deployment(name: str) -> Non
     assert {name, f"{name}_FILE"} & given
 
 
+def test_whoever_sends_mail_knows_the_mail_server() -> None:
+    """The web processes invite people; the worker of upkeep tells them of comments."""
+    upkeep = {name for name, service in SERVICES.items() if "upkeep" in " ".join(service.get("command", ()))}
+    senders = {name for name, service in SERVICES.items() if "VIPO_MAIL_HOST" in service.get("environment", {})}
+    assert senders == {"web-1", "web-2"} | upkeep
+    (settings,) = {
+        tuple(f"{key}={value}" for key, value in SERVICES[name]["environment"].items() if key.startswith("VIPO_MAIL"))
+        for name in senders
+    }
+    assert len(settings) == 6
+
+
 @pytest.mark.parametrize("name", sorted(set(re.findall(r"^#?(VIPO_(?:KEEP|REHEARSAL)\w+)=", EXAMPLE, re.M))))
 def test_a_limit_that_env_example_shows_is_that_of_the_settings(name: str) -> None:
     """Where the deployment has no other: rehearsals at once are two there, else as many as there are cores."""
