@@ -27,6 +27,8 @@ SYNC, AWARENESS, REFUSAL, QUERY_AWARENESS, SAVED, COMPILED = 0, 1, 2, 3, 100, 10
 STEP_1, STEP_2, UPDATE = 0, 1, 2
 
 MOST_FRAME_BYTES = 10 * 1024 * 1024
+MOST_UPDATE_BYTES = MOST_FRAME_BYTES
+"""Of one change; who comes back may send a whole document in one frame."""
 MOST_STATE_VECTOR_BYTES, MOST_STATE_VECTOR_CLIENTS = 512 * 1024, 25_000
 """A document has 20,000 at most; somebody may have some more who were never told."""
 MOST_AWARENESS_FRAME_BYTES = 2 * 1024 * 1024
@@ -122,7 +124,7 @@ def _decode_sync(reader: Reader) -> Message:
     if kind == STEP_2:
         return SyncStep2(reader.sized(MOST_FRAME_BYTES))
     if kind == UPDATE:
-        return Update(reader.sized(MOST_FRAME_BYTES))
+        return Update(reader.sized(MOST_UPDATE_BYTES))
     raise BadFrame(f"There is no sync message of type {kind}.")
 
 

@@ -6,6 +6,8 @@ from typing import Any
 
 from hypothesis import strategies as st
 
+from editor.language.constructs.table import CONSTRUCTS
+
 DEVICES = ("itemInventory01", "paintInventory01", "paintMixer02", "paintMachine01", "curingOven01", "dropOff01")
 ROLES = ("robot", "box_carrier", "paint_carrier", "bound")
 
@@ -183,6 +185,8 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "continue": st.just({}),
     "on_event": st.fixed_dictionaries({"condition": values, "starts": st.sampled_from(["branch", "run", None])}),
 }
+for construct in CONSTRUCTS.values():  # a kind that nobody wrote anything for has anything in its fields
+    PARAMS.setdefault(construct.kind, st.fixed_dictionaries({field.name: values for field in construct.fields}))
 corners = st.lists(st.one_of(st.tuples(numbers, numbers).map(list), st.just("x")), max_size=6)
 zones = st.dictionaries(
     st.sampled_from(["z1", "z2", "wet floor", 'Größe "9"', "robot"]),
