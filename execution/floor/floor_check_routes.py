@@ -12,8 +12,9 @@ from pydantic import Field
 
 from editor.language.site.surroundings import PlaceFacts
 from execution.errors import ExecutionError
-from execution.floor.floor_check import FindingCode, FloorCheck, check_floor
+from execution.floor.floor_check import Finding, FindingCode, FloorCheck, check_floor
 from execution.floor.layouts import get_layout, place_facts
+from execution.floor.remedies import CheckedFloor, find_remedies
 from execution.traffic.layout import DEFAULT_RADIUS_M, Layout, make_layout
 from registry import services as registry
 from registry.floorplan.plan import Grid
@@ -27,7 +28,8 @@ KEPT = 64
 """So many checks are kept, of all sites."""
 check_places = registry.Places(in_all=2, of_site=2, of_person=1, most_waiting=1)
 """Floors that are checked at once."""
-_kept: dict[tuple[str, float | None], tuple[Layout, FloorCheck]] = {}
+_kept: dict[tuple[str, float | None], tuple[Layout, CheckedFloor]] = {}
+"""Checks of sites by width, with the site's own layout at that time."""
 
 
 class TooManyChecks(ExecutionError):
@@ -35,6 +37,13 @@ class TooManyChecks(ExecutionError):
 
     code = "too_many_floor_checks"
     status = 429
+
+
+class NoSuchFinding(ExecutionError):
+    """The floor has no such finding, or none any more."""
+
+    code = "no_such_finding"
+    status = 404
 
 
 class FloorFindingShape(Schema):
@@ -92,6 +101,23 @@ class AskFloorCheck(Schema):
     width_m: float | None = Field(None, ge=LEAST_WIDTH_M, le=MOST_WIDTH_M)
 
 
+class AskRemedies(AskFloorCheck):
+    """For which finding of a floor check remedies are looked for."""
+
+    code: FindingCode
+    target: str = Field(max_length=64)
+    other: str | None = Field(None, max_length=64)
+
+
+class RemedyShape(Schema):
+    """A place or machine of the site (`target`) to move so many metres, to (`x`, `y`); then the finding is gone."""
+
+    target: str
+    x: float
+    y: float
+    by_m: float
+
+
 @router.get("/sites/{slug:site}/floor-check", response=FloorCheckShape)
 def get_floor_check(request: HttpRequest, site: str, asked: Query[AskFloorCheck]) -> dict[str, Any]:
     """Tell what robots cannot come to on a site's floor and why, and where one is in another's way.
@@ -102,20 +128,46 @@ def get_floor_check(request: HttpRequest, site: str, asked: Query[AskFloorCheck]
     registry.require(user, site, "viewer")
     refusal = TooManyChecks("Other floors are being checked, by you or others. Try again in a moment.")
     with check_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
-        return _check(site, asked.width_m)
+        floor = _check(site, asked.width_m)
+    robot = None if asked.width_m else _widest(floor.layout.devices.values())
+    return _to_json(floor.check, registry.get_map(site=site).version, robot)
 
 
-def _check(site: str, width_m: float | None) -> dict[str, Any]:
-    layout, floor = get_layout(site), registry.get_map(site=site)
+@router.get("/sites/{slug:site}/floor-check/remedies", response=list[RemedyShape])
+def list_remedies(request: HttpRequest, site: str, asked: Query[AskRemedies]) -> list[dict[str, Any]]:
+    """Return moves of a place or machine that would mend a finding, the least first.
+
+    Each was tried: the floor, checked anew with it, has lost the finding and got no other. None is told where no move
+    of a metre does that, and of what zones do.
+    """
+    user = signed_in(request)
+    registry.require(user, site, "admin")
+    refusal = TooManyChecks("Other floors are being checked, by you or others. Try again in a moment.")
+    with check_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
+        floor = _check(site, asked.width_m)
+        wanted = (asked.code, asked.target, asked.other)
+        finding = next((each for each in floor.check.findings if _key(each) == wanted), None)
+        if finding is None:
+            raise NoSuchFinding("The floor check finds this no more. Look at it anew.")
+        found = find_remedies(floor, finding)
+    return [{"target": each.target, "x": each.at[0], "y": each.at[1], "by_m": each.by_m} for each in found]
+
+
+def _key(finding: Finding) -> tuple[str, str, str | None]:
+    return finding.code, finding.target, _id_of(finding.other)
+
+
+def _check(site: str, width_m: float | None) -> CheckedFloor:
+    layout, grid = get_layout(site), registry.get_map(site=site).grid
     key = (site, width_m)
     kept = _kept.get(key)
     if kept is None or kept[0] is not layout:
-        places = [place_facts(place) for place in registry.list_places(site=site)]
-        found = check_floor(floor.grid, _for_width(layout, floor.grid, places, width_m), places)
+        places = tuple(place_facts(place) for place in registry.list_places(site=site))
+        laid = _for_width(layout, grid, places, width_m)
         if len(_kept) >= KEPT:
             _kept.clear()
-        kept = _kept[key] = (layout, found)
-    return _to_json(kept[1], floor.version, None if width_m else _widest(layout.devices.values()))
+        kept = _kept[key] = (layout, CheckedFloor(grid, laid, places, check_floor(grid, laid, places)))
+    return kept[1]
 
 
 def _for_width(layout: Layout, grid: Grid, places: Iterable[PlaceFacts], width_m: float | None) -> Layout:

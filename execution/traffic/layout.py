@@ -6,7 +6,7 @@ Spots are stations, docks, named places and points.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import sqrt
 
@@ -144,6 +144,13 @@ class Layout:
                 "The map's floor check says why."
             )
         raise NoSuchSpot(f"There is no device or place called “{target.id}” on this site.")
+
+    def with_place(self, place: PlaceFacts) -> Layout:
+        """Return the same floor with a place put elsewhere, on which robots drive as before."""
+        places = {name: spot for name, spot in self.places.items() if name != place.id}
+        theta = place.theta if place.kind == "dock" else None
+        _put(places, self.ground, self.lattice, place.id, (place.x, place.y), theta)
+        return replace(self, places=places)
 
     def point(self, node: Node) -> Point:
         """Return where a node is, in metres."""

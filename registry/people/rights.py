@@ -113,7 +113,8 @@ DEEDS = (
         "admin",
         """edit_device approve_device reject_device retire_device readmit_device rotate_credential revoke_credential
         confirm_topic withdraw_topic renew_enrolment_key reserve_device use_robot_map restore_map add_place edit_place
-        upload_map look_at_map read_drawing read_map_files remove_place add_zone edit_zone remove_zone patch_thing""",
+        upload_map look_at_map read_drawing read_map_files remove_place add_zone edit_zone remove_zone patch_thing
+        list_remedies""",
     ),
     _deed(
         "keep",

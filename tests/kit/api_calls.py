@@ -110,6 +110,7 @@ BODIES: dict[str, dict[str, Any]] = {
 }
 """What is sent, where an empty object does not say enough; a name in braces stands for an id."""
 QUERIES = {"ask": "?query=ASK+%7B%7D", "show_property_history": "?property=jobStatus", "compare_versions": "?old=1"}
+QUERIES |= {"list_remedies": "?code=no_room&target=none"}
 QUERIES |= {"compare_function": "?old=1", "compare_function_sides": "?old=1&site={slug}"}
 
 

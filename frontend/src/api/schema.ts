@@ -2009,6 +2009,29 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site}/floor-check/remedies": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Remedies
+         * @description Return moves of a place or machine that would mend a finding, the least first.
+         *
+         *     Each was tried: the floor, checked anew with it, has lost the finding and got no other. None is told where no move
+         *     of a metre does that, and of what zones do.
+         */
+        get: operations["list_remedies"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site}/map.building.yaml": {
         parameters: {
             query?: never;
@@ -4161,6 +4184,14 @@ export interface components {
         AskFloorCheck: {
             width_m?: number | null;
         };
+        /** @description For which finding of a floor check remedies are looked for. */
+        AskRemedies: {
+            /** @enum {string} */
+            code: "no_room" | "too_narrow" | "no_way" | "off_lattice" | "keep_out" | "cut_off" | "no_way_in" | "no_way_out" | "together" | "in_the_way";
+            other?: string | null;
+            target: string;
+            width_m?: number | null;
+        };
         /** @description Two ends of a way: `[x, y]` or a Place; in JSON the first is called `from`. */
         AskRoute: {
             from: [
@@ -6013,6 +6044,13 @@ export interface components {
             /** @enum {string} */
             status: "waiting" | "running" | "done" | "failed" | "skipped";
             step: string;
+        };
+        /** @description A place or machine of the site (`target`) to move so many metres, to (`x`, `y`); then the finding is gone. */
+        RemedyShape: {
+            by_m: number;
+            target: string;
+            x: number;
+            y: number;
         };
         /** @description What shall be restored: all, or constructs as [root, id], or single fields as paths. */
         RestoreAsked: {
@@ -12082,6 +12120,50 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["FloorCheckShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_remedies: {
+        parameters: {
+            query: {
+                width_m?: number | null;
+                code: "no_room" | "too_narrow" | "no_way" | "off_lattice" | "keep_out" | "cut_off" | "no_way_in" | "no_way_out" | "together" | "in_the_way";
+                target: string;
+                other?: string | null;
+            };
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RemedyShape"][];
                 };
             };
             400: components["responses"]["Refused400"];

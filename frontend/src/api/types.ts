@@ -33,6 +33,7 @@ export type Obstacle = Schemas["ObstacleShape"];
 export type ZoneCost = Schemas["ZoneCostShape"];
 export type FloorCheck = Schemas["FloorCheckShape"];
 export type FloorFinding = Schemas["FloorFindingShape"];
+export type FloorRemedy = Schemas["RemedyShape"];
 /** A map with its cells: row by row from the bottom row, 0 free, 100 wall, 255 unknown. */
 export type SiteMap = SiteMapInfo & { cells: Uint8Array };
 export type MapVersion = Schemas["MapVersionShape"];

@@ -109,7 +109,14 @@ function PlaceMark({ at }: { at: Point }) {
   return <circle cx={x} cy={y} r={30} fill="none" stroke="var(--brand)" strokeWidth={5} />;
 }
 
-function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | null }) {
+interface MapViewProps {
+  site: Site;
+  map: SiteMap;
+  mode: Mode | null;
+  change: (mode: Mode) => void;
+}
+
+function MapView({ site, map, mode, change }: MapViewProps) {
   const { t } = useTranslation();
   const navigate = useNavigate();
   const [query] = useSearchParams();
@@ -122,6 +129,10 @@ function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | n
   const movable = mode === "machines" ? devices.filter((device) => device.kind === "machine") : [];
   const bare = useMemo(() => ({ ...map, places: [] }), [map]);
   const cleared = useMemo(() => ({ ...map, obstacles: [] }), [map]);
+  const editZone = (zone: string | null) => {
+    zones.select(zone);
+    change("zones");
+  };
   const open = (id: string) => void navigate(`/sites/${site.slug}/devices/${id}`);
   return (
     <div className={styles.page}>
@@ -143,14 +154,16 @@ function MapView({ site, map, mode }: { site: Site; map: SiteMap; mode: Mode | n
           {mode === "places" ? <PlaceHandles slug={site.slug} map={map} places={places} /> : null}
           {mode === "zones" ? <ZoneHandles slug={site.slug} map={map} zones={zones} /> : null}
           {mode === "obstacles" ? <ObstacleHandles map={map} editing={obstacles} /> : null}
-          {mode === null ? <FloorCheckMarks view={check} /> : null}
+          {mode === null ? <FloorCheckMarks map={map} devices={devices} view={check} /> : null}
           {asked && mode !== "places" ? <PlaceMark at={[asked.x, asked.y]} /> : null}
         </StaticMap>
       </Panel>
       <Panel className={styles.about}>
         {mode === "machines" ? <p id="placing-help">{t("placing.help")}</p> : null}
         {mode === null || mode === "machines" ? <About map={map} /> : null}
-        {mode === null ? <FloorCheckPanel slug={site.slug} map={map} view={check} /> : null}
+        {mode === null ? (
+          <FloorCheckPanel slug={site.slug} map={map} view={check} editZone={site.role === "admin" ? editZone : null} />
+        ) : null}
         {mode === null || mode === "obstacles" ? (
           <ObstaclesPanel map={map} editing={mode === "obstacles" ? obstacles : null} />
         ) : null}
@@ -201,7 +214,7 @@ export function MapPage() {
     >
       {problem ? <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), map.refetch()])} /> : null}
       {!problem && !map.data && site.data?.has_map !== false ? <Skeleton height="100%" radius="lg" /> : null}
-      {site.data && map.data ? <MapView site={site.data} map={map.data} mode={mode} /> : null}
+      {site.data && map.data ? <MapView site={site.data} map={map.data} mode={mode} change={setMode} /> : null}
       {site.data?.has_map === false ? (
         <Panel>
           <EmptyState icon={<MapPinned size={20} />} title={t("pages.map.none")} text={t("pages.map.noneText")}>

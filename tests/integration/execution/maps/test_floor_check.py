@@ -1,11 +1,13 @@
 """The floor check over HTTP: who may ask, for which widths, and when it is worked out anew."""
 
+import json
+
 import pytest
 
 from execution.floor import floor_check_routes as routes
 from registry import services as registry
 from tests.kit.programs import SITE
-from tests.kit.sign_in import from_role, sign_in_member
+from tests.kit.sign_in import below_role, from_role, sign_in_member
 
 pytestmark = pytest.mark.django_db(transaction=True)
 CHECK = f"/api/sites/{SITE}/floor-check"
@@ -97,3 +99,71 @@ def test_who_has_a_check_under_way_waits_for_a_moment_and_is_told(viewer, monkey
     finally:
         routes.check_places.give_back(person)
     assert viewer.get(CHECK).status_code == 200
+
+
+REMEDIES = f"{CHECK}/remedies"
+
+
+@pytest.fixture
+def admin(factory):
+    return sign_in_member("admin", SITE)
+
+
+def put_spare_dock(at_m=0.5):
+    """A dock half a metre beside the first one: no two robots stand there at once."""
+    first = next(place for place in registry.list_places(site=SITE) if place.kind == "dock")
+    change = registry.PlaceChange(name="Spare dock", kind="dock", x=first.x - at_m, y=first.y)
+    return first, registry.add_place(site=SITE, place=change)
+
+
+def test_a_remedy_mends_what_was_found_when_it_is_done(admin):
+    first, spare = put_spare_dock()
+    (finding,) = [each for each in admin.get(CHECK).json()["findings"] if each["code"] == "together"]
+    asked = {"code": "together", "target": finding["target"], "other": finding["other"]}
+    assert {finding["target"], finding["other"]} == {first.id, spare.id}
+    remedies = admin.get(REMEDIES, asked).json()
+    assert [each["by_m"] for each in remedies] == sorted(each["by_m"] for each in remedies)
+    best = remedies[0]
+    change = {"x": best["x"], "y": best["y"]}
+    path = f"/api/sites/{SITE}/places/{best['target']}"
+    assert admin.patch(path, json.dumps(change), content_type="application/json").status_code == 200
+    assert admin.get(CHECK).json()["findings"] == []
+    gone = admin.get(REMEDIES, asked)
+    assert (gone.status_code, gone.json()["code"]) == (404, "no_such_finding")
+
+
+def test_remedies_are_looked_for_at_the_width_that_was_asked_for(admin):
+    found = admin.get(f"{CHECK}?width_m=0.8").json()["findings"]
+    (finding, *_) = [each for each in found if each["code"] == "together"]
+    asked = {"code": "together", "target": finding["target"], "other": finding["other"]}
+    assert admin.get(REMEDIES, asked).status_code == 404  # there is none at the site's own width
+    assert admin.get(REMEDIES, asked | {"width_m": 0.8}).json()
+
+
+def test_what_a_zone_does_has_no_remedy_by_moving(admin):
+    registry.add_zone(site=SITE, zone=registry.ZoneChange(name="Spill", rule="keep_out", points=SPILL))
+    (finding, *_) = [e for e in admin.get(CHECK).json()["findings"] if e["code"] in ("keep_out", "cut_off")]
+    asked = {"code": finding["code"], "target": finding["target"], "other": finding["other"]}
+    asked = {name: value for name, value in asked.items() if value is not None}
+    assert admin.get(REMEDIES, asked).json() == []
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [{}, {"code": "no_room"}, {"code": "odd", "target": "a"}, {"code": "no_room", "target": "a" * 65},
+     {"code": "no_room", "target": "a", "width_m": 9}],
+)  # fmt: skip
+def test_a_question_for_remedies_that_says_too_little_or_too_much_is_refused(admin, asked):
+    assert admin.get(REMEDIES, asked).status_code == 422
+
+
+@pytest.mark.parametrize("role", below_role("admin"))
+def test_only_who_may_move_things_asks_for_remedies(factory, role):
+    answer = sign_in_member(role, SITE).get(REMEDIES, {"code": "no_room", "target": "a"})
+    assert answer.status_code == 403
+
+
+def test_strangers_ask_for_no_remedies(factory, client):
+    asked = {"code": "no_room", "target": "a"}
+    assert sign_in_member("stranger", SITE).get(REMEDIES, asked).status_code == 404
+    assert client.get(REMEDIES, asked).status_code == 401

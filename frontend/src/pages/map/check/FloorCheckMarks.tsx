@@ -1,18 +1,27 @@
 /** The findings of a floor check on the map: their numbers where they are, and how wide the chosen one's way is. */
-import type { FloorFinding } from "@/api/types";
+import type { Device, FloorFinding, FloorRemedy, SiteMap } from "@/api/types";
+import { footprint } from "@/map/devices/device";
 import { toPixels, type Point } from "@/map/plane/projection";
 import styles from "./check.module.css";
 import { isError, keyOf, metres } from "./findingWords";
 import type { FloorCheckView } from "./useFloorCheckView";
 
 const RADIUS = 11;
+const PLACE = { width: 34, height: 34 };
 
-export function FloorCheckMarks({ view }: { view: FloorCheckView }) {
-  const { check, chosen } = view;
+interface FloorCheckMarksProps {
+  map: SiteMap;
+  devices: readonly Device[];
+  view: FloorCheckView;
+}
+
+export function FloorCheckMarks({ map, devices, view }: FloorCheckMarksProps) {
+  const { check, chosen, ghost } = view;
   if (!check) return null;
   return (
     <g aria-hidden="true" className={styles.marks}>
       {chosen ? <Width finding={chosen} /> : null}
+      {ghost ? <Ghost map={map} devices={devices} remedy={ghost} /> : null}
       {check.findings.map((finding, index) => (
         <Mark key={keyOf(finding)} finding={finding} number={index + 1} isChosen={finding === chosen} />
       ))}
@@ -46,6 +55,21 @@ function Width({ finding: { sides, width_m } }: { finding: FloorFinding }) {
       <text x={(a.x + b.x) / 2 + RADIUS * 2} y={(a.y + b.y) / 2 + 24}>
         {metres(width_m)}
       </text>
+    </g>
+  );
+}
+
+/** Where a place or machine would stand, and from where it comes. */
+function Ghost({ map, devices, remedy }: { map: SiteMap; devices: readonly Device[]; remedy: FloorRemedy }) {
+  const machine = devices.find(({ id }) => id === remedy.target);
+  const stands = machine?.location ?? map.places.find(({ id }) => id === remedy.target);
+  if (!stands) return null;
+  const [from, to] = [toPixels([stands.x, stands.y]), toPixels([remedy.x, remedy.y])];
+  const { width, height } = machine ? footprint(machine) : PLACE;
+  return (
+    <g className={styles.ghost} data-ghost={remedy.target}>
+      <line x1={from.x} y1={from.y} x2={to.x} y2={to.y} />
+      <rect x={to.x - width / 2} y={to.y - height / 2} width={width} height={height} rx={6} />
     </g>
   );
 }

@@ -1,6 +1,7 @@
 /** What robots cannot come to on this floor and why, as a list; each finding has its number on the map. */
 import { Button, NumberInput, Skeleton } from "@mantine/core";
 import { CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
+import { useRef } from "react";
 import { useTranslation } from "react-i18next";
 import { useDevices, usePrograms } from "@/api/queries";
 import type { FloorCheck, FloorFinding, SiteMap } from "@/api/types";
@@ -9,21 +10,28 @@ import { problemText } from "@/shell/LoadProblem";
 import places from "../places/places.module.css";
 import styles from "./check.module.css";
 import { findingWords, isError, keyOf, metres } from "./findingWords";
+import { Remedies } from "./Remedies";
 import type { FloorCheckView } from "./useFloorCheckView";
 
 interface FloorCheckPanelProps {
   slug: string;
   map: SiteMap;
   view: FloorCheckView;
+  /** Changes the zones of the map, this one first; null for who may not. */
+  editZone: ((zone: string | null) => void) | null;
 }
 
-export function FloorCheckPanel({ slug, map, view }: FloorCheckPanelProps) {
+export function FloorCheckPanel(props: FloorCheckPanelProps) {
+  const { view } = props;
   const { t } = useTranslation();
   const { check, error } = view;
+  const head = useRef<HTMLHeadingElement>(null);
   return (
     <section aria-labelledby="floor-check" aria-busy={view.isChecking}>
       <div className={styles.head}>
-        <h2 id="floor-check">{t("floorCheck.floorCheck")}</h2>
+        <h2 id="floor-check" ref={head} tabIndex={-1}>
+          {t("floorCheck.floorCheck")}
+        </h2>
         {check ? <Counts findings={check.findings} /> : null}
       </div>
       <NumberInput
@@ -48,7 +56,7 @@ export function FloorCheckPanel({ slug, map, view }: FloorCheckPanelProps) {
         </div>
       ) : null}
       {!check && !error ? <Skeleton height={72} /> : null}
-      {check ? <Found slug={slug} map={map} check={check} view={view} /> : null}
+      {check ? <Found {...props} check={check} leave={() => head.current?.focus()} /> : null}
     </section>
   );
 }
@@ -65,7 +73,13 @@ function Counts({ findings }: { findings: readonly FloorFinding[] }) {
   );
 }
 
-function Found({ slug, map, check, view }: FloorCheckPanelProps & { check: FloorCheck }) {
+interface FoundProps extends FloorCheckPanelProps {
+  check: FloorCheck;
+  /** Goes on at the head of the list: a finding that is mended leaves it. */
+  leave: () => void;
+}
+
+function Found({ slug, map, check, view, editZone, leave }: FoundProps) {
   const { t } = useTranslation();
   const devices = useDevices(slug).data ?? [];
   const names = new Map([...devices, ...map.places, ...map.zones].map(({ id, name }) => [id, name]));
@@ -89,6 +103,17 @@ function Found({ slug, map, check, view }: FloorCheckPanelProps & { check: Floor
               nameOf={nameOf}
               view={view}
             />
+            {editZone && view.chosen === finding ? (
+              <Remedies
+                slug={slug}
+                map={map}
+                finding={finding}
+                nameOf={nameOf}
+                view={view}
+                editZone={editZone}
+                leave={leave}
+              />
+            ) : null}
           </li>
         ))}
       </ol>

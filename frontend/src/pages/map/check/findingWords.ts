@@ -8,6 +8,11 @@ const MAY_BE_SO: readonly FloorFinding["code"][] = ["keep_out", "together", "in_
 
 export const isError = ({ code }: Pick<FloorFinding, "code">) => !MAY_BE_SO.includes(code);
 
+const BY_ZONE: readonly FloorFinding["code"][] = ["keep_out", "cut_off", "no_way_in", "no_way_out"];
+
+/** What the site's zones do, so that it is mended where they are drawn. */
+export const byZone = ({ code }: Pick<FloorFinding, "code">) => BY_ZONE.includes(code);
+
 /** Tells a finding from all others of a check. */
 export const keyOf = ({ code, target, other }: FloorFinding) => `${code} ${target} ${other ?? ""}`;
 
