@@ -13,6 +13,7 @@ import { useSize } from "./plane/useSize";
 import { RobotLayer } from "./robots/RobotLayer";
 import type { RobotSource } from "./robots/robots";
 import { ViewportCell } from "./plane/viewport";
+import { ZoomContext } from "./plane/zoom";
 
 const QUIET: FloorDetail = { rulers: false, labels: false, grid: true };
 const NAMED: FloorDetail = { rulers: false, labels: true, grid: true };
@@ -65,7 +66,7 @@ export function StaticMap(props: StaticMapProps) {
               stop={device.id === stop}
             />
           ))}
-          {props.children}
+          <ZoomContext value={view.zoom}>{props.children}</ZoomContext>
         </g>
       </svg>
       {props.robots ? <RobotLayer source={props.robots} viewport={cell} isTaken={nowhere} /> : null}

@@ -7,6 +7,8 @@ test("an arrow key moves a machine by 0.1 m, with Shift by 1 m", () => {
   expect(nudge([2, 3], "ArrowUp", false)).toEqual([2, 3.1]);
   expect(nudge([2, 3], "ArrowLeft", true)).toEqual([1, 3]);
   expect(nudge([2, 3], "Enter", false)).toBeNull();
+  expect(nudge([2, 3], "ArrowRight", false, [0.05, 0.5])).toEqual([2.05, 3]);
+  expect(nudge([2, 3], "ArrowDown", true, [0.05, 0.5])).toEqual([2, 2.5]);
 });
 
 test("a machine stays on the map, to the centimetre", () => {

@@ -11,11 +11,16 @@ const WAYS: Readonly<Record<string, Point>> = {
   ArrowDown: [0, -1],
 };
 
-/** The point one step further in the key's direction (metres, y up); null for any other key. */
-export function nudge([x, y]: Point, key: string, leap: boolean): Point | null {
+/** The point one step further in the key's direction (metres, y up), a short or a long one; null for any other key. */
+export function nudge(
+  [x, y]: Point,
+  key: string,
+  leap: boolean,
+  [short, long]: Point = [STEP_M, LEAP_M],
+): Point | null {
   const direction = WAYS[key];
   if (!direction) return null;
-  const step = leap ? LEAP_M : STEP_M;
+  const step = leap ? long : short;
   return [x + direction[0] * step, y + direction[1] * step];
 }
 

@@ -12,6 +12,7 @@ export function EditMapButton({ slug }: { slug: string }) {
       component={Link}
       to={`/sites/${slug}/map/edit`}
       variant="default"
+      title={t("mapEdit.edit")}
       classNames={{ label: styles.actionLabel ?? "", section: styles.actionIcon ?? "" }}
       leftSection={<PencilRuler size={16} aria-hidden="true" />}
     >

@@ -49,6 +49,7 @@ export function MapExports({ slug }: { slug: string }) {
         <Button
           variant="default"
           loading={isPending}
+          title={t("mapExport.title")}
           classNames={{ label: styles.actionLabel ?? "", section: styles.actionIcon ?? "" }}
           leftSection={<Download size={16} aria-hidden="true" />}
         >

@@ -25,6 +25,10 @@ import { MapExports } from "./MapExports";
 import styles from "./MapPage.module.css";
 import { MappingRobots } from "./MappingRobots";
 import { MapVersions } from "./MapVersions";
+import { MeasureButton } from "./measure/MeasureButton";
+import { MeasurePanel } from "./measure/MeasurePanel";
+import { MeasureTool } from "./measure/MeasureTool";
+import { useMeasuring } from "./measure/useMeasuring";
 import { ObstacleHandles } from "./obstacles/ObstacleHandles";
 import { ObstaclesPanel } from "./obstacles/ObstaclesPanel";
 import { useObstacles } from "./obstacles/useObstacles";
@@ -114,9 +118,11 @@ interface MapViewProps {
   map: SiteMap;
   mode: Mode | null;
   change: (mode: Mode) => void;
+  /** Ends measuring; null while nobody measures. */
+  stopMeasuring: (() => void) | null;
 }
 
-function MapView({ site, map, mode, change }: MapViewProps) {
+function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
   const { t } = useTranslation();
   const navigate = useNavigate();
   const [query] = useSearchParams();
@@ -126,6 +132,7 @@ function MapView({ site, map, mode, change }: MapViewProps) {
   const check = useFloorCheckView(site.slug, map, mode === null);
   const asked = map.places.find((each) => each.id === query.get("place"));
   const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
+  const measure = useMeasuring(map, devices, stopMeasuring !== null);
   const movable = mode === "machines" ? devices.filter((device) => device.kind === "machine") : [];
   const bare = useMemo(() => ({ ...map, places: [] }), [map]);
   const cleared = useMemo(() => ({ ...map, obstacles: [] }), [map]);
@@ -145,7 +152,7 @@ function MapView({ site, map, mode, change }: MapViewProps) {
           )}
           named
           selected={query.get("device")}
-          onSelect={mode === null || mode === "machines" ? open : undefined}
+          onSelect={!stopMeasuring && (mode === null || mode === "machines") ? open : undefined}
           label={t("pages.map.of", { site: site.name })}
         >
           {movable.map((device) => (
@@ -156,9 +163,11 @@ function MapView({ site, map, mode, change }: MapViewProps) {
           {mode === "obstacles" ? <ObstacleHandles map={map} editing={obstacles} /> : null}
           {mode === null ? <FloorCheckMarks map={map} devices={devices} view={check} /> : null}
           {asked && mode !== "places" ? <PlaceMark at={[asked.x, asked.y]} /> : null}
+          {stopMeasuring ? <MeasureTool map={map} view={measure} stop={stopMeasuring} /> : null}
         </StaticMap>
       </Panel>
       <Panel className={styles.about}>
+        {stopMeasuring ? <MeasurePanel measuring={measure.measuring} /> : null}
         {mode === "machines" ? <p id="placing-help">{t("placing.help")}</p> : null}
         {mode === null || mode === "machines" ? <About map={map} /> : null}
         {mode === null ? (
@@ -195,7 +204,9 @@ export function MapPage() {
   const site = useSite(slug);
   const map = useSiteMap(site.data?.has_map ? slug : undefined);
   const [query] = useSearchParams();
-  const [mode, setMode] = useState<Mode | null>(query.has("places") ? "places" : null);
+  const [mode, setMode] = useState<Mode | "measure" | null>(query.has("places") ? "places" : null);
+  const isMeasuring = mode === "measure";
+  const editing = isMeasuring ? null : mode;
   const modes = useModes(site.data);
   const problem = missing(site, map);
   return (
@@ -205,7 +216,8 @@ export function MapPage() {
       actions={
         map.data ? (
           <>
-            <ModeButtons allowed={modes} mode={mode} change={setMode} />
+            <ModeButtons allowed={modes} mode={editing} change={setMode} />
+            <MeasureButton isOn={isMeasuring} toggle={() => setMode(isMeasuring ? null : "measure")} />
             {site.data?.role === "admin" ? <EditMapButton slug={slug} /> : null}
             <MapExports slug={slug} />
           </>
@@ -214,7 +226,15 @@ export function MapPage() {
     >
       {problem ? <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), map.refetch()])} /> : null}
       {!problem && !map.data && site.data?.has_map !== false ? <Skeleton height="100%" radius="lg" /> : null}
-      {site.data && map.data ? <MapView site={site.data} map={map.data} mode={mode} change={setMode} /> : null}
+      {site.data && map.data ? (
+        <MapView
+          site={site.data}
+          map={map.data}
+          mode={editing}
+          change={setMode}
+          stopMeasuring={isMeasuring ? () => setMode(null) : null}
+        />
+      ) : null}
       {site.data?.has_map === false ? (
         <Panel>
           <EmptyState icon={<MapPinned size={20} />} title={t("pages.map.none")} text={t("pages.map.noneText")}>

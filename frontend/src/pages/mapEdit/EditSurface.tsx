@@ -9,6 +9,7 @@ import { planBox } from "@/map/floor/floor";
 import type { CellMap } from "@/map/floor/rosFiles";
 import { toPixels, type Point } from "@/map/plane/projection";
 import { useSize } from "@/map/plane/useSize";
+import { CrossHair } from "../map/measure/marks";
 import styles from "./mapEdit.module.css";
 import { StrokeShape } from "./StrokeShape";
 import { ToolRail } from "./ToolRail";
@@ -99,13 +100,4 @@ function centre(point: Point) {
 function Frame({ map }: { map: Parameters<typeof planBox>[0] }) {
   const { left, top, right, bottom } = planBox(map);
   return <rect className={styles.frame} x={left} y={top} width={right - left} height={bottom - top} />;
-}
-
-function CrossHair({ at, zoom }: { at: Point; zoom: number }) {
-  const { x, y } = toPixels(at);
-  return (
-    <g transform={`translate(${String(x)} ${String(y)}) scale(${String(1 / zoom)})`} className={styles.cross}>
-      <path d="M-14 0H-3M3 0H14M0 -14V-3M0 3V14" />
-    </g>
-  );
 }

@@ -9,8 +9,8 @@ import type { Point } from "@/map/plane/projection";
 import { rescale, type Material } from "./cells/edits";
 import { eraseSpecks } from "./cells/specks";
 import { turnBy, turnQuarter } from "./cells/turning";
+import { lengthOf } from "../map/measure/measuring";
 import styles from "./mapEdit.module.css";
-import { lengthOf } from "./StrokeShape";
 import type { Settings } from "./tools";
 
 interface PanelProps {

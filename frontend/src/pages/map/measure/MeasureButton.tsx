@@ -1,0 +1,28 @@
+/** Begins and ends measuring on the map, for everybody who sees it; M. */
+import { Button } from "@mantine/core";
+import { Ruler } from "lucide-react";
+import { useTranslation } from "react-i18next";
+import page from "../MapPage.module.css";
+import { usePageKey } from "./usePageKey";
+
+/** The id of the button, where the focus is when measuring ends. */
+export const MEASURE_BUTTON = "measure-button";
+
+export function MeasureButton({ isOn, toggle }: { isOn: boolean; toggle: () => void }) {
+  const { t } = useTranslation();
+  usePageKey("m", toggle);
+  return (
+    <Button
+      id={MEASURE_BUTTON}
+      variant={isOn ? "filled" : "default"}
+      aria-pressed={isOn}
+      aria-keyshortcuts="M"
+      title={t("measure.withKey")}
+      classNames={{ label: page.actionLabel ?? "", section: page.actionIcon ?? "" }}
+      leftSection={<Ruler size={16} aria-hidden="true" />}
+      onClick={toggle}
+    >
+      {t("measure.measure")}
+    </Button>
+  );
+}

@@ -1,0 +1,30 @@
+/** A key of a whole page, wherever the focus is. */
+import { useEffect, useRef } from "react";
+import { isTyping } from "@/editor/state/focus";
+
+/** `key` as the event names it, a letter small; `act` is called at each press that means nothing else. */
+export function usePageKey(key: string, act: () => void): void {
+  const latest = useRef(act);
+  useEffect(() => {
+    latest.current = act;
+  });
+  useEffect(() => {
+    const press = (event: KeyboardEvent) => {
+      const pressed = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+      if (pressed !== key || isHeld(event) || isTaken(event.target)) return;
+      event.preventDefault();
+      latest.current();
+    };
+    // Before a menu hears it, which would be gone by then.
+    window.addEventListener("keydown", press, { capture: true });
+    return () => window.removeEventListener("keydown", press, { capture: true });
+  }, [key]);
+}
+
+const isHeld = (event: KeyboardEvent): boolean =>
+  event.ctrlKey || event.metaKey || event.altKey || event.shiftKey || event.repeat || event.isComposing;
+
+/** Whoever types, chooses from a menu or answers a dialog means that. */
+function isTaken(target: EventTarget | null): boolean {
+  return isTyping(target) || document.querySelector("[role=dialog], [role=alertdialog], [role=menu]") !== null;
+}
