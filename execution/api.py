@@ -14,6 +14,7 @@ from execution.errors import NotFound, NoWay
 from execution.floor.admission_routes import router as admission_router
 from execution.floor.exports.routes import router as exports_router
 from execution.floor.floor_check_routes import router as floor_check_router
+from execution.floor.floor_use_routes import router as floor_use_router
 from execution.floor.map_routes import router as map_router
 from execution.mirror.measurements import list_of_run
 from execution.mirror.routes import router as mirror_router
@@ -65,6 +66,7 @@ router = Router(tags=["execution"])
 router.add_router("", admission_router)
 router.add_router("", zone_costs_router)
 router.add_router("", floor_check_router)
+router.add_router("", floor_use_router)
 router.add_router("", map_router)
 router.add_router("", exports_router)
 router.add_router("", mirror_router)

@@ -70,7 +70,7 @@ DEEDS = (
         sample_of_device list_programs ask post_query list_things watch_things show_thing read_expression
         show_values show_value watch_value await_next_value query_action list_threads show_thread mark_thread_read
         list_tests export_tests show_test show_version_tests show_test_run compare_function_sides
-        list_awaited_admissions list_zone_costs get_floor_check""",
+        list_awaited_admissions list_zone_costs get_floor_check get_floor_use""",
     ),
     _deed("stop", "viewer", "operate", "press_stop"),
     _deed("own", "viewer", "session", "list_tokens show_token create_token revoke_token list_members leave_site"),

@@ -2032,6 +2032,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site}/floor-use": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Floor Use
+         * @description Tell where robots drove in the site's runs of the last days, and what waiting before its zones cost.
+         *
+         *     It may be a minute old.
+         */
+        get: operations["get_floor_use"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site}/map.building.yaml": {
         parameters: {
             query?: never;
@@ -4184,6 +4206,13 @@ export interface components {
         AskFloorCheck: {
             width_m?: number | null;
         };
+        /** @description Over how many days until now, and where they begin: so many minutes before those of UTC. */
+        AskFloorUse: {
+            /** @default 7 */
+            days: number;
+            /** @default 0 */
+            utc_offset_min: number;
+        };
         /** @description For which finding of a floor check remedies are looked for. */
         AskRemedies: {
             /** @enum {string} */
@@ -4891,6 +4920,27 @@ export interface components {
             width_m: number | null;
             x: number;
             y: number;
+        };
+        /**
+         * @description How a floor was used in the runs of the last `days`; `runs` is how many were counted.
+         *
+         *     `is_cut` says that there were more: the newest 500 are counted, and of their journals the newest 20,000 lines.
+         *     `heat` is how often robots drove through a square of `square_m` metres: (column, row, drives), the square (0, 0)
+         *     with its lower left corner in the origin of the map's frame, for those where any did. Runs in an archive do not
+         *     count.
+         */
+        FloorUseShape: {
+            days: number;
+            heat: [
+                number,
+                number,
+                number
+            ][];
+            is_cut: boolean;
+            runs: number;
+            square_m: number;
+            utc_offset_min: number;
+            zones: components["schemas"]["ZoneUseShape"][];
         };
         /** @description Where each robot was, every `dt_s`: x, y, theta. */
         Frames: {
@@ -6948,6 +6998,18 @@ export interface components {
         };
         /** @description A zone of the program. */
         ZoneUse: {
+            zone: string;
+        };
+        /**
+         * @description How often anybody waited before a zone for so many robots at once, and for how many seconds in all.
+         *
+         *     `busiest_min` is where the half hour of the day begins in which the most waiting was, all days together: minutes
+         *     since midnight at `utc_offset_min`, in steps of ten; null where nobody waited.
+         */
+        ZoneUseShape: {
+            busiest_min: number | null;
+            waited_s: number;
+            waits: number;
             zone: string;
         };
         /** @description How long robots waited before a zone for so many at once; `mark` tells whether it is as it was then. */
@@ -12164,6 +12226,48 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RemedyShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_floor_use: {
+        parameters: {
+            query?: {
+                days?: number;
+                utc_offset_min?: number;
+            };
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FloorUseShape"];
                 };
             };
             400: components["responses"]["Refused400"];
