@@ -31,6 +31,8 @@ export type MapZone = Schemas["SiteZoneShape"];
 export type Obstacle = Schemas["ObstacleShape"];
 /** What a zone for so many robots at once cost in rehearsals. */
 export type ZoneCost = Schemas["ZoneCostShape"];
+/** Where robots drove in runs, and what waiting before zones cost. */
+export type FloorUse = Schemas["FloorUseShape"];
 export type FloorCheck = Schemas["FloorCheckShape"];
 export type FloorFinding = Schemas["FloorFindingShape"];
 export type FloorRemedy = Schemas["RemedyShape"];

@@ -1,6 +1,15 @@
 import i18next from "i18next";
-import { beforeEach, expect, test } from "vitest";
-import { formatAge, formatAgo, formatClock, formatNumber, formatPoint, formatSpan, withUnit } from "./format";
+import { beforeEach, expect, test, vi } from "vitest";
+import {
+  formatAge,
+  formatAgo,
+  formatClock,
+  formatNumber,
+  formatPoint,
+  formatSpan,
+  formatTimeOfDay,
+  withUnit,
+} from "./format";
 import { unitSign } from "./units";
 
 const NOW = Date.parse("2026-01-10T12:00:00Z");
@@ -81,4 +90,11 @@ test("units are shown as people read them, strange ones as they come", () => {
     "furlong",
     "",
   ]);
+});
+
+test("a time of day is written as the language has it, in whatever zone the browser is", async () => {
+  vi.stubGlobal("navigator", { languages: ["en-GB", "de-DE"] });
+  expect(formatTimeOfDay(370)).toBe("06:10");
+  await i18next.changeLanguage("de");
+  expect([370, 0, 1430].map(formatTimeOfDay)).toEqual(["06:10", "00:00", "23:50"]);
 });

@@ -94,6 +94,12 @@ export function formatTime(iso: string): string {
   return new Intl.DateTimeFormat(region(), { timeStyle: "short" }).format(new Date(iso));
 }
 
+/** `06:10` out of minutes since midnight, as the times of day of `formatTime` are written. */
+export function formatTimeOfDay(minutes: number): string {
+  const format = new Intl.DateTimeFormat(region(), { timeStyle: "short", timeZone: "UTC" });
+  return format.format(new Date(minutes * 60_000));
+}
+
 /** The day alone, written out. */
 export function formatDay(iso: string): string {
   return new Intl.DateTimeFormat(region(), { dateStyle: "long" }).format(new Date(iso));

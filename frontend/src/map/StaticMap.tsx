@@ -6,6 +6,7 @@ import { boxOfDevices, NAME_SIZE, nameOnMap, nameSize } from "./devices/framing"
 import { type FloorPlan, knownBox } from "./floor/floor";
 import { FloorCanvas } from "./floor/FloorCanvas";
 import type { FloorDetail } from "./floor/floorPainter";
+import type { Heat } from "./floor/heatPainter";
 import classes from "./map.module.css";
 import { PathLine } from "./PathLine";
 import { type Box, fitViewport, type Point, toPixels, type Viewport } from "./plane/projection";
@@ -32,6 +33,8 @@ export interface StaticMapProps {
   label: string;
   /** Robots that move, instead of standing among the devices. */
   robots?: RobotSource;
+  /** How often robots drove where, drawn on the floor. */
+  heat?: Heat | null;
   /** More to draw in drawing pixels, above the devices. */
   children?: ReactNode;
 }
@@ -50,7 +53,7 @@ export function StaticMap(props: StaticMapProps) {
   const stop = (devices.find((device) => device.id === props.selected) ?? devices[0])?.id;
   return (
     <div ref={element} className={classes.static} role="group" aria-label={label}>
-      <FloorCanvas plan={plan} viewport={cell} detail={named ? NAMED : QUIET} />
+      <FloorCanvas plan={plan} viewport={cell} detail={named ? NAMED : QUIET} heat={props.heat} />
       <svg className={classes.still} aria-hidden={props.onSelect || props.children ? undefined : true}>
         <g transform={`translate(${view.x} ${view.y}) scale(${view.zoom})`}>
           {routes.map((route, index) => (

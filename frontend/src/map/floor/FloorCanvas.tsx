@@ -3,6 +3,7 @@ import { useCallback, useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { FloorPlan } from "./floor";
 import { floorShapes, paintFloor, type FloorDetail } from "./floorPainter";
+import type { Heat } from "./heatPainter";
 import classes from "../map.module.css";
 import type { Palette } from "../plane/palette";
 import { useZonesAt } from "./openZones";
@@ -17,16 +18,18 @@ export function FloorCanvas({
   plan,
   viewport,
   detail = FULL,
+  heat = null,
 }: {
   plan: FloorPlan | null;
   viewport: ViewportSource;
   detail?: FloorDetail;
+  heat?: Heat | null;
 }) {
   const { t } = useTranslation();
   const zones = plan?.zones;
   const at = useZonesAt(zones);
   const signs = useMemo(() => (zones ?? []).map((zone) => zoneSign(zone, signWords(zone, t, at), at)), [zones, t, at]);
-  const shapes = useMemo(() => (plan ? floorShapes(plan, signs) : null), [plan, signs]);
+  const shapes = useMemo(() => (plan ? floorShapes(plan, signs, heat) : null), [plan, signs, heat]);
   const paint = useCallback(
     (canvas: CanvasRenderingContext2D, size: { width: number; height: number }, palette: Palette) =>
       paintFloor(canvas, size, palette, shapes, viewport.get(), detail),

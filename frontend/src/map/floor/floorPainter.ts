@@ -2,6 +2,7 @@
 import { cellBoxToPixels, knownBox, mergeCells, type FloorPlan } from "./floor";
 import type { Palette } from "../plane/palette";
 import { PIXELS_PER_METRE, toPixels, type Box, type Viewport } from "../plane/projection";
+import { paintHeat, type Heat } from "./heatPainter";
 import { paintObstacles } from "./obstaclePainter";
 import { paintZones, paintZoneTags, type ZoneSign } from "./zonePainter";
 
@@ -11,6 +12,8 @@ export interface FloorShapes {
   readonly walls: Path2D;
   readonly box: Box;
   readonly zones: readonly ZoneSign[];
+  /** How often robots drove where; null where nobody asks. */
+  readonly heat: Heat | null;
 }
 
 export interface FloorDetail {
@@ -26,7 +29,7 @@ const roomLabel = (zoom: number) => `500 ${Math.max(11.5, 9 / zoom)}px 'Inter Va
 const RULER_LABEL = "10.5px 'JetBrains Mono', monospace";
 
 /** Merge the cells into shapes once for each map. */
-export function floorShapes(plan: FloorPlan, zones: readonly ZoneSign[]): FloorShapes {
+export function floorShapes(plan: FloorPlan, zones: readonly ZoneSign[], heat: Heat | null = null): FloorShapes {
   return {
     plan,
     free: pathOf(
@@ -39,6 +42,7 @@ export function floorShapes(plan: FloorPlan, zones: readonly ZoneSign[]): FloorS
     ),
     box: knownBox(plan),
     zones,
+    heat,
   };
 }
 
@@ -65,6 +69,7 @@ export function paintFloor(
   canvas.translate(viewport.x, viewport.y);
   canvas.scale(viewport.zoom, viewport.zoom);
   paintGround(canvas, palette, shapes, viewport.zoom, detail);
+  if (shapes.heat) paintHeat(canvas, palette, shapes.heat, shapes.free);
   paintZones(canvas, palette, shapes.zones, viewport.zoom);
   paintWalls(canvas, palette, shapes, viewport.zoom);
   paintObstacles(canvas, palette, shapes.plan.obstacles ?? [], viewport.zoom);

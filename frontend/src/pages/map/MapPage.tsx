@@ -21,6 +21,8 @@ import { FloorCheckMarks } from "./check/FloorCheckMarks";
 import { FloorCheckPanel } from "./check/FloorCheckPanel";
 import { useFloorCheckView } from "./check/useFloorCheckView";
 import { EditMapButton } from "./EditMapButton";
+import { LayersCard } from "./layers/LayersCard";
+import { useLayers } from "./layers/useLayers";
 import { MapExports } from "./MapExports";
 import styles from "./MapPage.module.css";
 import { MappingRobots } from "./MappingRobots";
@@ -131,6 +133,7 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
   const obstacles = useObstacles(site.slug);
   const check = useFloorCheckView(site.slug, map, mode === null);
   const asked = map.places.find((each) => each.id === query.get("place"));
+  const layers = useLayers(site.slug, map, { on: mode === null, asked: asked?.id ?? null });
   const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
   const measure = useMeasuring(map, devices, stopMeasuring !== null);
   const movable = mode === "machines" ? devices.filter((device) => device.kind === "machine") : [];
@@ -145,7 +148,8 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
     <div className={styles.page}>
       <Panel className={styles.map}>
         <StaticMap
-          plan={mode === "places" ? bare : mode === "obstacles" ? cleared : map}
+          plan={mode === "places" ? bare : mode === "obstacles" ? cleared : layers.plan}
+          heat={layers.heat}
           devices={devices.filter(
             (device) =>
               !movable.includes(device) && !((mode === "places" || mode === "zones") && device.kind === "robot"),
@@ -161,10 +165,13 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
           {mode === "places" ? <PlaceHandles slug={site.slug} map={map} places={places} /> : null}
           {mode === "zones" ? <ZoneHandles slug={site.slug} map={map} zones={zones} /> : null}
           {mode === "obstacles" ? <ObstacleHandles map={map} editing={obstacles} /> : null}
-          {mode === null ? <FloorCheckMarks map={map} devices={devices} view={check} /> : null}
+          {mode === null && (layers.chosen.check || check.chosen) ? (
+            <FloorCheckMarks map={map} devices={devices} view={check} />
+          ) : null}
           {asked && mode !== "places" ? <PlaceMark at={[asked.x, asked.y]} /> : null}
           {stopMeasuring ? <MeasureTool map={map} view={measure} stop={stopMeasuring} /> : null}
         </StaticMap>
+        {mode === null ? <LayersCard layers={layers} /> : null}
       </Panel>
       <Panel className={styles.about}>
         {stopMeasuring ? <MeasurePanel measuring={measure.measuring} /> : null}

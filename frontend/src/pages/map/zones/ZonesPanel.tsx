@@ -4,8 +4,9 @@ import { SquareDashed, X } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useFloorCheck } from "@/api/floorCheck";
+import { useFloorUse } from "@/api/floorUse";
 import { useDevices } from "@/api/queries";
-import type { FloorCheck, MapZone, SiteMap, ZoneCost } from "@/api/types";
+import type { FloorCheck, FloorUse, MapZone, SiteMap, ZoneCost } from "@/api/types";
 import { useZoneCosts } from "@/api/zones";
 import { Chip } from "@/design/Chip";
 import { formatNumber, withUnit } from "@/i18n/format";
@@ -33,6 +34,7 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
   const [removing, setRemoving] = useState<MapZone | null>(null);
   const costs = useZoneCosts(slug, map.zones).data ?? [];
   const widths = useFloorCheck(slug, map, useDevices(slug).data ?? [], { enabled: costs.length > 0 }).data?.zones ?? [];
+  const uses = useFloorUse(slug, { enabled: costs.length > 0 }).data?.zones ?? [];
   return (
     <section aria-labelledby="zones">
       <h2 id="zones">{t("zone.zones")}</h2>
@@ -43,7 +45,7 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
           <li key={zone.id}>
             <Row zone={zone} at={at} editing={editing} />
             {zone.rule === "release" ? <ReleasedZone slug={slug} zone={zone} at={at} /> : null}
-            <CostOf zone={zone} costs={costs} widths={widths} />
+            <CostOf zone={zone} costs={costs} widths={widths} uses={uses} />
             {editing?.zone?.id === zone.id ? (
               <ZoneForm slug={slug} map={map} zone={zone} remove={() => setRemoving(zone)} />
             ) : null}
@@ -59,11 +61,13 @@ interface CostOfProps {
   zone: MapZone;
   costs: readonly ZoneCost[];
   widths: FloorCheck["zones"];
+  uses: FloorUse["zones"];
 }
 
-function CostOf({ zone, costs, widths }: CostOfProps) {
-  const cost = costs.find((each) => each.zone === zone.id);
-  return cost ? <ZoneCosts cost={cost} width={widths.find((each) => each.zone === zone.id)} /> : null;
+function CostOf({ zone, costs, widths, uses }: CostOfProps) {
+  const isOf = (each: { zone: string }) => each.zone === zone.id;
+  const cost = costs.find(isOf);
+  return cost ? <ZoneCosts cost={cost} width={widths.find(isOf)} use={uses.find(isOf)} /> : null;
 }
 
 function Adding({ editing }: { editing: ZoneEditing }) {
