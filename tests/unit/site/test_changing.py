@@ -18,6 +18,7 @@ from editor.language.plan.json_form import ACTIONS
 from editor.language.printing.steps import PRINTERS
 from editor.language.reading.steps import READERS
 from editor.language.tree.nodes import Node
+from registry.alerts.causes import CAUSES
 from scripts.checks_page import read_site
 from scripts.construct_programs import pictures
 from vipo_device.descriptions.forms import FORMS as DESCRIPTION_FORMS
@@ -196,3 +197,12 @@ def test_every_form_of_a_description_has_its_names():
 def test_the_words_by_which_the_library_finds_steps_are_those_of_the_editor():
     assert constructs.WORDS.read_text() == constructs.write_words()
     assert set(json.loads(constructs.WORDS.read_text())) >= DRAWN
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_each_alert_has_its_sentence_on_pages_and_those_for_viewers_on_wall_screens(language):
+    words = FRONTEND / "i18n" / language
+    on_pages = json.loads((words / "alerts.json").read_text())["what"]
+    on_walls = json.loads((words / "screens" / "wall.json").read_text())["what"]
+    assert lacking("alerts.json", CAUSES, on_pages) == []
+    assert lacking("wall.json", [code for code, cause in CAUSES.items() if cause.role == "viewer"], on_walls) == []
