@@ -5,6 +5,8 @@ import re
 from pathlib import Path
 from typing import get_args
 
+import pytest
+
 from editor.language import compile_document, parse_script
 from editor.language.checks.checks import CHECKS
 from editor.language.constructs.json_form import write_constructs
