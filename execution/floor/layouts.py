@@ -15,7 +15,7 @@ from registry import services as registry
 from registry.floorplan.plan import Grid
 from vipo_device.protocol.description import Description, Pose
 
-_MadeOf = tuple[int, tuple[Description, ...], tuple[PlaceFacts, ...], tuple[FloorZone, ...], tuple[FloorZone, ...]]
+_MadeOf = tuple[Grid, tuple[Description, ...], tuple[PlaceFacts, ...], tuple[FloorZone, ...], tuple[FloorZone, ...]]
 STILL_M = 0.05
 """Within a grid of this a real robot that is simulated for a while counts as standing where it stood."""
 
@@ -42,17 +42,17 @@ def look_at_site(slug: str) -> tuple[Layout, tuple[registry.PositionView, ...]]:
     positions = registry.list_positions(site=slug, lifecycle="approved")
     places = tuple(place_facts(place) for place in registry.list_places(site=slug))
     zones = tuple(map(_floor_zone, registry.list_zones(site=slug)))
-    site_map = registry.get_map(site=slug)
-    stamp = _stamp(site_map.version, positions, places, zones)
+    grid = registry.get_map(site=slug).grid
+    stamp = _stamp(grid, positions, places, zones)
     known = _layouts.get(slug)
     if known is not None and stamp is not None and known.stamp == stamp:
         return known.layout, positions
     placed = registry.list_placed(site=slug, lifecycle="approved")
     positions = tuple(position for position, _ in placed)
     at_home = tuple(replace(d, pose=Pose(0, 0)) if d.kind == "robot" else d for _, d in placed)
-    made_of = (site_map.version, at_home, places, zones, _bodies(placed))
-    layout = _layout_of(known, made_of, site_map.grid)
-    _layouts[slug] = _Known(_stamp(site_map.version, positions, places, zones), made_of, layout)
+    made_of = (grid, at_home, places, zones, _bodies(placed))
+    layout = _layout_of(known, made_of)
+    _layouts[slug] = _Known(_stamp(grid, positions, places, zones), made_of, layout)
     return layout, positions
 
 
@@ -62,9 +62,9 @@ def _floor_zone(zone: registry.ZoneView) -> FloorZone:
     return replace(known, open_until=zone.open_until.timestamp()) if zone.open_until else known
 
 
-def _layout_of(known: _Known | None, made_of: _MadeOf, grid: Grid) -> Layout:
+def _layout_of(known: _Known | None, made_of: _MadeOf) -> Layout:
     """Return the layout; what is known already is taken as far as it is the same: a zone changes no lattice."""
-    _, at_home, places, zones, bodies = made_of
+    grid, at_home, places, zones, bodies = made_of
     if known is None or known.made_of[:3] != made_of[:3]:
         return replace(make_layout(grid, at_home, places, zones), bodies=bodies)
     return known.layout if known.made_of == made_of else replace(known.layout, zones=zones, bodies=bodies)
@@ -91,7 +91,7 @@ def _outline(at: tuple[float, float], radius_m: float) -> tuple[tuple[float, flo
 
 
 def _stamp(
-    version: int,
+    grid: Grid,
     positions: tuple[registry.PositionView, ...],
     places: tuple[PlaceFacts, ...],
     zones: tuple[FloorZone, ...],
@@ -100,7 +100,7 @@ def _stamp(
     if not all(position.version for position in positions):
         return None
     made_of = tuple((p.id, p.version, _standing(p) if p.kind == "robot" else p.pose) for p in positions)
-    return (version, made_of, places, zones)
+    return (grid, made_of, places, zones)
 
 
 def place_facts(place: registry.PlaceView) -> PlaceFacts:

@@ -181,9 +181,10 @@ def map_tag(*, site: str, version: int) -> str:
 
 def get_map(*, site: str) -> MapView:
     """Return the site's newest map. Raises NoMap."""
-    row = find_site(site)
-    latest = SiteMap.objects.filter(site=row).order_by("-version").values_list("pk", "version", "created_at").first()
+    versions = SiteMap.objects.filter(site__slug=site).order_by("-version")
+    latest = versions.values_list("pk", "version", "created_at").first()
     if latest is None:
+        find_site(site)
         raise NoMap("This site has no map yet. Upload one, or take one from a robot.")
     return MapView(site, latest[1], _grid(latest[0], latest[2]))
 

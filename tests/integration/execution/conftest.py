@@ -19,6 +19,7 @@ from registry.sites.views import PlaceView
 from simulation.services import make_world
 from simulation.world import Ack, PropertyChanged, Scene
 from tests.kit import demo_floor
+from vipo_device.descriptions.reader import hash_of_json
 from vipo_device.protocol.description import description_to_json
 
 SITE = "painting-factory"
@@ -34,8 +35,14 @@ def factory(db):
     registry.save_places(site=SITE, places=places)
     site = FloorState._meta.get_field("site").related_model.objects.get(slug=SITE)
     for device in DEVICES:
+        said = description_to_json(device)
         Device.objects.create(
-            id=device.id, site=site, lifecycle="approved", description=description_to_json(device), online=True
+            id=device.id,
+            site=site,
+            lifecycle="approved",
+            description=said,
+            description_hash=hash_of_json(said),
+            online=True,
         )
     return Shop()
 

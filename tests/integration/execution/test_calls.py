@@ -20,7 +20,7 @@ from execution.models import Command, InboxEvent
 from registry import services as registry
 from registry.demo.devices import DEVICES
 from registry.models import Device
-from tests.kit.programs import SITE
+from tests.kit.programs import SITE, describe_anew
 from tests.kit.sign_in import EVERYBODY, ROLES, from_role, post_json, sign_in_member
 from vipo_site.cli.main import main
 
@@ -186,7 +186,7 @@ def test_a_robot_explores_only_while_no_run_is_open_and_no_run_starts_meanwhile(
     robot = Device.objects.get(pk="robot03")
     method = {**robot.description["methods"][0], "name": "explore", "parameters": []}
     robot.description["methods"].append(method)
-    robot.save()
+    describe_anew("robot03", robot.description)
     run = factory.start(CURE)
     told = (
         f"{robot.description['name']} drives where it likes while it explores. Wait until run 1 of “Task” is over, or "
@@ -257,11 +257,11 @@ def test_a_device_that_says_it_fills_the_whole_floor_does_not_end_its_traffic(fa
     run = factory.start(CURE)
     factory.go(lambda: Command.objects.filter(method=method, status__in=("sent", "accepted", "running")).exists())
     row = Device.objects.get(id=Command.objects.filter(method=method).first().device)
-    Device.objects.filter(id=row.id).update(description={**row.description, **change})
+    describe_anew(row.id, {**row.description, **change})
     for _ in range(3):
         factory.work()
         assert advance_site(SITE)
-    Device.objects.filter(id=row.id).update(description=row.description)
+    describe_anew(row.id, row.description)
     factory.go(lambda: services.get_run(run_id=run).run.status in ("finished", "failed"), dt_s=3.0)
 
 

@@ -37,7 +37,7 @@ def test_a_step_of_a_run_reads_only_the_devices_that_it_concerns(monkeypatch):
     statements = {step: count.statements - leasing for step, count in counts.items()}
     assert statements == {
         # three lines of a journal are two statements, of two rows and of one: AT_ONCE says why
-        "a run begins and its command goes out": 17,
+        "a run begins and its command goes out": 16,
         "floor and run hear the answer": 12,
         "there is nothing to do": 3,
         "a reading ends the run": 8,

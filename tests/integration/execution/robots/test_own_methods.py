@@ -19,11 +19,10 @@ from editor.language.plan.instructions import (
 )
 from execution import services
 from execution.models import Command, InboxEvent
-from registry.models import Device
 from simulation.services import make_world
 from simulation.world import Scene
 from tests.kit import demo_floor
-from tests.kit.programs import run_status
+from tests.kit.programs import describe_anew, run_status
 from vipo_device.protocol.description import MethodSpec, ParameterSpec, description_to_json
 from vipo_device.protocol.messages import down_topic
 
@@ -43,7 +42,7 @@ def hall(factory):
     devices = [replace(d, methods=(*d.methods, HONK)) if d.id == "robot02" else d for d in demo_floor.devices()]
     factory.world = make_world(scene=Scene(demo_floor.grid(), devices, seed=1), driver="kinematic")
     honker = next(device for device in devices if device.id == "robot02")
-    Device.objects.filter(id="robot02").update(description=description_to_json(honker))
+    describe_anew("robot02", description_to_json(honker))
     return factory
 
 

@@ -21,7 +21,7 @@ from execution.engine.drive import advance_site
 from execution.models import ArmedProgram, Command, InboxEvent, Run, SiteStop
 from execution.traffic.messages import CONTROLS
 from registry.models import Device
-from tests.kit.programs import CARRY, SITE, heat_oven
+from tests.kit.programs import CARRY, SITE, describe_anew, heat_oven
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.servers
@@ -93,7 +93,7 @@ def test_a_run_that_starts_while_the_stop_is_pressed_and_reset_stands_still(fact
 def test_a_run_that_starts_while_a_robot_is_told_to_explore_is_refused(factory, db):
     robot = Device.objects.get(pk="robot03")
     robot.description["methods"].append({**robot.description["methods"][0], "name": "explore", "parameters": []})
-    robot.save()
+    describe_anew("robot03", robot.description)
     told = {"site": SITE, "device_id": "robot03", "method": "explore", "arguments": {}, "by": "Otto"}
     with ThreadPoolExecutor(1) as pool, psycopg.connect(db, autocommit=True) as looking:
         with held(db, COMMANDS, lambda: services.call_method(**told)) as called:
