@@ -27,11 +27,16 @@ export function FloorCheckPanel(props: FloorCheckPanelProps) {
   const { check, error } = view;
   const head = useRef<HTMLHeadingElement>(null);
   return (
-    <section aria-labelledby="floor-check" aria-busy={view.isChecking}>
+    <section className={styles.panel} aria-labelledby="floor-check" aria-busy={view.isChecking}>
       <div className={styles.head}>
         <h2 id="floor-check" ref={head} tabIndex={-1}>
           {t("floorCheck.floorCheck")}
         </h2>
+        {check && view.isChecking ? (
+          <span className={styles.checking} aria-hidden="true">
+            {t("floorCheck.checking")}
+          </span>
+        ) : null}
         {check ? <Counts findings={check.findings} /> : null}
       </div>
       <NumberInput
