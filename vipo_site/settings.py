@@ -231,7 +231,7 @@ _MAIL_TLS = mail_tls()
 EMAIL_USE_TLS, EMAIL_USE_SSL = _MAIL_TLS == "starttls", _MAIL_TLS == "tls"
 EMAIL_PORT = whole_number("VIPO_MAIL_PORT", {"starttls": 587, "tls": 465, "none": 25}[_MAIL_TLS])
 EMAIL_HOST_USER = os.environ.get("VIPO_MAIL_USER", "")
-EMAIL_HOST_PASSWORD = secret("VIPO_MAIL_PASSWORD") if EMAIL_HOST else ""
+EMAIL_HOST_PASSWORD = secret("VIPO_MAIL_PASSWORD") if EMAIL_HOST and VIPO_PROCESS in {"", "web", "worker"} else ""
 EMAIL_TIMEOUT = 10
 DEFAULT_FROM_EMAIL = mail_sender(EMAIL_HOST)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import asdict, replace
+from time import thread_time
 from typing import Any
 
 from django.http import HttpRequest
@@ -28,8 +29,12 @@ KEPT = 64
 """So many checks are kept, of all sites."""
 check_places = registry.Places(in_all=2, of_site=2, of_person=1, most_waiting=1)
 """Floors that are checked at once."""
-_kept: dict[tuple[str, float | None], tuple[Layout, CheckedFloor]] = {}
-"""Checks of sites by width, with the site's own layout at that time."""
+remedy_places = registry.Places(in_all=1, of_site=1, of_person=1, most_waiting=1)
+"""Searches for remedies at once: one takes the time of many checks, and keeps nobody from those."""
+MOST_SEARCHED_S = 4.0
+"""So much of a processor's time a search may take before its last trial."""
+_kept: dict[tuple[str, float | None], tuple[Layout, FloorCheck]] = {}
+"""Checks of sites by width, with the site's own layout at that time; not that of the width, which may be large."""
 
 
 class TooManyChecks(ExecutionError):
@@ -128,28 +133,30 @@ def get_floor_check(request: HttpRequest, site: str, asked: Query[AskFloorCheck]
     registry.require(user, site, "viewer")
     refusal = TooManyChecks("Other floors are being checked, by you or others. Try again in a moment.")
     with check_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
-        floor = _check(site, asked.width_m)
-    robot = None if asked.width_m else _widest(floor.layout.devices.values())
-    return _to_json(floor.check, registry.get_map(site=site).version, robot)
+        layout, check = _check(site, asked.width_m)
+    robot = None if asked.width_m else _widest(layout.devices.values())
+    return _to_json(check, registry.get_map(site=site).version, robot)
 
 
 @router.get("/sites/{slug:site}/floor-check/remedies", response=list[RemedyShape])
 def list_remedies(request: HttpRequest, site: str, asked: Query[AskRemedies]) -> list[dict[str, Any]]:
-    """Return moves of a place or machine that would mend a finding, the least first.
+    """Return moves of a place or machine that would mend a finding, the smallest first.
 
-    Each was tried: the floor, checked anew with it, has lost the finding and got no other. None is told where no move
-    of a metre does that, and of what zones do.
+    Each was tried: the floor, checked anew with it, has lost the finding and got no other, at the width that is asked
+    for and at the site's own. None is told where no move of a metre was found, and of what zones do.
     """
     user = signed_in(request)
     registry.require(user, site, "admin")
-    refusal = TooManyChecks("Other floors are being checked, by you or others. Try again in a moment.")
-    with check_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
-        floor = _check(site, asked.width_m)
+    refusal = TooManyChecks("Remedies are being looked for, for you or others. Try again in a moment.")
+    with remedy_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
+        floor = _checked_floor(site, asked.width_m)
         wanted = (asked.code, asked.target, asked.other)
         finding = next((each for each in floor.check.findings if _key(each) == wanted), None)
         if finding is None:
             raise NoSuchFinding("The floor check finds this no more. Look at it anew.")
-        found = find_remedies(floor, finding)
+        own = _checked_floor(site, None) if asked.width_m else None
+        ends_at = thread_time() + MOST_SEARCHED_S
+        found = find_remedies(floor, finding, own, lambda: thread_time() > ends_at)
     return [{"target": each.target, "x": each.at[0], "y": each.at[1], "by_m": each.by_m} for each in found]
 
 
@@ -157,17 +164,33 @@ def _key(finding: Finding) -> tuple[str, str, str | None]:
     return finding.code, finding.target, _id_of(finding.other)
 
 
-def _check(site: str, width_m: float | None) -> CheckedFloor:
-    layout, grid = get_layout(site), registry.get_map(site=site).grid
-    key = (site, width_m)
-    kept = _kept.get(key)
+def _check(site: str, width_m: float | None) -> tuple[Layout, FloorCheck]:
+    """Return the site's own layout, and what was found on the floor for robots so wide."""
+    layout = get_layout(site)
+    kept = _kept.get((site, width_m))
     if kept is None or kept[0] is not layout:
-        places = tuple(place_facts(place) for place in registry.list_places(site=site))
-        laid = _for_width(layout, grid, places, width_m)
-        if len(_kept) >= KEPT:
-            _kept.clear()
-        kept = _kept[key] = (layout, CheckedFloor(grid, laid, places, check_floor(grid, laid, places)))
-    return kept[1]
+        places = _places(site)
+        grid = registry.get_map(site=site).grid
+        kept = _keep(site, width_m, layout, check_floor(grid, _for_width(layout, grid, places, width_m), places))
+    return kept
+
+
+def _keep(site: str, width_m: float | None, layout: Layout, found: FloorCheck) -> tuple[Layout, FloorCheck]:
+    if len(_kept) >= KEPT:
+        _kept.clear()
+    kept = _kept[site, width_m] = (layout, found)
+    return kept
+
+
+def _places(site: str) -> tuple[PlaceFacts, ...]:
+    return tuple(place_facts(place) for place in registry.list_places(site=site))
+
+
+def _checked_floor(site: str, width_m: float | None) -> CheckedFloor:
+    """Return a floor as it is laid out for robots so wide, with what was found on it."""
+    layout, check = _check(site, width_m)
+    grid, places = registry.get_map(site=site).grid, _places(site)
+    return CheckedFloor(grid, _for_width(layout, grid, places, width_m), places, check)
 
 
 def _for_width(layout: Layout, grid: Grid, places: Iterable[PlaceFacts], width_m: float | None) -> Layout:

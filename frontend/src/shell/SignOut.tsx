@@ -38,6 +38,7 @@ export function useSignOut(path: "/sign-out" | "/me/sign-out-everywhere", to: To
     onSuccess: async (elsewhere) => {
       await navigate(to);
       queries.clear();
+      notifications.clean(); // what they say and offer was for who has left
       if (elsewhere) location.assign(elsewhere);
     },
     onError: () => notifications.show({ color: "red", message: t("shell.signOut.failed") }),

@@ -2,6 +2,7 @@
 import { Button } from "@mantine/core";
 import { Ruler } from "lucide-react";
 import { useTranslation } from "react-i18next";
+import { useKeymap } from "@/shell/keys/keymap";
 import page from "../MapPage.module.css";
 import { usePageKey } from "./usePageKey";
 
@@ -10,14 +11,15 @@ export const MEASURE_BUTTON = "measure-button";
 
 export function MeasureButton({ isOn, toggle }: { isOn: boolean; toggle: () => void }) {
   const { t } = useTranslation();
-  usePageKey("m", toggle);
+  const hasLetters = useKeymap(({ characters }) => characters); // who dictates has none
+  usePageKey("m", toggle, hasLetters);
   return (
     <Button
       id={MEASURE_BUTTON}
       variant={isOn ? "filled" : "default"}
       aria-pressed={isOn}
-      aria-keyshortcuts="M"
-      title={t("measure.withKey")}
+      aria-keyshortcuts={hasLetters ? "M" : undefined}
+      title={t(hasLetters ? "measure.withKey" : "measure.measure")}
       classNames={{ label: page.actionLabel ?? "", section: page.actionIcon ?? "" }}
       leftSection={<Ruler size={16} aria-hidden="true" />}
       onClick={toggle}

@@ -2,6 +2,7 @@
 import type { TFunction } from "i18next";
 import { useTranslation } from "react-i18next";
 import { formatPoint } from "@/i18n/format";
+import { isSame } from "../../devices/placement";
 import { metres } from "../check/findingWords";
 import places from "../places/places.module.css";
 import styles from "./measure.module.css";
@@ -36,8 +37,9 @@ export function saidOf(measuring: Measuring, t: TFunction): string {
   const line = lineOf(measuring);
   const length = line ? lengthOf(line) : 0;
   const [first, second] = ends;
-  if (second) return t("measure.measured", { length: metres(length) });
   const keyed = cross && aim ? formatPoint(...aim) : "";
+  if (second && keyed && !isSame(aim ?? second, second)) return t("measure.cross", { at: keyed });
+  if (second) return t("measure.measured", { length: metres(length) });
   if (!first) return keyed && t("measure.cross", { at: keyed });
   if (keyed && length > 0) return t("measure.soFar", { length: metres(length), at: keyed });
   return t("measure.begun", { at: formatPoint(...first) });

@@ -1,14 +1,15 @@
 /** A key of a whole page, wherever the focus is. */
 import { useEffect, useRef } from "react";
-import { isTyping } from "@/editor/state/focus";
+import { takesLetters } from "@/editor/state/focus";
 
-/** `key` as the event names it, a letter small; `act` is called at each press that means nothing else. */
-export function usePageKey(key: string, act: () => void): void {
+/** `key` as the event names it, a letter small; `act` is called at each press that means nothing else, if it `isOn`. */
+export function usePageKey(key: string, act: () => void, isOn = true): void {
   const latest = useRef(act);
   useEffect(() => {
     latest.current = act;
   });
   useEffect(() => {
+    if (!isOn) return;
     const press = (event: KeyboardEvent) => {
       const pressed = event.key.length === 1 ? event.key.toLowerCase() : event.key;
       if (pressed !== key || isHeld(event) || isTaken(event.target)) return;
@@ -18,7 +19,7 @@ export function usePageKey(key: string, act: () => void): void {
     // Before a menu hears it, which would be gone by then.
     window.addEventListener("keydown", press, { capture: true });
     return () => window.removeEventListener("keydown", press, { capture: true });
-  }, [key]);
+  }, [key, isOn]);
 }
 
 const isHeld = (event: KeyboardEvent): boolean =>
@@ -26,5 +27,5 @@ const isHeld = (event: KeyboardEvent): boolean =>
 
 /** Whoever types, chooses from a menu or answers a dialog means that. */
 function isTaken(target: EventTarget | null): boolean {
-  return isTyping(target) || document.querySelector("[role=dialog], [role=alertdialog], [role=menu]") !== null;
+  return takesLetters(target) || document.querySelector("[role=dialog], [role=alertdialog], [role=menu]") !== null;
 }
