@@ -4,17 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, get_args
 
 from editor.language.site.signature import signature_from_json, signature_to_json
-from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings, ZoneFacts
+from editor.language.site.surroundings import (
+    DeviceFacts,
+    FloorFacts,
+    LibraryFacts,
+    PlaceFacts,
+    Surroundings,
+    ZoneFacts,
+    ZoneRule,
+)
 from vipo_device.protocol.description import description_from_json, description_to_json
 
 LIFECYCLES = ("pending", "approved", "retired")
 PLACE_KINDS = ("dock", "room", "point")
-ZONE_RULES = ("keep_out", "one_at_a_time", "slow", "one_way", "preferred")
-MOST_ROBOTS = 20
+ZONE_RULES: tuple[ZoneRule, ...] = get_args(ZoneRule)
 """What zones of a site's floor ask; passages of doors belong to programs."""
+MOST_ROBOTS = 20
 FEWEST_CORNERS = 3
 _STATE = frozenset({"lifecycle", "online", "readings", "standing_at"})
 

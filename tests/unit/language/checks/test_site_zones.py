@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
@@ -16,7 +16,7 @@ from editor.language import (
     surroundings_from_json,
     surroundings_to_json,
 )
-from editor.language.site.surroundings import what_programs_see
+from editor.language.site.surroundings import ZoneRule, what_programs_see
 from editor.programs.checking import fingerprint_of
 from registry.floorplan.plan import FloorPlan
 from tests.kit import demo_floor
@@ -106,9 +106,17 @@ def test_a_zone_without_a_name_is_called_by_its_id() -> None:
 )  # fmt: skip
 def test_a_zone_of_a_site_that_cannot_be_read_is_told(change: dict[str, Any]) -> None:
     with pytest.raises(
-        UnreadableSite, match=r"needs an id, a rule: keep_out, one_at_a_time, slow, one_way, preferred, points"
+        UnreadableSite, match=r"needs an id, a rule: keep_out, one_at_a_time, slow, one_way, preferred, release, points"
     ):
         surroundings_from_json({"zones": [{**HALL, **change}]})
+
+
+@pytest.mark.parametrize("rule", get_args(ZoneRule))
+def test_a_zone_of_each_rule_survives_as_json(rule: ZoneRule) -> None:
+    speed, heading = (0.3 if rule == "slow" else None), (90.0 if rule == "one_way" else None)
+    zone = ZoneFacts("hall", "Hall", rule, ((0.0, 0.0), (2.0, 0.0), (2.0, 2.0)), speed, 1, heading)
+    site = surroundings_from_json(surroundings_to_json(replace(factory(), zones=(zone,))))
+    assert site.zones == (zone,)
 
 
 @pytest.mark.parametrize("robots", [0, -1, 1.5, "2", True, None, 21, 10**9])
