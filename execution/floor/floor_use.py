@@ -25,7 +25,8 @@ from itertools import pairwise
 from math import floor, hypot
 
 SQUARE_M = 0.25
-"""The side of the squares in which drives are counted."""
+"""The side of the squares in which drives are counted, on floors on which these are not too many."""
+MOST_SQUARES = 40_000
 ON_PATH_M = 0.5
 """So near to a path a point counts as being on it: journals have tidy lines, whose ends are up to a cell aside."""
 SLOT_MIN = 10
@@ -85,17 +86,6 @@ class ZoneUse:
     busiest_min: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class FloorUse:
-    """How often robots drove through each square (column, row), and what zones cost, by their keys.
-
-    The square (0, 0) has its lower left corner in the origin of the map's frame; columns count along x, rows along y.
-    """
-
-    heat: Mapping[Square, int]
-    zones: Mapping[str, ZoneUse]
-
-
 @dataclass(slots=True)
 class _Tally:
     """What is known of a zone so far; `slots` is seconds in each ten minutes of the day."""
@@ -144,45 +134,59 @@ def _nearest_of(a: Point, b: Point, to: Point) -> Point:
     return a[0] + share * dx, a[1] + share * dy
 
 
-def squares_of(path: Path) -> frozenset[Square]:
+def square_for(width_m: float, height_m: float) -> float:
+    """Return the side of the squares in which drives are counted on a floor so large: larger ones on large floors."""
+    side = SQUARE_M
+    while (width_m / side) * (height_m / side) > MOST_SQUARES:
+        side *= 2
+    return side
+
+
+def squares_of(path: Path, square_m: float = SQUARE_M) -> frozenset[Square]:
     """Return the squares that a path comes through; none if it leads nowhere."""
     found: set[Square] = set()
     for a, b in pairwise(path):
         if tuple(a) != tuple(b):
-            shares = sorted({0.0, 1.0, *_borders(a[0], b[0]), *_borders(a[1], b[1])})
+            (ax, ay), (bx, by) = ((x / square_m, y / square_m) for x, y in (a, b))
+            shares = sorted({0.0, 1.0, *_borders(ax, bx), *_borders(ay, by)})
             middles = [(share + after) / 2 for share, after in pairwise(shares)]
-            found |= {(_index(a[0] + m * (b[0] - a[0])), _index(a[1] + m * (b[1] - a[1]))) for m in middles}
+            found |= {(_index(ax + m * (bx - ax)), _index(ay + m * (by - ay))) for m in middles}
     return frozenset(found)
 
 
 def _borders(a: float, b: float) -> Iterator[float]:
-    """Yield at which shares of the way from `a` to `b` a border between squares is crossed."""
+    """Yield at which shares of the way from `a` to `b`, in squares, a border between squares is crossed."""
     low, high = sorted((_index(a), _index(b)))
     for border in range(low + 1, high + 1):
-        share = (border * SQUARE_M - a) / (b - a)
+        share = (border - a) / (b - a)
         if 0.0 < share < 1.0:
             yield share
 
 
-def _index(metres: float) -> int:
-    return floor(metres / SQUARE_M + _HAIR)
+def _index(squares: float) -> int:
+    return floor(squares + _HAIR)
 
 
-def use_of(used: Iterable[Drive | ZoneWait], utc_offset_min: int) -> FloorUse:
-    """Return how a floor was used, in days that begin so many minutes before those of UTC."""
-    drives: Counter[tuple[Point, ...]] = Counter()
-    zones: dict[str, _Tally] = {}
-    for each in used:
-        if isinstance(each, Drive):
-            drives[tuple((x, y) for x, y in each.path)] += 1
-        else:
-            _add_wait(zones.setdefault(each.zone, _Tally()), each, utc_offset_min)
+def heat_of(drives: Iterable[Drive], square_m: float = SQUARE_M) -> Mapping[Square, int]:
+    """Return how often robots drove through each square (column, row).
+
+    The square (0, 0) has its lower left corner in the origin of the map's frame; columns count along x, rows along y.
+    """
+    paths = Counter(tuple((x, y) for x, y in drive.path) for drive in drives)
     heat: Counter[Square] = Counter()
-    for path, count in drives.items():
-        for square in squares_of(path):
+    for path, count in paths.items():
+        for square in squares_of(path, square_m):
             heat[square] += count
+    return heat
+
+
+def zones_of(waits: Iterable[ZoneWait], utc_offset_min: int) -> Mapping[str, ZoneUse]:
+    """Return what zones cost, by their keys, in days that begin so many minutes before those of UTC."""
+    zones: dict[str, _Tally] = {}
+    for wait in waits:
+        _add_wait(zones.setdefault(wait.zone, _Tally()), wait, utc_offset_min)
     waited = {key: tally for key, tally in zones.items() if tally.waits}
-    return FloorUse(heat, {key: ZoneUse(t.waits, round(t.waited_s, 1), _busiest(t.slots)) for key, t in waited.items()})
+    return {key: ZoneUse(t.waits, round(t.waited_s, 1), _busiest(t.slots)) for key, t in waited.items()}
 
 
 def _add_wait(tally: _Tally, wait: ZoneWait, utc_offset_min: int) -> None:

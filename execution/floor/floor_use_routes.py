@@ -16,7 +16,16 @@ from pydantic import Field
 
 from execution import database
 from execution.errors import ExecutionError
-from execution.floor.floor_use import SQUARE_M, FloorUse, JournalLine, ZoneUse, read_back, use_of
+from execution.floor.floor_use import (
+    Drive,
+    JournalLine,
+    ZoneUse,
+    ZoneWait,
+    heat_of,
+    read_back,
+    square_for,
+    zones_of,
+)
 from execution.models import Run, RunEvent
 from registry import services as registry
 from registry.requests import signed_in
@@ -27,7 +36,7 @@ MOST_LINES = 20_000
 PATIENCE_S = 5.0
 KEPT_S = 60.0
 """So long what was counted is told again."""
-KEPT = 64
+KEPT = 16
 """So many answers are kept, of all sites."""
 OF_SITE = "site/"
 _TOLD = Q(kind__in=("way", "wait")) | Q(kind="step", code__startswith="step_") & ~Q(
@@ -40,14 +49,17 @@ count_places = registry.Places(in_all=2, of_site=2, of_person=1, most_waiting=1)
 
 @dataclass(frozen=True, slots=True)
 class _Counted:
-    """How a floor was used in so many runs; `is_cut`: there were more."""
+    """How a floor was used in so many runs; `is_cut`: there were more. `heat` has column, row and drives."""
 
     runs: int
     is_cut: bool
-    use: FloorUse
+    square_m: float
+    heat: tuple[tuple[int, int, int], ...]
+    waits: tuple[ZoneWait, ...]
 
 
-_kept: dict[tuple[str, int, int], tuple[float, _Counted]] = {}
+_kept: dict[tuple[int, int], tuple[float, _Counted]] = {}
+"""What was counted, by site and days, with until when it is told again; hours of the day are worked out each time."""
 
 
 class TooManyCounts(ExecutionError):
@@ -76,7 +88,7 @@ class FloorUseShape(Schema):
     `is_cut` says that there were more: the newest 500 are counted, and of their journals the newest 20,000 lines.
     `heat` is how often robots drove through a square of `square_m` metres: (column, row, drives), the square (0, 0)
     with its lower left corner in the origin of the map's frame, for those where any did. Runs in an archive do not
-    count.
+    count, nor does what was before the map lay otherwise.
     """
 
     days: int
@@ -103,35 +115,51 @@ def get_floor_use(request: HttpRequest, site: str, asked: Query[AskFloorUse]) ->
     """
     user = signed_in(request)
     registry.require(user, site, "viewer")
-    refusal = TooManyCounts("How floors were used is being counted, for you or others. Try again in a moment.")
-    with count_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
-        counted = _counted(site, asked)
-    return {"days": asked.days, "utc_offset_min": asked.utc_offset_min, **_to_json(site, counted)}
+    counted = _known(site, asked.days)
+    if counted is None:
+        refusal = TooManyCounts("How floors were used is being counted, for you or others. Try again in a moment.")
+        with count_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
+            counted = _known(site, asked.days) or _keep(site, asked.days)
+    return {"days": asked.days, "utc_offset_min": asked.utc_offset_min, **_to_json(site, counted, asked.utc_offset_min)}
 
 
-def _counted(site: str, asked: AskFloorUse) -> _Counted:
-    key = (site, asked.days, asked.utc_offset_min)
-    kept_until, counted = _kept.get(key, (0.0, None))
-    if counted is None or monotonic() >= kept_until:
-        counted = _count(site, asked)
-        if len(_kept) >= KEPT:
-            _kept.clear()
-        _kept[key] = (monotonic() + KEPT_S, counted)
+def _known(site: str, days: int) -> _Counted | None:
+    """Return what was counted a moment ago."""
+    kept_until, counted = _kept.get((registry.get_site_id(site=site), days), (0.0, None))
+    return counted if monotonic() < kept_until else None
+
+
+def _keep(site: str, days: int) -> _Counted:
+    now = monotonic()
+    for key in [key for key, (until, _) in list(_kept.items()) if until <= now]:
+        _kept.pop(key, None)
+    if len(_kept) >= KEPT:
+        _kept.clear()
+    counted = _count(site, days)
+    _kept[registry.get_site_id(site=site), days] = (monotonic() + KEPT_S, counted)
     return counted
 
 
-def _count(site: str, asked: AskFloorUse) -> _Counted:
-    now = database.now()
-    since = now - timedelta(days=asked.days)
+def _count(site: str, days: int) -> _Counted:
+    now, (frame_since, width_m, height_m) = database.now(), registry.get_map_frame(site=site)
+    since = max(now - timedelta(days=days), frame_since)
     of_time = Q(ended_at=None) | Q(ended_at__gte=since)
     begun = Run.objects.filter(of_time, site__slug=site, archive=None, started_at__isnull=False).order_by("-number")
     found = list(begun.values_list("id", "number", "ended_at")[: MOST_RUNS + 1])
     runs = found[:MOST_RUNS]
     lines = _Lines([run for run, *_ in runs], since)
     ends = {str(run): ended_at or now for run, _, ended_at in runs}
-    use = use_of(read_back(lines, ends), asked.utc_offset_min)
+    used = list(read_back(lines, ends))
+    square_m = square_for(width_m, height_m)
+    heat = heat_of((each for each in used if isinstance(each, Drive)), square_m)
     reached = sum(number >= lines.oldest_run for _, number, _ in runs) if lines.is_cut else len(runs)
-    return _Counted(reached, lines.is_cut or len(found) > MOST_RUNS, use)
+    return _Counted(
+        reached,
+        lines.is_cut or len(found) > MOST_RUNS,
+        square_m,
+        tuple(sorted((column, row, count) for (column, row), count in heat.items())),
+        tuple(each for each in used if isinstance(each, ZoneWait)),
+    )
 
 
 class _Lines:
@@ -163,14 +191,15 @@ def _line_of(run: str, told: tuple[datetime, str, str, str, str, Any]) -> Journa
     return JournalLine(run, at, step, robot, args.get("zone_key", "") if code == "zone_taken" else "")
 
 
-def _to_json(site: str, counted: _Counted) -> dict[str, Any]:
+def _to_json(site: str, counted: _Counted, utc_offset_min: int) -> dict[str, Any]:
     limited = [zone.id for zone in registry.list_zones(site=site) if zone.rule == "one_at_a_time"]
-    waited = [(zone, counted.use.zones.get(OF_SITE + zone, ZoneUse())) for zone in limited]
+    used = zones_of(counted.waits, utc_offset_min)
+    waited = [(zone, used.get(OF_SITE + zone, ZoneUse())) for zone in limited]
     return {
         "runs": counted.runs,
         "is_cut": counted.is_cut,
-        "square_m": SQUARE_M,
-        "heat": sorted((column, row, count) for (column, row), count in counted.use.heat.items()),
+        "square_m": counted.square_m,
+        "heat": counted.heat,
         "zones": [
             {"zone": zone, "waits": use.waits, "waited_s": use.waited_s, "busiest_min": use.busiest_min}
             for zone, use in waited

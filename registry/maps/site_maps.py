@@ -8,6 +8,7 @@ from __future__ import annotations
 import zlib
 from dataclasses import dataclass
 from datetime import datetime
+from itertools import takewhile
 
 from django.db import models, transaction
 
@@ -184,9 +185,28 @@ def get_map(*, site: str) -> MapView:
     versions = SiteMap.objects.filter(site__slug=site).order_by("-version")
     latest = versions.values_list("pk", "version", "created_at").first()
     if latest is None:
-        find_site(site)
-        raise NoMap("This site has no map yet. Upload one, or take one from a robot.")
+        raise _no_map(site)
     return MapView(site, latest[1], _grid(latest[0], latest[2]))
+
+
+def _no_map(site: str) -> NoMap:
+    """Return what is told of a site without a map; raises NotAMember where there is no such site."""
+    find_site(site)
+    return NoMap("This site has no map yet. Upload one, or take one from a robot.")
+
+
+def get_map_frame(*, site: str) -> tuple[datetime, float, float]:
+    """Return since when the site's map lies as it does, and how wide and high it is in metres; raises NoMap.
+
+    Points from before were said of a map of another size, resolution or origin.
+    """
+    versions = SiteMap.objects.filter(site__slug=site).order_by("-version")
+    kept = list(versions.values_list("width", "height", "resolution_m", "origin_x_m", "origin_y_m", "created_at"))
+    if not kept:
+        raise _no_map(site)
+    width, height, resolution_m, *_ = kept[0]
+    *_, (*_, since) = takewhile(lambda version: version[:5] == kept[0][:5], kept)
+    return since, width * resolution_m, height * resolution_m
 
 
 def _grid(map_id: int, created_at: datetime) -> Grid:

@@ -2018,10 +2018,10 @@ export interface paths {
         };
         /**
          * List Remedies
-         * @description Return moves of a place or machine that would mend a finding, the least first.
+         * @description Return moves of a place or machine that would mend a finding, the smallest first.
          *
-         *     Each was tried: the floor, checked anew with it, has lost the finding and got no other. None is told where no move
-         *     of a metre does that, and of what zones do.
+         *     Each was tried: the floor, checked anew with it, has lost the finding and got no other, at the width that is asked
+         *     for and at the site's own. None is told where no move of a metre was found, and of what zones do.
          */
         get: operations["list_remedies"];
         put?: never;
@@ -4927,7 +4927,7 @@ export interface components {
          *     `is_cut` says that there were more: the newest 500 are counted, and of their journals the newest 20,000 lines.
          *     `heat` is how often robots drove through a square of `square_m` metres: (column, row, drives), the square (0, 0)
          *     with its lower left corner in the origin of the map's frame, for those where any did. Runs in an archive do not
-         *     count.
+         *     count, nor does what was before the map lay otherwise.
          */
         FloorUseShape: {
             days: number;

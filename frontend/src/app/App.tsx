@@ -6,6 +6,7 @@ import { useTranslation } from "react-i18next";
 import { RouterProvider } from "react-router-dom";
 import { makeQueryClient, ME } from "@/api/queries";
 import { makeTheme, variablesResolver } from "@/design/theme";
+import { formatNumber } from "@/i18n/format";
 import { makeRouter } from "./router";
 import { Waiting } from "@/shell/LoadProblem";
 import { useTheme } from "@/shell/theme";
@@ -30,7 +31,8 @@ export function App() {
   const { t } = useTranslation();
   const scheme = useTheme();
   const close = t("pages.close");
-  const theme = useMemo(() => makeTheme(close), [close]);
+  const decimal = formatNumber(0.5, 1).charAt(1);
+  const theme = useMemo(() => makeTheme(close, decimal), [close, decimal]);
   useEffect(() => document.documentElement.setAttribute("data-theme", scheme), [scheme]);
   return (
     <QueryClientProvider client={queries}>

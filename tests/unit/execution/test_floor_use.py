@@ -17,9 +17,11 @@ from execution.floor.floor_use import (
     ZoneUse,
     ZoneWait,
     cut,
+    heat_of,
     read_back,
+    square_for,
     squares_of,
-    use_of,
+    zones_of,
 )
 
 DAY = datetime(2026, 11, 23, tzinfo=UTC)
@@ -50,8 +52,9 @@ def over(clock: str, *, step: str = "a", run: str = "r1") -> JournalLine:
 
 def used(*lines: JournalLine, offset: int = 0) -> tuple[dict[tuple[int, int], int], dict[str, ZoneUse]]:
     """What is counted of journals whose lines are given in the order in which they were written."""
-    use = use_of(read_back(reversed(lines), {"r1": END, "r2": END}), offset)
-    return dict(use.heat), dict(use.zones)
+    found = list(read_back(reversed(lines), {"r1": END, "r2": END}))
+    heat = heat_of(each for each in found if isinstance(each, Drive))
+    return dict(heat), dict(zones_of((each for each in found if isinstance(each, ZoneWait)), offset))
 
 
 def test_a_square_is_counted_once_for_each_drive_that_comes_through_it() -> None:
@@ -130,8 +133,8 @@ def test_a_wait_of_no_length_is_none() -> None:
 
 
 def waits(*spans: tuple[str, str, int], offset: int = 0) -> int | None:
-    found = use_of((ZoneWait("z", at(begun, day), at(ended, day)) for begun, ended, day in spans), offset)
-    return found.zones["z"].busiest_min
+    found = zones_of((ZoneWait("z", at(begun, day), at(ended, day)) for begun, ended, day in spans), offset)
+    return found["z"].busiest_min
 
 
 def test_the_busiest_half_hour_is_that_with_the_most_waiting_on_all_days_together() -> None:
@@ -146,10 +149,10 @@ def test_the_busiest_half_hour_is_told_in_the_days_of_who_asks(offset: int, begi
 
 
 def test_a_wait_over_midnight_and_one_over_days_are_shared_out() -> None:
-    over_midnight = use_of([ZoneWait("z", at("23:58"), at("00:04", 1))], 0)
-    assert over_midnight.zones["z"].busiest_min == 23 * 60 + 40 + 10
-    days = use_of([ZoneWait("z", at("06:05"), at("06:15", 3))], 0)
-    assert days.zones["z"] == ZoneUse(1, 3 * 86400 + 600.0, 350)
+    over_midnight = zones_of([ZoneWait("z", at("23:58"), at("00:04", 1))], 0)
+    assert over_midnight["z"].busiest_min == 23 * 60 + 40 + 10
+    days = zones_of([ZoneWait("z", at("06:05"), at("06:15", 3))], 0)
+    assert days["z"] == ZoneUse(1, 3 * 86400 + 600.0, 350)
 
 
 @given(
@@ -176,10 +179,17 @@ def test_squares_join_up_and_have_the_ends_of_the_path(path: list[tuple[float, f
 @given(st.integers(0, 86399), st.integers(1, 5 * 86400), st.integers(-720, 840))
 def test_no_second_of_a_wait_is_lost_and_its_half_hour_is_one_of_the_day(begun: int, seconds: int, offset: int) -> None:
     start = DAY + timedelta(seconds=begun)
-    use = use_of([ZoneWait("z", start, start + timedelta(seconds=seconds))], offset).zones["z"]
+    use = zones_of([ZoneWait("z", start, start + timedelta(seconds=seconds))], offset)["z"]
     assert use.waited_s == seconds
     assert use.busiest_min in range(0, SLOTS * 10, 10)
 
 
 def test_drives_alone_have_no_zones() -> None:
-    assert use_of([Drive(ALONG)], 0).zones == {}
+    assert zones_of([], 0) == {}
+
+
+def test_squares_are_larger_on_floors_that_would_have_too_many() -> None:
+    assert square_for(25.0, 14.4) == SQUARE_M
+    assert square_for(50.0, 50.0) == SQUARE_M
+    assert square_for(200.0, 200.0) == 1.0
+    assert heat_of([Drive(((0.1, 0.1), (3.9, 0.1)))], 1.0) == {(column, 0): 1 for column in range(4)}

@@ -7,6 +7,7 @@ import { pointed } from "../devices/movable";
 import { nudge, onMap } from "../devices/placement";
 import { freeMiddle } from "./places/newPlace";
 import styles from "./places/places.module.css";
+import { usePageKey } from "./usePageKey";
 
 interface FloorToolProps {
   map: SiteMap;
@@ -20,12 +21,12 @@ interface FloorToolProps {
 export function FloorTool({ map, label, at = null, put, stop }: FloorToolProps) {
   const floor = useRef<SVGRectElement>(null);
   useEffect(() => floor.current?.focus(), []);
+  usePageKey("Escape", stop); // also after a click beside the floor
   const { left, top, right, bottom } = planBox(map);
   const press = (event: KeyboardEvent) => {
     const moved = at && nudge(at, event.key, event.shiftKey);
     if (moved) put(onMap(moved, map));
     else if (event.key === "Enter") put(at ?? freeMiddle(map));
-    else if (event.key === "Escape") stop();
     else return;
     event.preventDefault();
   };

@@ -1,7 +1,7 @@
 /** The site's map, large, with its places and zones, what there is to know about it and its ROS files. */
 import { Button, Skeleton } from "@mantine/core";
 import { Check, MapPin, MapPinned, Move, SquareDashed, TrafficCone, type LucideIcon } from "lucide-react";
-import { useMemo, useState } from "react";
+import { useEffect, useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { missing } from "@/api/failed";
@@ -139,6 +139,12 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
   const movable = mode === "machines" ? devices.filter((device) => device.kind === "machine") : [];
   const bare = useMemo(() => ({ ...map, places: [] }), [map]);
   const cleared = useMemo(() => ({ ...map, obstacles: [] }), [map]);
+  const { stop: stopPlace } = places;
+  const { stop: stopZone } = zones;
+  const { stop: stopObstacle } = obstacles;
+  useEffect(() => {
+    for (const stop of [stopPlace, stopZone, stopObstacle]) stop(); // who comes back adds nothing
+  }, [mode]); // eslint-disable-line react-hooks/exhaustive-deps -- when the mode is another, and only then
   const editZone = (zone: string | null) => {
     zones.select(zone);
     change("zones");

@@ -16,7 +16,7 @@ from execution.floor import floor_use_routes as routes
 from execution.models import Archive, Run, RunEvent
 from registry import services as registry
 from registry.floorplan.plan import Grid
-from registry.models import Site
+from registry.models import Site, SiteMap
 from tests.kit.sign_in import from_role, sign_in_member
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -34,11 +34,16 @@ def _at_noon(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(routes.database, "now", lambda: NOON)
 
 
+def save_map(grid: Grid, *, days_ago: float) -> None:
+    version = registry.save_map(site="hall", grid=grid).version
+    SiteMap.objects.filter(version=version).update(created_at=NOON - timedelta(days=days_ago))
+
+
 @pytest.fixture
 def gate(db: None) -> str:
     """Make a hall with a zone for one robot at a time; return its id."""
     registry.create_site(name="Hall", slug="hall")
-    registry.save_map(site="hall", grid=Grid(8, 8, 0.5, 0.0, 0.0, bytes(64)))
+    save_map(Grid(8, 8, 0.5, 0.0, 0.0, bytes(64)), days_ago=40)
     zone = registry.ZoneChange(name="Gate", rule="one_at_a_time", points=GATE, robots=1)
     return str(registry.add_zone(site="hall", zone=zone).id)
 
@@ -166,16 +171,15 @@ def test_the_newest_runs_and_lines_are_read_and_the_answer_says_that_there_were_
 
 
 def test_it_takes_as_many_statements_for_many_runs_as_for_one(gate: str) -> None:
-    asked = routes.AskFloorUse()
     Written(hours=6, ended=5).drive()
     with CaptureQueriesContext(connection) as one:
-        assert routes._counted("hall", asked).runs == 1
+        assert routes._count("hall", 7).runs == 1
     for _ in range(20):
         Written(hours=6, ended=5).drive().wait(10, 40, f"site/{gate}")
     routes._kept.clear()
     with CaptureQueriesContext(connection) as many:
-        assert routes._counted("hall", asked).runs == 21
-    assert (len(one), len(many)) == (2, 2)
+        assert routes._count("hall", 7).runs == 21
+    assert (len(one), len(many)) == (3, 3)  # how the map lies, runs, lines
 
 
 def test_what_was_counted_is_told_again_for_a_minute(viewer: Client, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -189,6 +193,37 @@ def test_what_was_counted_is_told_again_for_a_minute(viewer: Client, monkeypatch
     assert viewer.get(f"{USE}?days=6").json()["heat"][0] == [0, 0, 2]
     clock[0] += 2
     assert viewer.get(USE).json()["heat"][0] == [0, 0, 2]
+
+
+def test_what_is_known_is_told_also_while_others_are_counted_and_at_every_offset(
+    viewer: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Written(hours=6, ended=5).drive()
+    assert viewer.get(USE).status_code == 200
+    monkeypatch.setattr(routes, "PATIENCE_S", 0.01)
+    others = [registry.Claim(-1), registry.Claim(-2)]
+    assert all(routes.count_places.take(other) for other in others)
+    try:
+        assert [viewer.get(f"{USE}?utc_offset_min={offset}").json()["heat"] for offset in (0, 60, -45)] == [SQUARES] * 3
+        assert viewer.get(f"{USE}?days=3").status_code == 429
+    finally:
+        for other in others:
+            routes.count_places.give_back(other)
+
+
+def test_what_was_driven_before_the_map_lay_as_it_does_is_not_drawn_on_it(viewer: Client) -> None:
+    Written(hours=6, ended=5).drive()
+    save_map(Grid(8, 8, 0.5, 0.0, 0.0, bytes([100]) + bytes(63)), days_ago=0.1)
+    assert viewer.get(USE).json()["heat"] == SQUARES  # a wall more changes nothing of where things are
+    routes._kept.clear()
+    save_map(Grid(8, 8, 0.5, 1.0, 0.0, bytes(64)), days_ago=0.05)
+    assert viewer.get(USE).json()["heat"] == []
+
+
+def test_a_site_without_a_map_says_so(db: None) -> None:
+    registry.create_site(name="Bare", slug="bare")
+    answer = sign_in_member("viewer", "bare").get("/api/sites/bare/floor-use")
+    assert (answer.status_code, answer.json()["code"]) == (404, "no_map")
 
 
 def test_no_more_answers_are_kept_than_so_many(viewer: Client, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,7 +4,7 @@ import { Ruler } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { useKeymap } from "@/shell/keys/keymap";
 import page from "../MapPage.module.css";
-import { usePageKey } from "./usePageKey";
+import { usePageKey } from "../usePageKey";
 
 /** The id of the button, where the focus is when measuring ends. */
 export const MEASURE_BUTTON = "measure-button";

@@ -14,7 +14,7 @@ import { MEASURE_BUTTON } from "./MeasureButton";
 import { lineOf } from "./measuring";
 import { reachAt } from "./snapping";
 import type { MeasureView } from "./useMeasuring";
-import { usePageKey } from "./usePageKey";
+import { usePageKey } from "../usePageKey";
 
 /** How far (m) an arrow key moves the cross-hair, and with Shift. */
 const STEPS = [0.05, 0.5] as const;

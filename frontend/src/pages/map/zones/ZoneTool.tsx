@@ -7,6 +7,7 @@ import { toPixels, type Point } from "@/map/plane/projection";
 import { pointed } from "../../devices/movable";
 import { onMap } from "../../devices/placement";
 import { freeMiddle } from "../places/newPlace";
+import { usePageKey } from "../usePageKey";
 import { CLICK_M, CLOSES_M, FEWEST_CORNERS, isNear, pathOf, rectangle, squareAt, type Outline } from "./outline";
 import type { Drawn } from "./useZones";
 import styles from "./zones.module.css";
@@ -22,13 +23,13 @@ export function ZoneTool({ map, corners, draw, stop }: ZoneToolProps) {
   const { t } = useTranslation();
   const floor = useRef<SVGRectElement>(null);
   useEffect(() => floor.current?.focus(), []);
+  usePageKey("Escape", stop); // also after a click beside the floor
   const [from, setFrom] = useState<Point | null>(null);
   const [to, setTo] = useState<Point | null>(null);
   const press = (event: KeyboardEvent) => {
     if (event.key === "Enter" && corners.length === 0) draw({ corners: squareAt(freeMiddle(map), map), closed: true });
     else if (event.key === "Enter" && corners.length >= FEWEST_CORNERS) draw({ corners, closed: true });
     else if (event.key === "Backspace" && corners.length > 0) draw({ corners: corners.slice(0, -1), closed: false });
-    else if (event.key === "Escape") stop();
     else return;
     event.preventDefault();
   };
