@@ -1,8 +1,8 @@
 /** A small read-only map: floor, devices and, if given, routes. */
-import { type ReactNode, useEffect, useMemo, useState } from "react";
+import { type ReactNode, useEffect, useMemo, useRef, useState } from "react";
 import { footprint, type MapDevice } from "./devices/device";
 import { DeviceGlyph } from "./devices/DeviceToken";
-import { boxOfDevices, NAME_SIZE, nameOnMap, nameSize } from "./devices/framing";
+import { boxOfDevices, nameOnMap, nameSize } from "./devices/framing";
 import { type FloorPlan, knownBox } from "./floor/floor";
 import { FloorCanvas } from "./floor/FloorCanvas";
 import type { FloorDetail } from "./floor/floorPainter";
@@ -14,6 +14,8 @@ import { useSize } from "./plane/useSize";
 import { RobotLayer } from "./robots/RobotLayer";
 import type { RobotSource } from "./robots/robots";
 import { ViewportCell } from "./plane/viewport";
+import { useZoomedView } from "./useZoomedView";
+import { ZoomControls } from "./ZoomControls";
 import { ZoomContext } from "./plane/zoom";
 
 const QUIET: FloorDetail = { rulers: false, labels: false, grid: true };
@@ -35,6 +37,8 @@ export interface StaticMapProps {
   robots?: RobotSource;
   /** How often robots drove where, drawn on the floor. */
   heat?: Heat | null;
+  /** Whether people come nearer by wheel, buttons and dragging. */
+  zoomable?: boolean;
   /** More to draw in drawing pixels, above the devices. */
   children?: ReactNode;
 }
@@ -45,16 +49,26 @@ export function StaticMap(props: StaticMapProps) {
   const [cell] = useState(() => new ViewportCell());
   const known = useMemo(() => focus ?? (plan ? knownBox(plan) : null), [plan, focus]);
   const { left, top, right, bottom } = known ?? boxOfDevices(devices);
-  const view = useMemo(
+  const fit = useMemo(
     () => staticView({ left, top, right, bottom }, width, height),
     [left, top, right, bottom, width, height],
   );
+  const surface = useRef<SVGSVGElement>(null);
+  const isZoomable = props.zoomable === true;
+  const zoomed = useZoomedView(surface, fit, { left, top, right, bottom }, { width, height }, isZoomable);
+  const { view } = zoomed;
   useEffect(() => cell.set(view), [cell, view]);
   const stop = (devices.find((device) => device.id === props.selected) ?? devices[0])?.id;
   return (
     <div ref={element} className={classes.static} role="group" aria-label={label}>
       <FloorCanvas plan={plan} viewport={cell} detail={named ? NAMED : QUIET} heat={props.heat} />
-      <svg className={classes.still} aria-hidden={props.onSelect || props.children ? undefined : true}>
+      <svg
+        ref={surface}
+        className={classes.still}
+        data-nearer={zoomed.isNearer || undefined}
+        {...(isZoomable ? zoomed.pointer : {})}
+        aria-hidden={props.onSelect || props.children ? undefined : true}
+      >
         <g transform={`translate(${view.x} ${view.y}) scale(${view.zoom})`}>
           {routes.map((route, index) => (
             <PathLine key={index} points={route.map(toPixels)} />
@@ -72,6 +86,7 @@ export function StaticMap(props: StaticMapProps) {
           <ZoomContext value={view.zoom}>{props.children}</ZoomContext>
         </g>
       </svg>
+      {isZoomable && width > 0 ? <ZoomControls zoomed={zoomed} /> : null}
       {props.robots ? <RobotLayer source={props.robots} viewport={cell} isTaken={nowhere} /> : null}
     </div>
   );
@@ -132,7 +147,7 @@ function StaticDevice({ device, selected, onSelect, named, zoom, stop }: StaticD
 }
 
 function DeviceName({ device, chosen, zoom }: { device: MapDevice; chosen: boolean; zoom: number }) {
-  const size = chosen ? nameSize(zoom) : NAME_SIZE;
+  const size = nameSize(zoom);
   return (
     <text
       className={classes.label}

@@ -161,6 +161,7 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
               !movable.includes(device) && !((mode === "places" || mode === "zones") && device.kind === "robot"),
           )}
           named
+          zoomable
           selected={query.get("device")}
           onSelect={!stopMeasuring && (mode === null || mode === "machines") ? open : undefined}
           label={t("pages.map.of", { site: site.name })}

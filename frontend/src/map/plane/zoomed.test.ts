@@ -1,0 +1,32 @@
+import { expect, test } from "vitest";
+import { kept, NEAREST, scaleBar, zoomedAt } from "./zoomed";
+
+const FIT = { x: 10, y: 20, zoom: 0.5 };
+const FRAME = { left: 0, top: 0, right: 1000, bottom: 500 };
+const PANE = { width: 520, height: 290 };
+
+test("the point that is zoomed at stays where it is", () => {
+  const near = zoomedAt(FIT, FIT, 2, 110, 70);
+  expect(near).toEqual({ zoom: 1, x: -90, y: -30 });
+  const at = ({ x, y, zoom }: typeof FIT) => [(110 - x) / zoom, (70 - y) / zoom];
+  expect(at(near ?? FIT)).toEqual(at(FIT));
+});
+
+test("farther than the whole is the whole, and there is a nearest", () => {
+  expect(zoomedAt({ ...FIT, zoom: 0.6 }, FIT, 0.5, 0, 0)).toBeNull();
+  expect(zoomedAt(FIT, FIT, 1e6, 0, 0)?.zoom).toBe(NEAREST);
+  expect(zoomedAt({ ...FIT, zoom: 20 }, { ...FIT, zoom: 20 }, 2, 0, 0)).toBeNull();
+});
+
+test("a map that is moved stays in sight", () => {
+  const view = { zoom: 1, x: -400, y: -100 };
+  expect(kept(view, FRAME, PANE)).toEqual(view);
+  expect(kept({ ...view, x: 5000 }, FRAME, PANE).x).toBe(260);
+  expect(kept({ ...view, y: -5000 }, FRAME, PANE).y).toBe(145 - 500);
+});
+
+test("the bar is of a round length and no wider than there is room", () => {
+  expect(scaleBar(1, 40, 100)).toEqual({ metres: 2, pixels: 80 });
+  expect(scaleBar(0.05, 40, 100)).toEqual({ metres: 50, pixels: 100 });
+  expect(scaleBar(8, 40, 100).metres).toBeCloseTo(0.2);
+});

@@ -1,0 +1,36 @@
+/** A map that fits, seen from nearer: zoomed at a point, moved by hand, and never lost from sight; pure. */
+import type { Box, Viewport } from "./projection";
+
+/** How near one may come, in pixels of the screen for a drawing pixel. */
+export const NEAREST = 8;
+
+export interface Pane {
+  readonly width: number;
+  readonly height: number;
+}
+
+/** The view with `factor` times the zoom; the point (x, y) of the pane stays. Null where the whole fits again. */
+export function zoomedAt(view: Viewport, fit: Viewport, factor: number, x: number, y: number): Viewport | null {
+  const zoom = Math.min(Math.max(NEAREST, fit.zoom), view.zoom * factor);
+  if (zoom <= fit.zoom * 1.001) return null;
+  const by = zoom / view.zoom;
+  return { zoom, x: x - (x - view.x) * by, y: y - (y - view.y) * by };
+}
+
+/** The view with the map moved so that its frame covers the middle of the pane. */
+export function kept(view: Viewport, frame: Box, { width, height }: Pane): Viewport {
+  const between = (value: number, low: number, high: number) => Math.min(high, Math.max(low, value));
+  return {
+    zoom: view.zoom,
+    x: between(view.x, width / 2 - frame.right * view.zoom, width / 2 - frame.left * view.zoom),
+    y: between(view.y, height / 2 - frame.bottom * view.zoom, height / 2 - frame.top * view.zoom),
+  };
+}
+
+/** The longest of 1, 2 or 5 times a power of ten metres that is no wider than so many pixels of the screen. */
+export function scaleBar(zoom: number, pixelsPerMetre: number, most: number): { metres: number; pixels: number } {
+  const perMetre = zoom * pixelsPerMetre;
+  const power = 10 ** Math.floor(Math.log10(most / perMetre));
+  const metres = [5, 2, 1].map((each) => each * power).find((each) => each * perMetre <= most) ?? power;
+  return { metres, pixels: metres * perMetre };
+}

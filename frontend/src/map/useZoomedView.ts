@@ -1,0 +1,71 @@
+/** The view of a map that fits its pane until somebody zooms: by wheel, buttons or, once nearer, by dragging it. */
+import { type PointerEvent, type RefObject, useEffect, useRef, useState } from "react";
+import type { Box, Viewport } from "./plane/projection";
+import { kept, type Pane, zoomedAt } from "./plane/zoomed";
+
+const STEP = 1.4;
+
+export type ZoomedView = ReturnType<typeof useZoomedView>;
+
+export function useZoomedView(
+  surface: RefObject<SVGSVGElement | null>,
+  fit: Viewport,
+  frame: Box,
+  pane: Pane,
+  isOn: boolean,
+) {
+  const [own, setOwn] = useState<{ view: Viewport; fit: Viewport } | null>(null);
+  // Of a pane or map that is another by now nothing is left.
+  const view = own && own.fit === fit ? own.view : fit;
+  const put = (next: Viewport | null) => setOwn(next && { view: kept(next, frame, pane), fit });
+  const zoomAt = (factor: number, x = pane.width / 2, y = pane.height / 2) => put(zoomedAt(view, fit, factor, x, y));
+
+  const wheel = useRef(zoomAt);
+  useEffect(() => {
+    wheel.current = zoomAt;
+  });
+  useEffect(() => {
+    const element = isOn ? surface.current : null;
+    const turn = (event: WheelEvent) => {
+      event.preventDefault();
+      const box = element?.getBoundingClientRect();
+      wheel.current(Math.exp(-event.deltaY / 400), event.clientX - (box?.left ?? 0), event.clientY - (box?.top ?? 0));
+    };
+    element?.addEventListener("wheel", turn, { passive: false });
+    return () => element?.removeEventListener("wheel", turn);
+  }, [surface, isOn]);
+
+  const held = useRef<{ pointer: number; x: number; y: number } | null>(null);
+  const isNearer = view !== fit;
+  /** The floor itself is taken by the main button, everything by the middle one. */
+  const grab = (event: PointerEvent<SVGSVGElement>) => {
+    const isMine = event.button === 1 || (event.button === 0 && event.target === event.currentTarget);
+    if (!isNearer || !isMine) return;
+    event.preventDefault();
+    event.stopPropagation();
+    event.currentTarget.setPointerCapture(event.pointerId);
+    held.current = { pointer: event.pointerId, x: event.clientX, y: event.clientY };
+  };
+  const drag = (event: PointerEvent<SVGSVGElement>) => {
+    const { current } = held;
+    if (current?.pointer !== event.pointerId) return;
+    put({ ...view, x: view.x + event.clientX - current.x, y: view.y + event.clientY - current.y });
+    held.current = { pointer: event.pointerId, x: event.clientX, y: event.clientY };
+  };
+  const drop = () => {
+    held.current = null;
+  };
+  return {
+    view,
+    isNearer,
+    zoomIn: () => zoomAt(STEP),
+    zoomOut: () => zoomAt(1 / STEP),
+    fit: () => setOwn(null),
+    pointer: {
+      onPointerDownCapture: grab,
+      onPointerMove: drag,
+      onPointerUp: drop,
+      onPointerCancel: drop,
+    },
+  };
+}
