@@ -7,7 +7,6 @@ import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from functools import cache
-from math import isfinite
 from pathlib import Path
 from typing import Any, Final, get_args
 
@@ -144,8 +143,8 @@ def _law_word(name: str, word: str, value: object) -> Any:
 
 
 def _number(name: str, word: str, value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value) or abs(value) > MOST:
-        raise BadKinds(f"{name}: {word} must be a number of at most {MOST:g}, not {value!r}.")
+    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= MOST:
+        raise BadKinds(f"{name}: {word} must be a number of at most {MOST:g}, not {repr(value)[:40]}.")
     if word in _POSITIVE and value < 0.001:
         raise BadKinds(f"{name}: {word} must be at least 0.001, not {value!r}.")
     if word in _PARTS and not 0 <= value <= 1:

@@ -152,6 +152,8 @@ def _fixed_rounds(plan: p.Plan, at: int) -> int | None:
         return None  # a While: its condition is the program's own
     if isinstance(most, Operation) and most.operator == "len" and isinstance(most.arguments[0], Variable):
         listed = _assigned(plan, at, most.arguments[0].name)
+        if isinstance(listed, Constant) and isinstance(listed.value, list | tuple):
+            return len(listed.value)
         fits = isinstance(listed, Operation) and listed.operator == "list"
         return len(listed.arguments) if fits and isinstance(listed, Operation) else None
     held = most if branch.condition.operator == "<" else _assigned(plan, at, counted.name)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from math import isfinite
 from typing import Any, Final, get_args
 
 from execution.trials.trial import Expectation, ExpectationKind, Trial, TrialFile
@@ -144,7 +143,7 @@ class _Reader:
             raise self.bad((*path, error.number - 1) if error.number else path, error.detail) from error
 
     def driver(self, path: Path, value: object) -> Any:
-        if value not in {"physics", "kinematic"}:
+        if value not in ("physics", "kinematic"):
             raise self.bad(path, f"The driver is physics or kinematic, not {value!r}.")
         return value
 
@@ -166,10 +165,10 @@ class _Reader:
         return self.number(path, value, -1e15, 1e15)
 
     def number(self, path: Path, value: object, low: float, high: float) -> float:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
-            raise self.bad(path, f"“{path[-1]}” is a number, not {value!r}.")
-        if not low <= value <= high:
-            raise self.bad(path, f"“{path[-1]}” is a number from {low:g} to {high:g}, not {value:g}.")
+        if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
+            raise self.bad(path, f"“{path[-1]}” is a number, not {str(value)[:40]!r}.")
+        if not low <= value <= high:  # also of a number that is too large for a float
+            raise self.bad(path, f"“{path[-1]}” is a number from {low:g} to {high:g}, not {str(value)[:40]}.")
         return value
 
     def whole(self, path: Path, value: object, most: int) -> int:

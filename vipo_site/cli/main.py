@@ -11,6 +11,7 @@ from typing import NoReturn
 
 from editor.language.messages.diagnostics import diagnostic_to_json
 from vipo_device.descriptions.forms import FORMS
+from vipo_device.protocol.errors import VipoError
 from vipo_site.cli import account, call, devices, history, mending, record, token
 from vipo_site.cli.program_file import FaultyScript, UnreadableFile
 from vipo_site.cli.programs import add_program_commands
@@ -55,6 +56,9 @@ def _run(options: argparse.Namespace) -> int:
         return FAULTY
     except UnreadableFile as error:
         complain(str(error))
+        return UNUSABLE
+    except VipoError as error:  # a file of kinds that cannot be used, say
+        complain(error.detail)
         return UNUSABLE
     except _setting_error() as error:
         complain(str(error))

@@ -88,8 +88,8 @@ def read_bounded(path: Path, what: str) -> bytes:
     try:
         with nullcontext(sys.stdin.buffer) if str(path) == "-" else path.open("rb") as file:
             payload = file.read(MOST_BYTES + 1)
-    except OSError as error:
-        raise UnreadableFile(f"{path} cannot be read: {error.strerror or error}.") from error
+    except (OSError, ValueError) as error:  # the latter: a name that no file can have
+        raise UnreadableFile(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.") from error
     if len(payload) > MOST_BYTES:
         raise UnreadableFile(f"{path} is larger than {MOST_BYTES // 1_000_000} MB. That is no {what}.")
     return payload

@@ -20,6 +20,8 @@ from vipo_site.cli.program_file import UnreadableFile
 from vipo_site.cli.terminal import CLEAN, FAULTY, write, write_json
 
 SIDES_M = (0.01, 0.25)
+SHORTEST_M = 2.0
+"""A lidar that sees less takes all that is near for looked at and goes nowhere, or loses where it is."""
 
 
 def scan(options: argparse.Namespace) -> int:
@@ -57,8 +59,8 @@ def _check(options: argparse.Namespace) -> None:
     """Refuse options that no robot has. Raises UnreadableFile."""
     if not 0 <= options.seed < 2**63:
         raise UnreadableFile("--seed must be a whole number from 0 on.")
-    if not 0.5 <= options.lidar <= 40:
-        raise UnreadableFile(f"--lidar {options.lidar:g} is out of bounds; choose 0.5 to 40 metres.")
+    if not SHORTEST_M <= options.lidar <= 40:
+        raise UnreadableFile(f"--lidar {options.lidar:g} is out of bounds; choose {SHORTEST_M:g} to 40 metres.")
     if not 0 <= options.odometry <= 0.3:
         raise UnreadableFile(f"--odometry {options.odometry:g} is out of bounds; choose 0 to 0.3 (0.05 is 5 %).")
     if options.start is not None and not all(isfinite(value) for value in options.start):

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from execution.trials.coverage import REACHED, Way, coverage_to_json
+from execution.trials.junit import is_passed
 from execution.trials.mutation import Mutation
 from execution.trials.odds import Odds
 from execution.trials.trial_run import Outcome, Subject
@@ -36,8 +37,12 @@ class Tested:
     @property
     def ok(self) -> bool:
         """True when every test passes, with every seed."""
-        held = all(outcome.ok for _, outcomes in self.files for outcome in outcomes)
-        return held and not any(odds.failed for odds in self.odds.values())
+        return all(self.passed)
+
+    @property
+    def passed(self) -> list[bool]:
+        """Whether each test passes, in their order."""
+        return [is_passed(each, self.odds.get((file, each.trial.name))) for file, of_it in self.files for each in of_it]
 
     def where(self, step: str, line: int) -> str:
         """Return a step in the program's words: its number and its line of the script."""
@@ -54,9 +59,7 @@ def say_tested(tested: Tested) -> Iterator[str]:
             yield from _say_outcome(outcome, tested.odds.get((file, outcome.trial.name)))
     yield from _say_coverage(tested)
     yield from _say_mutations(tested)
-    all_of_them = [outcome for _, of_file in tested.files for outcome in of_file]
-    passed = sum(outcome.ok for outcome in all_of_them)
-    yield f"{tested.program}: {passed} of {len(all_of_them)} tests pass."
+    yield f"{tested.program}: {sum(tested.passed)} of {len(tested.passed)} tests pass."
 
 
 def _say_outcome(outcome: Outcome, odds: Odds | None) -> Iterator[str]:

@@ -45,7 +45,9 @@ def test_files(options: argparse.Namespace) -> int:
     tested = [_tested(group, options) for group in _by_program(outcomes)]
     if options.junit is not None:
         files = [(str(suite.path), of_suite) for suite, of_suite in outcomes]
-        options.junit.write_text(junit_xml(files), encoding="utf-8")
+        odds = {test: found for each in tested for test, found in each.odds.items()}
+        options.junit.parent.mkdir(parents=True, exist_ok=True)
+        options.junit.write_text(junit_xml(files, odds), encoding="utf-8")
     if options.json:
         write_json({"version": 1, "programs": [tested_to_json(each) for each in tested]})
     else:

@@ -49,8 +49,8 @@ class Command(BaseCommand):
         """Run the robot."""
         if not 0.1 <= options["speed"] <= 20:
             raise CommandError(f"--speed {options['speed']:g} is outside 0.1 to 20; 1 is real time.")
-        if not 0.5 <= options["lidar"] <= 40:
-            raise CommandError(f"--lidar {options['lidar']:g} is out of bounds; choose 0.5 to 40 metres.")
+        if not 2 <= options["lidar"] <= 40:
+            raise CommandError(f"--lidar {options['lidar']:g} is out of bounds; choose 2 to 40 metres.")
         stopping = stop_on_signals(STOP_LIMIT_S)
         try:
             make_scout(options).run(stopping)

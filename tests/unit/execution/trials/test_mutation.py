@@ -9,6 +9,7 @@ from execution.trials.coverage import coverage_to_json, missed
 from execution.trials.expectations import Verdict
 from execution.trials.junit import junit_xml
 from execution.trials.mutation import mutate
+from execution.trials.odds import find_odds
 from execution.trials.trial import Expectation, Trial
 from execution.trials.trial_run import run_trial, settle
 from execution.trials.yaml_lines import BadTrialFile
@@ -106,7 +107,16 @@ def test_steps_are_found_by_their_number():
 
 def test_junit_says_what_was_expected_and_seen_and_is_xml_whatever_it_says():
     outcome = replace(run_trial(WELL, SUBJECT), verdicts=(Verdict("a <b> & “c”", 4, ok=False, saw='\x00\x1b"]]>'),))
-    text = junit_xml([("tests/a.yaml", [outcome, run_trial(WELL, SUBJECT)])])
+    text = junit_xml([("tests/a.yaml", [outcome, run_trial(WELL, SUBJECT)])], {})
     assert 'tests="2" failures="1" errors="0"' in text
     assert "expected: a &lt;b&gt; &amp; “c”; seen: \ufffd\ufffd" in text
     assert not {"\x00", "\x1b"} & set(text)
+
+
+def test_a_test_that_fails_with_some_seeds_fails_in_junit_too():
+    outcome = run_trial(WELL, SUBJECT)
+    odds = {("tests/a.yaml", outcome.trial.name): find_odds([1.0] * 70, 30)}
+    text = junit_xml([("tests/a.yaml", [outcome])], odds)
+    assert 'tests="1" failures="1" errors="0"' in text
+    assert "with 30 of 100 seeds it fails, 30.0 %" in text
+    assert 'failures="0"' in junit_xml([("tests/b.yaml", [outcome])], odds)

@@ -76,8 +76,8 @@ def test_bad_maps_and_options_are_named(hall: Path, tmp_path: Path, capsys: pyte
     lonely.write_text("image: gone.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n")
     assert "The PGM ends early: 3 of 16 cells." in refused(["--map", str(lonely), *out], capsys)
     for option, value, told in (
-        ("--lidar", "0.1", "--lidar 0.1 is out of bounds; choose 0.5 to 40 metres.\n"),
-        ("--lidar", "nan", "--lidar nan is out of bounds; choose 0.5 to 40 metres.\n"),
+        ("--lidar", "0.1", "--lidar 0.1 is out of bounds; choose 2 to 40 metres.\n"),
+        ("--lidar", "nan", "--lidar nan is out of bounds; choose 2 to 40 metres.\n"),
         ("--odometry", "2", "--odometry 2 is out of bounds; choose 0 to 0.3 (0.05 is 5 %).\n"),
         ("--seed", "-1", "--seed must be a whole number from 0 on.\n"),
     ):
