@@ -3,10 +3,11 @@ import { Button, Modal } from "@mantine/core";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { useChangePlace } from "@/api/places";
-import { usePrograms } from "@/api/queries";
+import { usePrograms, useRuns } from "@/api/queries";
 import type { MapPlace } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
+import { underWay } from "../zones/uses";
 import styles from "./places.module.css";
 
 /** The programs of a site that name the place; null until that is known. */
@@ -44,11 +45,24 @@ export function RemovePlace({ slug, place, onClose }: RemovePlaceProps) {
   useReturnFocus();
   const change = useChangePlace(slug);
   const uses = usePlaceUses(slug, place.id);
+  const runs = underWay(useRuns(slug).data ?? [], uses ?? []);
   return (
     <Modal opened onClose={onClose} title={t("place.removeAsk", { name: place.name })} size={440}>
       <div className={styles.form}>
         <PlaceUses slug={slug} place={place.id} />
         {uses && uses.length > 0 ? <p>{t("place.removeText", { count: uses.length })}</p> : null}
+        {runs.length > 0 ? (
+          <div role="note">
+            <p>{t("place.runs", { count: runs.length })}</p>
+            <ul className={styles.uses}>
+              {runs.map((run) => (
+                <li key={run.id}>
+                  <Link to={`/runs/${run.id}`}>{t("place.run", { number: run.number, name: run.program.name })}</Link>
+                </li>
+              ))}
+            </ul>
+          </div>
+        ) : null}
         {change.error ? <p role="alert">{problemText(change.error, t("shell.problem.screen"))}</p> : null}
         <div className={styles.decide}>
           <Button variant="default" onClick={onClose} data-autofocus>

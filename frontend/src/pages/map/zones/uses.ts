@@ -30,12 +30,15 @@ export function usesOf({ points }: Pick<MapZone, "points">, known: Known): ZoneU
   const programs = known.programs.filter((program) =>
     [...program.places, ...program.devices].some((each) => names.has(each)),
   );
-  const runs = known.runs.filter(
+  return { places, machines, programs, runs: underWay(known.runs, programs) };
+}
+
+/** The runs of these programs that are under way. */
+export const underWay = (runs: readonly RunSummary[], programs: readonly Program[]): RunSummary[] =>
+  runs.filter(
     ({ status, program }) =>
       (status === "running" || status === "paused") && programs.some(({ id }) => id === program.id),
   );
-  return { places, machines, programs, runs };
-}
 
 /** A machine's middle, and where robots might stand on each side of it. */
 function around(device: Device): Point[] {
