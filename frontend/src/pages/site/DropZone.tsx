@@ -2,7 +2,7 @@
 import { Check, FileUp } from "lucide-react";
 import { useState, type DragEvent } from "react";
 import { useTranslation } from "react-i18next";
-import { kindOf, type MapFiles } from "./files";
+import { isUsable, kindOf, type MapFiles } from "./files";
 import styles from "./newsite.module.css";
 
 interface DropZoneProps {
@@ -14,10 +14,15 @@ interface DropZoneProps {
 export function DropZone({ files, problem, choose }: DropZoneProps) {
   const { t } = useTranslation();
   const [over, setOver] = useState(false);
+  const [unusable, setUnusable] = useState<readonly string[]>([]);
+  const take = (chosen: readonly File[]) => {
+    setUnusable(chosen.filter((file) => !isUsable(file)).map(({ name }) => name));
+    choose(chosen);
+  };
   const drop = (event: DragEvent) => {
     event.preventDefault();
     setOver(false);
-    choose([...event.dataTransfer.files]);
+    take([...event.dataTransfer.files]);
   };
   return (
     <div>
@@ -45,10 +50,15 @@ export function DropZone({ files, problem, choose }: DropZoneProps) {
           onClick={(event) => {
             event.currentTarget.value = "";
           }}
-          onChange={(event) => choose([...(event.target.files ?? [])])}
+          onChange={(event) => take([...(event.target.files ?? [])])}
         />
       </label>
       <Parts files={files} />
+      {unusable.length > 0 ? (
+        <p className={styles.problem} role="alert">
+          {t("mapImport.unusable", { names: unusable.join(", ") })}
+        </p>
+      ) : null}
       {problem ? (
         <p id="map-problem" className={styles.problem} role="alert">
           {problem}

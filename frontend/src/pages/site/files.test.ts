@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { kindOf, nameFrom, NO_FILES, sortFiles } from "./files";
+import { isUsable, kindOf, nameFrom, NO_FILES, sortFiles } from "./files";
 
 const file = (name: string) => new File([], name);
 const NONE = NO_FILES;
@@ -43,4 +43,10 @@ test("a drawing stands for itself, and a file of a map for it", () => {
   const drawn = sortFiles({ ...NONE, yaml: file("a.yaml") }, [file("Hall.DXF")]);
   expect([drawn.yaml, drawn.drawing?.name, kindOf(drawn)]).toEqual([null, "Hall.DXF", "drawing"]);
   expect(kindOf(sortFiles(drawn, [file("b.yaml")]))).toBe("map");
+});
+
+test("what can be no map is told apart: a building file is YAML, too", () => {
+  const names = ["a.yaml", "b.PNG", "c.zip", "d.dxf", "e.dwg", "f.lif.json", "g.building.yaml", "pgm"];
+  expect(names.filter((name) => isUsable(file(name)))).toEqual(["a.yaml", "b.PNG", "c.zip", "d.dxf"]);
+  expect(sortFiles(NONE, [file("g.building.yaml")])).toEqual(NONE);
 });

@@ -8,14 +8,18 @@ export interface MapFiles {
 
 export const NO_FILES: MapFiles = { yaml: null, image: null, archive: null, drawing: null };
 
+/** Whether a file can be a map or a part of one; a building file of RMF, also YAML, is none. */
+export const isUsable = ({ name }: File): boolean =>
+  /\.(zip|dxf|ya?ml|pgm|png|bmp|jpe?g|webp)$/i.test(name) && !/\.building\.ya?ml$/i.test(name);
+
 /** Put newly chosen files beside those that are there; an archive or a drawing stands for all; other kinds are left out. */
 export function sortFiles(known: MapFiles, chosen: readonly File[]): MapFiles {
   let { yaml, image } = known;
-  for (const file of chosen) {
+  for (const file of chosen.filter(isUsable)) {
     if (/\.zip$/i.test(file.name)) return { ...NO_FILES, archive: file };
     if (/\.dxf$/i.test(file.name)) return { ...NO_FILES, drawing: file };
     if (/\.ya?ml$/i.test(file.name)) yaml = file;
-    else if (/\.(pgm|png|bmp|jpe?g|webp)$/i.test(file.name)) image = file;
+    else image = file;
   }
   const isNew = yaml !== known.yaml || image !== known.image;
   return { yaml, image, archive: isNew ? null : known.archive, drawing: isNew ? null : known.drawing };
