@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from execution.trials.coverage import coverage_to_json, missed
+from editor.language import compile_document
+from execution.trials.coverage import Coverage, coverage_to_json, missed
 from execution.trials.expectations import Verdict
 from execution.trials.junit import junit_xml
 from execution.trials.mutation import mutate
@@ -14,6 +15,8 @@ from execution.trials.trial import Expectation, Trial
 from execution.trials.trial_run import run_trial, settle
 from execution.trials.yaml_lines import BadTrialFile
 from simulation.world import Fault
+from tests.kit.demo_site import factory
+from tests.kit.programs import document, step
 from tests.unit.execution.trials.hot_box import BROKEN, NUMBERS, SUBJECT, WELL
 
 
@@ -120,3 +123,15 @@ def test_a_test_that_fails_with_some_seeds_fails_in_junit_too():
     assert 'tests="1" failures="1" errors="0"' in text
     assert "with 30 of 100 seeds it fails, 30.0 %" in text
     assert 'failures="0"' in junit_xml([("tests/b.yaml", [outcome])], odds)
+
+
+@pytest.mark.parametrize(("items", "rounds"), [(["red"], "one"), (["red", "white"], "many")])
+def test_a_for_each_over_a_list_that_is_written_down_is_asked_for_its_own_rounds_alone(items, rounds):
+    drawn = document(
+        {
+            "a": step("for_each", variable="x", items=items),
+            "b": step("notify", ("a", "body"), message="one more", level="info"),
+        }
+    )
+    plan = compile_document(drawn, factory()).plan
+    assert {way.name for way in Coverage(plan).ways if way.step == "a"} == {"reached", rounds}

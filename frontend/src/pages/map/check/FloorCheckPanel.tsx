@@ -51,6 +51,7 @@ export function FloorCheckPanel(props: FloorCheckPanelProps) {
         decimalScale={2}
         suffix=" m"
         onChange={view.setWidth}
+        error={view.isOdd ? t("floorCheck.odd") : null}
       />
       {error ? (
         <div role="alert" className={styles.failed}>

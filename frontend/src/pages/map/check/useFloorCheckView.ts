@@ -16,6 +16,8 @@ export interface FloorCheckView {
   /** What is written as the width of another robot, in metres; a text while somebody writes; empty: the site's own. */
   readonly width: number | string;
   readonly setWidth: (width: number | string) => void;
+  /** Whether what is written is no width that robots have; then the check is for the site's own. */
+  readonly isOdd: boolean;
   /** For which width it is, in metres; null: the site's own. */
   readonly asked: number | null;
   readonly chosen: FloorFinding | undefined;
@@ -52,6 +54,7 @@ export function useFloorCheckView(slug: string, map: SiteMap, enabled: boolean):
     again: () => void refetch(),
     width,
     setWidth,
+    isOdd: typeof asked === "number" && !isSound,
     asked: width_m,
     chosen: finding,
     choose: (each) => {
