@@ -97,10 +97,11 @@ def _misfit(fault: Fault, device: Description) -> str:
     spec = device.property(fault.name)
     if spec is None:
         return f"{device.name} has no property {fault.name!r}. It has: {_some(p.name for p in device.properties)}."
-    return "" if _suits(spec, fault.value) else f"{fault.name} is a {spec.type}; {fault.value!r} is none."
+    return "" if suits(spec, fault.value) else f"{fault.name} is a {spec.type}; {fault.value!r} is none."
 
 
-def _suits(spec: PropertySpec, value: Scalar) -> bool:
+def suits(spec: PropertySpec, value: Scalar) -> bool:
+    """Tell whether a value is of the type of a property."""
     if spec.type == "number":
         return isinstance(value, int | float) and not isinstance(value, bool)
     return isinstance(value, bool if spec.type == "boolean" else str)

@@ -33,6 +33,8 @@ SENTENCES = {
     "no_device": "There is no device “{device}” in the site. There are: {known}.",
     "no_device_at_all": "There is no device “{device}” in the site. There is none.",
     "no_property": "{device} has no property “{name}”.",
+    "given_value": "The reading {name} of {device} is a {type}; {value} is none.",
+    "given_holder": "{device} is a {kind}; write what it holds under “{other}”.",
     "no_parameter": "The program has no parameter “{name}”. There are: {known}.",
     "no_parameter_at_all": "The program has no parameter “{name}”. There is none.",
     "no_zone": "There is no zone “{name}”. There are: {known}.",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from editor.language import PlaceFacts, ZoneFacts
@@ -13,9 +13,9 @@ from execution.trials.coverage import Coverage
 from execution.trials.expectations import Seen, Verdict, judge
 from execution.trials.trial import Expectation, Trial
 from execution.trials.yaml_lines import BadTrialFile
-from simulation.fault_form import BadFaults, check_faults
+from simulation.fault_form import BadFaults, check_faults, suits
 from simulation.world import Scene
-from vipo_device.protocol.description import Scalar
+from vipo_device.protocol.description import Description, Scalar
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,18 +115,27 @@ def _scene(trial: Trial, scene: Scene) -> Scene:
 
 def _check_given(trial: Trial, subject: Subject) -> None:
     known = {d.id: d for d in subject.scene.devices}
-    for device in (*trial.stocks, *trial.carrying, *trial.readings):
-        if device not in known:
-            raise BadTrialFile(trial.line, f"There is no device “{device}” in the site. {_there_are(known)}")
-    for device, values in trial.readings.items():
-        for name in values:
-            if known[device].property(name) is None:
-                raise BadTrialFile(trial.line, f"{device} has no property “{name}”.")
+    _check_devices((*trial.stocks, *trial.carrying, *trial.readings), known, trial.line)
+    for table, kind, other in ((trial.stocks, "robot", "carrying"), (trial.carrying, "machine", "stock")):
+        for device in table:
+            if known[device].kind == kind:
+                raise BadTrialFile(trial.line, f"{device} is a {kind}; write what it holds under “{other}”.")
+    _check_readings(trial, known)
     for name in trial.parameters:
         if name not in subject.plan.parameters:
             raise BadTrialFile(
                 trial.line, f"The program has no parameter “{name}”. {_there_are(subject.plan.parameters)}"
             )
+
+
+def _check_readings(trial: Trial, known: Mapping[str, Description]) -> None:
+    for device, values in trial.readings.items():
+        for name, value in values.items():
+            spec = known[device].property(name)
+            if spec is None:
+                raise BadTrialFile(trial.line, f"{device} has no property “{name}”.")
+            if not suits(spec, value):
+                raise BadTrialFile(trial.line, f"The reading {name} of {device} is a {spec.type}; {value!r} is none.")
 
 
 def _settled(expectation: Expectation, subject: Subject) -> Expectation:
@@ -135,11 +144,12 @@ def _settled(expectation: Expectation, subject: Subject) -> Expectation:
     devices = {d.id: d for d in subject.scene.devices}
     if expectation.kind == "step":
         return replace(expectation, says={**says, "step": _step(says["step"], subject, line)})
-    if expectation.kind == "item" and says["at"] not in devices:
-        raise BadTrialFile(line, f"There is no device “{says['at']}” in the site. {_there_are(devices)}")
+    if expectation.kind == "commands":
+        _check_devices([named.partition(".")[0] for named in says if "." in named], devices, line)
+    if expectation.kind == "item":
+        _check_devices([says["at"]], devices, line)
     if expectation.kind == "property":
-        if says["device"] not in devices:
-            raise BadTrialFile(line, f"There is no device “{says['device']}” in the site. {_there_are(devices)}")
+        _check_devices([says["device"]], devices, line)
         if devices[says["device"]].property(says["name"]) is None:
             raise BadTrialFile(line, f"{says['device']} has no property “{says['name']}”.")
     if expectation.kind == "never_two_in":
@@ -148,6 +158,12 @@ def _settled(expectation: Expectation, subject: Subject) -> Expectation:
         if says[word] not in known:
             raise BadTrialFile(line, f"There is no {word} “{says[word]}”. {_there_are(known)}")
     return expectation
+
+
+def _check_devices(named: Iterable[str], known: Collection[str], line: int) -> None:
+    for device in named:
+        if device not in known:
+            raise BadTrialFile(line, f"There is no device “{device}” in the site. {_there_are(known)}")
 
 
 def _step(named: str, subject: Subject, line: int) -> str:

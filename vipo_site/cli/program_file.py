@@ -123,7 +123,8 @@ def _site(given: object, path: Path, site_path: Path | None) -> tuple[dict[str, 
         where, given = site_path, _json(_read_text(site_path), site_path)
     if given is None:
         raise UnreadableFile(
-            f"{path} names no site. Give one with --site, for example --site examples/painting-factory.json"
+            f"{path} names no site. Give one with --site, or in a file of tests with site:, such as "
+            "examples/painting-factory.json"
         )
     if not isinstance(given, dict):
         raise UnreadableFile(f"The site in {where} must be a JSON object with “devices” and “places”.")

@@ -1,6 +1,7 @@
 """Which ways through a program its tests take, and which changes of it they notice."""
 
 import json
+import re
 from dataclasses import replace
 
 import pytest
@@ -135,3 +136,21 @@ def test_a_for_each_over_a_list_that_is_written_down_is_asked_for_its_own_rounds
     )
     plan = compile_document(drawn, factory()).plan
     assert {way.name for way in Coverage(plan).ways if way.step == "a"} == {"reached", rounds}
+
+
+@pytest.mark.parametrize(
+    ("given", "why"),
+    [
+        ({"stocks": {"robot01": {"box": 2}}}, "robot01 is a robot; write what it holds under “carrying”."),
+        ({"carrying": {"paintMixer02": {"box": 2}}}, "paintMixer02 is a machine; write what it holds under “stock”."),
+        ({"readings": {"paintMixer02": {"temperature": "hot"}}},
+         "The reading temperature of paintMixer02 is a number; 'hot' is none."),
+        ({"readings": {"paintMixer02": {"temperature": True}}},
+         "The reading temperature of paintMixer02 is a number; True is none."),
+        ({"then": (Expectation("commands", 7, ["paintMixer2.mixPaint"]),)}, "There is no device “paintMixer2”"),
+    ],
+)  # fmt: skip
+def test_what_is_given_or_expected_of_devices_has_to_suit_them(given, why):
+    with pytest.raises(BadTrialFile, match=re.escape(why)):
+        settle(replace(WELL, **given), SUBJECT)
+    assert settle(replace(WELL, then=(Expectation("commands", 7, ["paintMixer02.mixPaint", "drop"]),)), SUBJECT)
