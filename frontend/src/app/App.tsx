@@ -6,7 +6,6 @@ import { useTranslation } from "react-i18next";
 import { RouterProvider } from "react-router-dom";
 import { makeQueryClient, ME } from "@/api/queries";
 import { makeTheme, variablesResolver } from "@/design/theme";
-import { formatNumber } from "@/i18n/format";
 import { makeRouter } from "./router";
 import { Waiting } from "@/shell/LoadProblem";
 import { useTheme } from "@/shell/theme";
@@ -31,8 +30,7 @@ export function App() {
   const { t } = useTranslation();
   const scheme = useTheme();
   const close = t("pages.close");
-  const decimal = formatNumber(0.5, 1).charAt(1);
-  const theme = useMemo(() => makeTheme(close, decimal), [close, decimal]);
+  const theme = useMemo(() => makeTheme(close), [close]);
   useEffect(() => document.documentElement.setAttribute("data-theme", scheme), [scheme]);
   return (
     <QueryClientProvider client={queries}>

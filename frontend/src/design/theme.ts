@@ -31,8 +31,8 @@ const dark: MantineColorsTuple = [
 export const FONT = `"Inter Variable", Inter, system-ui, sans-serif`;
 export const MONO = `"JetBrains Mono", ui-monospace, monospace`;
 
-/** The theme; `close` names the buttons that are only a cross, `decimal` parts numbers, in the language of the screen. */
-export const makeTheme = (close: string, decimal: string) =>
+/** The theme; `close` names the buttons that are only a cross, in the language of the screen. */
+export const makeTheme = (close: string) =>
   createTheme({
     fontFamily: FONT,
     fontFamilyMonospace: MONO,
@@ -51,7 +51,6 @@ export const makeTheme = (close: string, decimal: string) =>
       // Named only: each is loaded with the screens and forms that have it.
       Button: { defaultProps: { size: "sm" } },
       TextInput: { defaultProps: { size: "sm" } },
-      NumberInput: { defaultProps: { decimalSeparator: decimal, allowedDecimalSeparators: [",", "."] } },
       Select: { defaultProps: { size: "sm", checkIconPosition: "right" } },
       Menu: { defaultProps: { shadow: "lg", radius: "lg", withinPortal: true, withInitialFocusPlaceholder: false } },
       Modal: {

@@ -1,12 +1,11 @@
 /** A small read-only map: floor, devices and, if given, routes. */
-import { type ReactNode, useEffect, useMemo, useRef, useState } from "react";
+import { type ReactNode, type RefObject, type SVGProps, useEffect, useMemo, useState } from "react";
 import { footprint, type MapDevice } from "./devices/device";
 import { DeviceGlyph } from "./devices/DeviceToken";
 import { boxOfDevices, nameOnMap, nameSize } from "./devices/framing";
 import { type FloorPlan, knownBox } from "./floor/floor";
 import { FloorCanvas } from "./floor/FloorCanvas";
-import type { FloorDetail } from "./floor/floorPainter";
-import type { Heat } from "./floor/heatPainter";
+import type { FloorDetail, Underlay } from "./floor/floorPainter";
 import classes from "./map.module.css";
 import { PathLine } from "./PathLine";
 import { type Box, fitViewport, type Point, toPixels, type Viewport } from "./plane/projection";
@@ -14,12 +13,28 @@ import { useSize } from "./plane/useSize";
 import { RobotLayer } from "./robots/RobotLayer";
 import type { RobotSource } from "./robots/robots";
 import { ViewportCell } from "./plane/viewport";
-import { useZoomedView } from "./useZoomedView";
-import { ZoomControls } from "./ZoomControls";
 import { ZoomContext } from "./plane/zoom";
 
 const QUIET: FloorDetail = { rulers: false, labels: false, grid: true };
 const NAMED: FloorDetail = { rulers: false, labels: true, grid: true };
+
+/** How a map fits its pane, in pixels of the screen; its frame in drawing pixels. */
+export interface Fitted {
+  readonly fit: Viewport;
+  readonly frame: Box;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** A view that somebody moves: `view` holds as long as the map fits as in `of`. */
+export interface SeenMap {
+  readonly of: Viewport;
+  readonly view: Viewport;
+  readonly isNearer: boolean;
+  readonly report: (fitted: Fitted) => void;
+  readonly surface: RefObject<SVGSVGElement | null>;
+  readonly pointer: SVGProps<SVGSVGElement>;
+}
 
 export interface StaticMapProps {
   plan: FloorPlan | null;
@@ -35,10 +50,10 @@ export interface StaticMapProps {
   label: string;
   /** Robots that move, instead of standing among the devices. */
   robots?: RobotSource;
-  /** How often robots drove where, drawn on the floor. */
-  heat?: Heat | null;
-  /** Whether people come nearer by wheel, buttons and dragging. */
-  zoomable?: boolean;
+  /** What is painted on the floor itself. */
+  under?: Underlay | null;
+  /** How it is seen, where people come nearer. */
+  seen?: SeenMap;
   /** More to draw in drawing pixels, above the devices. */
   children?: ReactNode;
 }
@@ -53,20 +68,23 @@ export function StaticMap(props: StaticMapProps) {
     () => staticView({ left, top, right, bottom }, width, height),
     [left, top, right, bottom, width, height],
   );
-  const surface = useRef<SVGSVGElement>(null);
-  const isZoomable = props.zoomable === true;
-  const zoomed = useZoomedView(surface, fit, { left, top, right, bottom }, { width, height }, isZoomable);
-  const { view } = zoomed;
+  const { seen } = props;
+  const view = seen?.of === fit ? seen.view : fit;
+  const report = seen?.report;
+  useEffect(
+    () => report?.({ fit, frame: { left, top, right, bottom }, width, height }),
+    [report, fit, left, top, right, bottom, width, height],
+  );
   useEffect(() => cell.set(view), [cell, view]);
   const stop = (devices.find((device) => device.id === props.selected) ?? devices[0])?.id;
   return (
     <div ref={element} className={classes.static} role="group" aria-label={label}>
-      <FloorCanvas plan={plan} viewport={cell} detail={named ? NAMED : QUIET} heat={props.heat} />
+      <FloorCanvas plan={plan} viewport={cell} detail={named ? NAMED : QUIET} under={props.under} />
       <svg
-        ref={surface}
+        ref={seen?.surface}
         className={classes.still}
-        data-nearer={zoomed.isNearer || undefined}
-        {...(isZoomable ? zoomed.pointer : {})}
+        data-nearer={seen?.isNearer || undefined}
+        {...seen?.pointer}
         aria-hidden={props.onSelect || props.children ? undefined : true}
       >
         <g transform={`translate(${view.x} ${view.y}) scale(${view.zoom})`}>
@@ -86,7 +104,6 @@ export function StaticMap(props: StaticMapProps) {
           <ZoomContext value={view.zoom}>{props.children}</ZoomContext>
         </g>
       </svg>
-      {isZoomable && width > 0 ? <ZoomControls zoomed={zoomed} /> : null}
       {props.robots ? <RobotLayer source={props.robots} viewport={cell} isTaken={nowhere} /> : null}
     </div>
   );

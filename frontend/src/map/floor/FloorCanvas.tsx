@@ -2,8 +2,7 @@
 import { useCallback, useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { FloorPlan } from "./floor";
-import { floorShapes, paintFloor, type FloorDetail } from "./floorPainter";
-import type { Heat } from "./heatPainter";
+import { floorShapes, paintFloor, type FloorDetail, type Underlay } from "./floorPainter";
 import classes from "../map.module.css";
 import type { Palette } from "../plane/palette";
 import { useZonesAt } from "./openZones";
@@ -18,18 +17,18 @@ export function FloorCanvas({
   plan,
   viewport,
   detail = FULL,
-  heat = null,
+  under = null,
 }: {
   plan: FloorPlan | null;
   viewport: ViewportSource;
   detail?: FloorDetail;
-  heat?: Heat | null;
+  under?: Underlay | null;
 }) {
   const { t } = useTranslation();
   const zones = plan?.zones;
   const at = useZonesAt(zones);
   const signs = useMemo(() => (zones ?? []).map((zone) => zoneSign(zone, signWords(zone, t, at), at)), [zones, t, at]);
-  const shapes = useMemo(() => (plan ? floorShapes(plan, signs, heat) : null), [plan, signs, heat]);
+  const shapes = useMemo(() => (plan ? floorShapes(plan, signs, under) : null), [plan, signs, under]);
   const paint = useCallback(
     (canvas: CanvasRenderingContext2D, size: { width: number; height: number }, palette: Palette) =>
       paintFloor(canvas, size, palette, shapes, viewport.get(), detail),

@@ -2,9 +2,11 @@
 import { cellBoxToPixels, knownBox, mergeCells, type FloorPlan } from "./floor";
 import type { Palette } from "../plane/palette";
 import { PIXELS_PER_METRE, toPixels, type Box, type Viewport } from "../plane/projection";
-import { paintHeat, type Heat } from "./heatPainter";
 import { paintObstacles } from "./obstaclePainter";
 import { paintZones, paintZoneTags, type ZoneSign } from "./zonePainter";
+
+/** Paints something on the floor, below walls, zones and names; what is free of it is the third. */
+export type Underlay = (canvas: CanvasRenderingContext2D, palette: Palette, floor: Path2D) => void;
 
 export interface FloorShapes {
   readonly plan: FloorPlan;
@@ -13,7 +15,7 @@ export interface FloorShapes {
   readonly box: Box;
   readonly zones: readonly ZoneSign[];
   /** How often robots drove where; null where nobody asks. */
-  readonly heat: Heat | null;
+  readonly under: Underlay | null;
 }
 
 export interface FloorDetail {
@@ -29,7 +31,7 @@ const roomLabel = (zoom: number) => `500 ${Math.max(11.5, 9 / zoom)}px 'Inter Va
 const RULER_LABEL = "10.5px 'JetBrains Mono', monospace";
 
 /** Merge the cells into shapes once for each map. */
-export function floorShapes(plan: FloorPlan, zones: readonly ZoneSign[], heat: Heat | null = null): FloorShapes {
+export function floorShapes(plan: FloorPlan, zones: readonly ZoneSign[], under: Underlay | null = null): FloorShapes {
   return {
     plan,
     free: pathOf(
@@ -42,7 +44,7 @@ export function floorShapes(plan: FloorPlan, zones: readonly ZoneSign[], heat: H
     ),
     box: knownBox(plan),
     zones,
-    heat,
+    under,
   };
 }
 
@@ -69,7 +71,7 @@ export function paintFloor(
   canvas.translate(viewport.x, viewport.y);
   canvas.scale(viewport.zoom, viewport.zoom);
   paintGround(canvas, palette, shapes, viewport.zoom, detail);
-  if (shapes.heat) paintHeat(canvas, palette, shapes.heat, shapes.free);
+  shapes.under?.(canvas, palette, shapes.free);
   paintZones(canvas, palette, shapes.zones, viewport.zoom);
   paintWalls(canvas, palette, shapes, viewport.zoom);
   paintObstacles(canvas, palette, shapes.plan.obstacles ?? [], viewport.zoom);

@@ -37,6 +37,8 @@ import { useObstacles } from "./obstacles/useObstacles";
 import { PlaceHandles } from "./places/PlaceHandles";
 import { PlacesPanel } from "./places/PlacesPanel";
 import { usePlaces } from "./places/usePlaces";
+import { useZoomedView } from "./useZoomedView";
+import { ZoomControls } from "./ZoomControls";
 import { useZones } from "./zones/useZones";
 import { ZoneHandles } from "./zones/ZoneHandles";
 import { ZonesPanel } from "./zones/ZonesPanel";
@@ -128,6 +130,7 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
   const { t } = useTranslation();
   const navigate = useNavigate();
   const [query] = useSearchParams();
+  const seen = useZoomedView();
   const places = usePlaces(site.slug, map);
   const zones = useZones(site.slug, map);
   const obstacles = useObstacles(site.slug);
@@ -141,9 +144,9 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
   const cleared = useMemo(() => ({ ...map, obstacles: [] }), [map]);
   const { stop: stopPlace } = places;
   const { stop: stopZone } = zones;
-  const { stop: stopObstacle } = obstacles;
   useEffect(() => {
-    for (const stop of [stopPlace, stopZone, stopObstacle]) stop(); // who comes back adds nothing
+    if (mode !== "places") stopPlace(); // who comes back adds nothing
+    if (mode !== "zones") stopZone();
   }, [mode]); // eslint-disable-line react-hooks/exhaustive-deps -- when the mode is another, and only then
   const editZone = (zone: string | null) => {
     zones.select(zone);
@@ -155,13 +158,13 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
       <Panel className={styles.map}>
         <StaticMap
           plan={mode === "places" ? bare : mode === "obstacles" ? cleared : layers.plan}
-          heat={layers.heat}
+          under={layers.under}
           devices={devices.filter(
             (device) =>
               !movable.includes(device) && !((mode === "places" || mode === "zones") && device.kind === "robot"),
           )}
           named
-          zoomable
+          seen={seen}
           selected={query.get("device")}
           onSelect={!stopMeasuring && (mode === null || mode === "machines") ? open : undefined}
           label={t("pages.map.of", { site: site.name })}
@@ -178,6 +181,7 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
           {asked && mode !== "places" ? <PlaceMark at={[asked.x, asked.y]} /> : null}
           {stopMeasuring ? <MeasureTool map={map} view={measure} stop={stopMeasuring} /> : null}
         </StaticMap>
+        <ZoomControls zoomed={seen} />
         {mode === null ? <LayersCard layers={layers} /> : null}
       </Panel>
       <Panel className={styles.about}>

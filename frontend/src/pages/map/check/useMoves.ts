@@ -4,7 +4,7 @@ import { useTranslation } from "react-i18next";
 import { useMoveOnMap, type Moved } from "@/api/moves";
 import type { Device, FloorRemedy, SiteMap } from "@/api/types";
 import { tellRefusal } from "@/shell/refusal";
-import { tellWithUndo } from "@/shell/undoNotice";
+import { tellWithUndo } from "./undoNotice";
 
 export function useMoves(slug: string, map: SiteMap, devices: readonly Device[]) {
   const { t } = useTranslation();

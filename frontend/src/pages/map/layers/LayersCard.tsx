@@ -6,7 +6,7 @@ import { useTranslation } from "react-i18next";
 import { USE_DAYS } from "@/api/floorUse";
 import { Panel } from "@/design/Panel";
 import { formatNumber } from "@/i18n/format";
-import { type Heat, mostDrives } from "@/map/floor/heatPainter";
+import { type Heat, mostDrives } from "./heatPainter";
 import { problemText } from "@/shell/LoadProblem";
 import { type Layer, LAYERS } from "./layers";
 import styles from "./layers.module.css";

@@ -4,7 +4,8 @@ import { useMemo, useState } from "react";
 import { useFloorUse } from "@/api/floorUse";
 import { useMe } from "@/api/queries";
 import type { FloorUse, SiteMap } from "@/api/types";
-import type { Heat } from "@/map/floor/heatPainter";
+import type { Underlay } from "@/map/floor/floorPainter";
+import { type Heat, paintHeat } from "./heatPainter";
 import { type Chosen, keepLayers, keptLayers, shownMap } from "./layers";
 
 /** Where the map is small, the card hides it until somebody opens it. */
@@ -19,6 +20,8 @@ export interface Layers {
   /** How the floor was used, and where most, where that is shown and known. */
   readonly use: FloorUse | undefined;
   readonly heat: Heat | null;
+  /** Paints the heat on the floor. */
+  readonly under: Underlay | null;
   readonly error: Error | null;
 }
 
@@ -36,6 +39,7 @@ export function useLayers(slug: string, map: SiteMap, { on, asked }: Looked): La
   const hasHeat = on && chosen.heat;
   const { data, error } = useFloorUse(slug, { enabled: hasHeat });
   const use = hasHeat ? data : undefined;
+  const heat = useMemo(() => (use ? { square_m: use.square_m, squares: use.heat } : null), [use]);
   return {
     chosen,
     change: (change) => {
@@ -46,7 +50,11 @@ export function useLayers(slug: string, map: SiteMap, { on, asked }: Looked): La
     isOpen: chosen.open ?? isRoomy,
     plan: useMemo(() => (on ? shownMap(map, chosen, asked) : map), [on, map, chosen, asked]),
     use,
-    heat: useMemo(() => (use ? { square_m: use.square_m, squares: use.heat } : null), [use]),
+    heat,
+    under: useMemo<Underlay | null>(
+      () => heat && ((canvas, palette, floor) => paintHeat(canvas, palette, heat, floor)),
+      [heat],
+    ),
     error: hasHeat && !data ? error : null,
   };
 }

@@ -1,5 +1,5 @@
 /** A map that fits, seen from nearer: zoomed at a point, moved by hand, and never lost from sight; pure. */
-import type { Box, Viewport } from "./projection";
+import type { Box, Viewport } from "@/map/plane/projection";
 
 /** How near one may come, in pixels of the screen for a drawing pixel. */
 export const NEAREST = 8;
@@ -25,12 +25,4 @@ export function kept(view: Viewport, frame: Box, { width, height }: Pane): Viewp
     x: between(view.x, width / 2 - frame.right * view.zoom, width / 2 - frame.left * view.zoom),
     y: between(view.y, height / 2 - frame.bottom * view.zoom, height / 2 - frame.top * view.zoom),
   };
-}
-
-/** The longest of 1, 2 or 5 times a power of ten metres that is no wider than so many pixels of the screen. */
-export function scaleBar(zoom: number, pixelsPerMetre: number, most: number): { metres: number; pixels: number } {
-  const perMetre = zoom * pixelsPerMetre;
-  const power = 10 ** Math.floor(Math.log10(most / perMetre));
-  const metres = [5, 2, 1].map((each) => each * power).find((each) => each * perMetre <= most) ?? power;
-  return { metres, pixels: metres * perMetre };
 }

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { kept, NEAREST, scaleBar, zoomedAt } from "./zoomed";
+import { kept, NEAREST, zoomedAt } from "./zoomed";
 
 const FIT = { x: 10, y: 20, zoom: 0.5 };
 const FRAME = { left: 0, top: 0, right: 1000, bottom: 500 };
@@ -23,10 +23,4 @@ test("a map that is moved stays in sight", () => {
   expect(kept(view, FRAME, PANE)).toEqual(view);
   expect(kept({ ...view, x: 5000 }, FRAME, PANE).x).toBe(260);
   expect(kept({ ...view, y: -5000 }, FRAME, PANE).y).toBe(145 - 500);
-});
-
-test("the bar is of a round length and no wider than there is room", () => {
-  expect(scaleBar(1, 40, 100)).toEqual({ metres: 2, pixels: 80 });
-  expect(scaleBar(0.05, 40, 100)).toEqual({ metres: 50, pixels: 100 });
-  expect(scaleBar(8, 40, 100).metres).toBeCloseTo(0.2);
 });

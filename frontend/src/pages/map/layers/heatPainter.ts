@@ -1,6 +1,6 @@
 /** Paints how often robots drove where: one small picture with a dot for each square of the floor, drawn large. */
-import type { Palette } from "../plane/palette";
-import { PIXELS_PER_METRE, type Box } from "../plane/projection";
+import type { Palette } from "@/map/plane/palette";
+import { PIXELS_PER_METRE, type Box } from "@/map/plane/projection";
 
 export interface Heat {
   /** The side of a square in metres; the square (0, 0) has its lower left corner in the map's origin. */

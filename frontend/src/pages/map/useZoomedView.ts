@@ -1,31 +1,32 @@
 /** The view of a map that fits its pane until somebody zooms: by wheel, buttons or, once nearer, by dragging it. */
-import { type PointerEvent, type RefObject, useEffect, useRef, useState } from "react";
-import type { Box, Viewport } from "./plane/projection";
-import { kept, type Pane, zoomedAt } from "./plane/zoomed";
+import { type PointerEvent, useEffect, useRef, useState } from "react";
+import type { Viewport } from "@/map/plane/projection";
+import type { Fitted } from "@/map/StaticMap";
+import { kept, zoomedAt } from "./zoomed";
 
 const STEP = 1.4;
+/** Until it is known how the map fits. */
+const WHOLE: Viewport = { x: 0, y: 0, zoom: 1 };
 
 export type ZoomedView = ReturnType<typeof useZoomedView>;
 
-export function useZoomedView(
-  surface: RefObject<SVGSVGElement | null>,
-  fit: Viewport,
-  frame: Box,
-  pane: Pane,
-  isOn: boolean,
-) {
+export function useZoomedView() {
+  const surface = useRef<SVGSVGElement>(null);
+  const [fitted, report] = useState<Fitted | null>(null);
   const [own, setOwn] = useState<{ view: Viewport; fit: Viewport } | null>(null);
+  const fit = fitted?.fit ?? WHOLE;
+  const { width, height } = fitted ?? { width: 0, height: 0 };
   // Of a pane or map that is another by now nothing is left.
-  const view = own && own.fit === fit ? own.view : fit;
-  const put = (next: Viewport | null) => setOwn(next && { view: kept(next, frame, pane), fit });
-  const zoomAt = (factor: number, x = pane.width / 2, y = pane.height / 2) => put(zoomedAt(view, fit, factor, x, y));
+  const view = own?.fit === fit ? own.view : fit;
+  const put = (next: Viewport | null) => setOwn(next && fitted && { view: kept(next, fitted.frame, fitted), fit });
+  const zoomAt = (factor: number, x = width / 2, y = height / 2) => put(zoomedAt(view, fit, factor, x, y));
 
   const wheel = useRef(zoomAt);
   useEffect(() => {
     wheel.current = zoomAt;
   });
   useEffect(() => {
-    const element = isOn ? surface.current : null;
+    const element = surface.current;
     const turn = (event: WheelEvent) => {
       event.preventDefault();
       const box = element?.getBoundingClientRect();
@@ -33,7 +34,7 @@ export function useZoomedView(
     };
     element?.addEventListener("wheel", turn, { passive: false });
     return () => element?.removeEventListener("wheel", turn);
-  }, [surface, isOn]);
+  }, []);
 
   const held = useRef<{ pointer: number; x: number; y: number } | null>(null);
   const isNearer = view !== fit;
@@ -56,6 +57,9 @@ export function useZoomedView(
     held.current = null;
   };
   return {
+    surface,
+    report,
+    of: fit,
     view,
     isNearer,
     zoomIn: () => zoomAt(STEP),

@@ -19,7 +19,7 @@ export function tellWithUndo(message: string, undo: () => void): void {
       <span className={styles.notice}>
         {message}
         <Button size="xs" variant="default" leftSection={<Undo2 size={14} aria-hidden="true" />} onClick={takeBack}>
-          {i18next.t("shell.undo")}
+          {i18next.t("floorCheck.remedy.undo")}
         </Button>
       </span>
     ),

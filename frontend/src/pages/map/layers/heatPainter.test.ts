@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { PIXELS_PER_METRE } from "../plane/projection";
+import { PIXELS_PER_METRE } from "@/map/plane/projection";
 import { boxOf, extentOf, FAINTEST, type Heat, mostDrives, STRONGEST, strengthOf } from "./heatPainter";
 
 const HEAT: Heat = {
