@@ -2,7 +2,7 @@
 import { type ReactNode, type RefObject, type SVGProps, useEffect, useMemo, useState } from "react";
 import { footprint, type MapDevice } from "./devices/device";
 import { DeviceGlyph } from "./devices/DeviceToken";
-import { boxOfDevices, nameOnMap, nameSize } from "./devices/framing";
+import { boxOfDevices, NAME_SIZE, nameOnMap, nameSize } from "./devices/framing";
 import { type FloorPlan, knownBox } from "./floor/floor";
 import { FloorCanvas } from "./floor/FloorCanvas";
 import type { FloorDetail, Underlay } from "./floor/floorPainter";
@@ -15,6 +15,8 @@ import type { RobotSource } from "./robots/robots";
 import { ViewportCell } from "./plane/viewport";
 import { ZoomContext } from "./plane/zoom";
 
+/** How large names are at least, in pixels of the screen: larger ones would lie over each other on a small map. */
+const LEAST_NAME = 8.5;
 const QUIET: FloorDetail = { rulers: false, labels: false, grid: true };
 const NAMED: FloorDetail = { rulers: false, labels: true, grid: true };
 
@@ -164,7 +166,7 @@ function StaticDevice({ device, selected, onSelect, named, zoom, stop }: StaticD
 }
 
 function DeviceName({ device, chosen, zoom }: { device: MapDevice; chosen: boolean; zoom: number }) {
-  const size = nameSize(zoom);
+  const size = chosen ? nameSize(zoom) : Math.max(NAME_SIZE, LEAST_NAME / zoom);
   return (
     <text
       className={classes.label}

@@ -46,6 +46,9 @@ def test_one_comes_nearer_by_keyboard_by_wheel_and_by_dragging_and_sees_the_whol
     page.keyboard.press("Enter")
     expect(whole).to_be_disabled()
     assert box_of(page) == pytest.approx((x, y, width), abs=1)
+    page.mouse.move(x, y)
+    page.mouse.wheel(0, 400)  # there is nothing farther: the page may scroll
+    assert box_of(page)[2] == pytest.approx(width, abs=1)
     nearer.focus()
     page.keyboard.press("Enter")
     assert box_of(page)[2] > 1.2 * width

@@ -1,6 +1,9 @@
 /** A key of a whole page, wherever the focus is. */
 import { useEffect, useRef } from "react";
-import { takesLetters } from "@/editor/state/focus";
+
+/** What letters are written into; a switch or a row of choices has no use for them. */
+const TEXTS =
+  "input:not([type=checkbox], [type=radio], [type=range], [type=file]), textarea, select, [contenteditable=true], [role=listbox]";
 
 /** `key` as the event names it, a letter small; `act` is called at each press that means nothing else, if it `isOn`. */
 export function usePageKey(key: string, act: () => void, isOn = true): void {
@@ -27,5 +30,8 @@ const isHeld = (event: KeyboardEvent): boolean =>
 
 /** Whoever types, chooses from a menu or answers a dialog means that. */
 function isTaken(target: EventTarget | null): boolean {
-  return takesLetters(target) || document.querySelector("[role=dialog], [role=alertdialog], [role=menu]") !== null;
+  return (
+    (target instanceof Element && target.matches(TEXTS)) ||
+    document.querySelector("[role=dialog], [role=alertdialog], [role=menu]") !== null
+  );
 }

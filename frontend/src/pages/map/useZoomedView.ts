@@ -1,6 +1,7 @@
 /** The view of a map that fits its pane until somebody zooms: by wheel, buttons or, once nearer, by dragging it. */
-import { type PointerEvent, useEffect, useRef, useState } from "react";
+import { type PointerEvent, useRef, useState } from "react";
 import type { Viewport } from "@/map/plane/projection";
+import { useWheelZoom } from "@/map/plane/useWheelZoom";
 import type { Fitted } from "@/map/StaticMap";
 import { kept, zoomedAt } from "./zoomed";
 
@@ -21,20 +22,11 @@ export function useZoomedView() {
   const put = (next: Viewport | null) => setOwn(next && fitted && { view: kept(next, fitted.frame, fitted), fit });
   const zoomAt = (factor: number, x = width / 2, y = height / 2) => put(zoomedAt(view, fit, factor, x, y));
 
-  const wheel = useRef(zoomAt);
-  useEffect(() => {
-    wheel.current = zoomAt;
+  useWheelZoom(surface, (factor, x, y) => {
+    if (factor <= 1 && view === fit) return false;
+    zoomAt(factor, x, y);
+    return true;
   });
-  useEffect(() => {
-    const element = surface.current;
-    const turn = (event: WheelEvent) => {
-      event.preventDefault();
-      const box = element?.getBoundingClientRect();
-      wheel.current(Math.exp(-event.deltaY / 400), event.clientX - (box?.left ?? 0), event.clientY - (box?.top ?? 0));
-    };
-    element?.addEventListener("wheel", turn, { passive: false });
-    return () => element?.removeEventListener("wheel", turn);
-  }, []);
 
   const held = useRef<{ pointer: number; x: number; y: number } | null>(null);
   const isNearer = view !== fit;

@@ -1,5 +1,5 @@
 /** The map that is being changed: floor, machines and places over it, and the stroke in hand. */
-import { useEffect, useMemo, useRef } from "react";
+import { useMemo, useRef } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, SiteMap } from "@/api/types";
 import { formatPoint } from "@/i18n/format";
@@ -9,6 +9,7 @@ import { planBox } from "@/map/floor/floor";
 import type { CellMap } from "@/map/floor/rosFiles";
 import { toPixels, type Point } from "@/map/plane/projection";
 import { useSize } from "@/map/plane/useSize";
+import { useWheelZoom } from "@/map/plane/useWheelZoom";
 import { CrossHair } from "../map/measure/marks";
 import styles from "./mapEdit.module.css";
 import { StrokeShape } from "./StrokeShape";
@@ -34,20 +35,10 @@ export function EditSurface({ site, map, devices, settings, choose, finish, meas
   const view = useMapView(plan, width, height);
   const { stroke, cursor, press, pointer } = useStroke({ map, view, settings, finish });
   const surface = useRef<SVGSVGElement>(null);
-  const wheel = useRef(view.zoomAt);
-  useEffect(() => {
-    wheel.current = view.zoomAt;
+  useWheelZoom(surface, (factor, x, y) => {
+    view.zoomAt(factor, x, y);
+    return true;
   });
-  useEffect(() => {
-    const element = surface.current;
-    const turn = (event: WheelEvent) => {
-      event.preventDefault();
-      const box = element?.getBoundingClientRect();
-      wheel.current(Math.exp(-event.deltaY / 400), event.clientX - (box?.left ?? 0), event.clientY - (box?.top ?? 0));
-    };
-    element?.addEventListener("wheel", turn, { passive: false });
-    return () => element?.removeEventListener("wheel", turn);
-  }, []);
   const { x, y, zoom } = view.view;
   const shown = stroke.length > 0 ? stroke : settings.tool === "measure" ? measured : [];
   return (
