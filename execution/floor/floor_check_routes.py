@@ -48,7 +48,7 @@ class NoSuchFinding(ExecutionError):
     """The floor has no such finding, or none any more."""
 
     code = "no_such_finding"
-    status = 404
+    status = 409
 
 
 class FloorFindingShape(Schema):

@@ -24,7 +24,8 @@ def fetch(page: Page, form: str) -> tuple[str, bytes]:
     item.focus()
     with page.expect_download() as got:
         page.keyboard.press("Enter")
-    expect(page.get_by_text(form).filter(has_text="is in your downloads")).to_be_visible()
+        # The notice goes after some seconds, and a busy machine may tell of the download no sooner.
+        expect(page.get_by_text(form).filter(has_text="is in your downloads")).to_be_visible()
     return got.value.suggested_filename, Path(got.value.path()).read_bytes()
 
 

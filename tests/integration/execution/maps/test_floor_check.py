@@ -129,14 +129,14 @@ def test_a_remedy_mends_what_was_found_when_it_is_done(admin):
     assert admin.patch(path, json.dumps(change), content_type="application/json").status_code == 200
     assert admin.get(CHECK).json()["findings"] == []
     gone = admin.get(REMEDIES, asked)
-    assert (gone.status_code, gone.json()["code"]) == (404, "no_such_finding")
+    assert (gone.status_code, gone.json()["code"]) == (409, "no_such_finding")
 
 
 def test_remedies_are_looked_for_at_the_width_that_was_asked_for(admin):
     found = admin.get(f"{CHECK}?width_m=0.8").json()["findings"]
     (finding, *_) = [each for each in found if each["code"] == "together"]
     asked = {"code": "together", "target": finding["target"], "other": finding["other"]}
-    assert admin.get(REMEDIES, asked).status_code == 404  # there is none at the site's own width
+    assert admin.get(REMEDIES, asked).status_code == 409  # there is none at the site's own width
     assert admin.get(REMEDIES, asked | {"width_m": 0.8}).json()
 
 

@@ -46,7 +46,7 @@ def test_what_the_device_takes_is_kept_beside_what_its_copy_takes(mixer: Mixer, 
     mixer.pace = 1.5
     command = tell(time=1)
     wait_for("the measurement", Measurement.objects.first)
-    assert is_over(command)
+    wait_for("the end", lambda: is_over(command))
     found = Measurement.objects.get()
     assert (found.command, found.device, found.method, found.step) == (command, MIXER, "mixPaint", "mix")
     assert found.predicted_s == pytest.approx(A_MINUTE_S, abs=0.05)
