@@ -44,6 +44,7 @@ SENTENCES = {
     "no_step": "The program has no step “{name}”. There are: {known}.",
     "no_step_at_all": "The program has no step “{name}”. There is none.",
     "anchor": "It uses an anchor (&name) or an alias (*name). Write out what it stands for.",
+    "tag": "It uses a tag (such as !!str). Write the value alone, a text in quotes.",
     "too_many_values": "It holds more than {most} values. Split it into several files.",
     "too_deep": "It is nested deeper than {most} levels. No test needs that.",
     "too_large": "It is larger than {most} MB. Split it into several files.",

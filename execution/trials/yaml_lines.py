@@ -22,7 +22,10 @@ class BadTrialFile(Exception):
 
 
 class _Loader(yaml.SafeLoader):
-    """SafeLoader without anchors and aliases, of which a few can stand for gigabytes."""
+    """SafeLoader without anchors and aliases, of which a few can stand for gigabytes, and without tags.
+
+    A tag would make another value of what stands there than what one reads.
+    """
 
     nodes = 0
     depth = 0
@@ -32,6 +35,8 @@ class _Loader(yaml.SafeLoader):
         line = event.start_mark.line + 1
         if isinstance(event, yaml.AliasEvent) or getattr(event, "anchor", None):
             raise BadTrialFile(line, "It uses an anchor (&name) or an alias (*name). Write out what it stands for.")
+        if getattr(event, "tag", None):
+            raise BadTrialFile(line, "It uses a tag (such as !!str). Write the value alone, a text in quotes.")
         self.nodes += 1
         self.depth += 1
         if self.nodes > MOST_NODES:
