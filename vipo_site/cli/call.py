@@ -11,7 +11,7 @@ from datetime import UTC, datetime, timedelta
 from typing import TYPE_CHECKING, Any
 
 from vipo_device.protocol.faults import printable
-from vipo_site.cli.terminal import CLEAN, FAULTY, complain, set_up, write, write_json
+from vipo_site.cli.terminal import CLEAN, FAULTY, Unusable, complain, set_up, write, write_json
 
 if TYPE_CHECKING:
     from execution.services import CallView
@@ -34,18 +34,19 @@ def add_arguments(sub: argparse.ArgumentParser) -> None:
 
 
 def call_device(options: argparse.Namespace) -> int:
-    """Call and wait; return 0 when it is done, 1 when it is not, 2 when it could not be asked for."""
+    """Call and wait; return 0 when it is done, 1 when it is not.
+
+    Raises:
+        Unusable, VipoError: it cannot be asked for.
+    """
     set_up()
     # Django has to be set up before models can be imported
     from execution.services import call_to_json
-    from vipo_device.protocol.errors import VipoError
 
     try:
         call = _call(options)
-    except VipoError as error:
-        return complain(error.detail)
     except ValueError as error:
-        return complain(str(error))
+        raise Unusable(str(error), "bad_arguments") from error
     if options.json:
         write_json(call_to_json(call))
     else:
@@ -60,7 +61,7 @@ def _call(options: argparse.Namespace) -> CallView:
     device = registry.find_device(device_id=options.device)
     if device is None or options.site not in {"", device.site}:
         where = f" at the site {options.site!r}" if options.site else ""
-        raise ValueError(f"There is no device {options.device!r}{where}. Try: vipo devices")
+        raise Unusable(f"There is no device {options.device!r}{where}. Try: vipo devices", "not_found")
     method = device.canonical.method(options.method)
     types = {parameter.name: parameter.type for parameter in method.parameters} if method else {}
     arguments = read_arguments(options.args, types)

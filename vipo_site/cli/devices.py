@@ -7,7 +7,7 @@ import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from vipo_site.cli.terminal import CLEAN, complain, set_up, write, write_json, write_table
+from vipo_site.cli.terminal import CLEAN, Unusable, complain, set_up, write, write_json, write_table
 
 if TYPE_CHECKING:
     from registry.services import DeviceView
@@ -55,16 +55,12 @@ def add_enrolment_key_arguments(sub: argparse.ArgumentParser) -> None:
 
 
 def list_devices(options: argparse.Namespace) -> int:
-    """Print the devices; return 0, or 2 when there is no such site."""
+    """Print the devices. Raises VipoError when there is no such site."""
     set_up()
     from registry import services
-    from vipo_device.protocol.errors import VipoError
 
-    try:
-        slugs = [options.site] if options.site else services.list_slugs()
-        found = [device for slug in slugs for device in services.list_devices(site=slug)]
-    except VipoError as error:
-        return complain(error.detail)
+    slugs = [options.site] if options.site else services.list_slugs()
+    found = [device for slug in slugs for device in services.list_devices(site=slug)]
     if options.json:
         write_json([services.device_to_json(d) | {"site": d.site} for d in found])
         return CLEAN
@@ -80,16 +76,12 @@ def list_devices(options: argparse.Namespace) -> int:
 
 
 def list_alerts(options: argparse.Namespace) -> int:
-    """Print the alerts, the latest first; return 0, or 2 when there is no such site."""
+    """Print the alerts, the latest first. Raises VipoError when there is no such site."""
     set_up()
     from registry import services
-    from vipo_device.protocol.errors import VipoError
 
-    try:
-        slugs = [options.site] if options.site else services.list_slugs()
-        found = [(slug, services.alert_to_json(a)) for slug in slugs for a in services.list_alerts(site=slug)]
-    except VipoError as error:
-        return complain(error.detail)
+    slugs = [options.site] if options.site else services.list_slugs()
+    found = [(slug, services.alert_to_json(a)) for slug in slugs for a in services.list_alerts(site=slug)]
     found.sort(key=lambda each: each[1]["last_at"], reverse=True)
     if options.json:
         write_json([alert | {"site": slug} for slug, alert in found])
@@ -107,22 +99,18 @@ def _state_of(alert: Mapping[str, Any]) -> str:
 
 
 def approve(options: argparse.Namespace) -> int:
-    """Approve a device and print its key; return 0, or 2 when that cannot be."""
+    """Approve a device and print its key. Raises Unusable or VipoError when that cannot be."""
     set_up()
     from django.utils import timezone
 
     from registry import services
-    from vipo_device.protocol.errors import VipoError
 
-    try:
-        device = services.find_device(device_id=options.device)
-        if device is None:
-            return complain(f"No device {options.device!r} has described itself. Try: vipo devices")
-        if options.topic or options.withdraw_topic:
-            return _decide_topic(device, options)
-        decided = services.approve_device(site=device.site, device_id=device.id, by=None, at=timezone.now())
-    except VipoError as error:
-        return complain(error.detail)
+    device = services.find_device(device_id=options.device)
+    if device is None:
+        raise Unusable(f"No device {options.device!r} has described itself. Try: vipo devices", "not_found")
+    if options.topic or options.withdraw_topic:
+        return _decide_topic(device, options)
+    decided = services.approve_device(site=device.site, device_id=device.id, by=None, at=timezone.now())
     if options.json:
         write(json.dumps({"device": device.id, "credential": decided.credential, "taken": decided.taken}))
         return CLEAN

@@ -13,9 +13,9 @@ from editor.language.messages.diagnostics import diagnostic_to_json
 from vipo_device.descriptions.forms import FORMS
 from vipo_device.protocol.errors import VipoError
 from vipo_site.cli import account, call, devices, history, mending, record, token
-from vipo_site.cli.program_file import FaultyScript, UnreadableFile
+from vipo_site.cli.program_file import FaultyScript
 from vipo_site.cli.programs import add_program_commands
-from vipo_site.cli.terminal import CLEAN, FAULTY, INTERRUPTED, UNUSABLE, complain, write_json
+from vipo_site.cli.terminal import CLEAN, FAULTY, INTERRUPTED, UNUSABLE, Unusable, complain, refuse, write_failure
 
 _NAMES = (
     *("check", "script", "draw", "plan", "rehearse", "test", "scan", "describe"),
@@ -25,7 +25,8 @@ _NAMES = (
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code: 0 clean, 1 errors in it, 2 nothing could be done, 130 Ctrl-C."""
-    options = _parser().parse_args(arguments)
+    asked = sys.argv[1:] if arguments is None else list(arguments)
+    options = _options(asked)
     try:
         code = _run(options)
         sys.stdout.flush()
@@ -36,10 +37,29 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        complain(f"This cannot be done: {error.strerror or error}{f': {error.filename}' if error.filename else ''}.")
-        return UNUSABLE
+        return _give_up(options, error)
     return code
+
+
+def _options(asked: Sequence[str]) -> argparse.Namespace:
+    """Return what was asked for. Bad usage is told, and raises SystemExit."""
+    try:
+        return _parser().parse_args(asked)
+    except _BadUsage as error:
+        refuse(argparse.Namespace(json="--json" in asked), "bad_usage", str(error))
+        raise SystemExit(UNUSABLE) from None
+
+
+def _give_up(options: argparse.Namespace, error: OSError) -> int:
+    """Say that a file cannot be used; it may be the answer's own, to which nothing is written then."""
+    detail = f"This cannot be done: {error.strerror or error}{f': {error.filename}' if error.filename else ''}."
+    try:
+        if getattr(options, "json", False):
+            write_failure("not_possible", detail)
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return complain(detail)
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -48,28 +68,23 @@ def _run(options: argparse.Namespace) -> int:
         run: Callable[[argparse.Namespace], int] = options.run
         return run(options)
     except FaultyScript as error:
-        if options.json:
-            write_json({"diagnostics": [diagnostic_to_json(diagnostic) for diagnostic in error.diagnostics]})
-        else:
-            for diagnostic in error.diagnostics:
-                complain(f"{error.path}: {diagnostic.message_in(options.lang)}")
+        found = [diagnostic_to_json(diagnostic) for diagnostic in error.diagnostics]
+        refuse(options, error.code, error.message_in(options.lang), diagnostics=found)
         return FAULTY
-    except UnreadableFile as error:
-        complain(str(error))
-        return UNUSABLE
+    except Unusable as error:
+        return refuse(options, error.code, str(error))
     except VipoError as error:  # a file of kinds that cannot be used, say
-        complain(error.detail)
-        return UNUSABLE
+        return refuse(options, error.code, error.detail)
     except _setting_error() as error:
-        complain(str(error))
-        return UNUSABLE
+        return refuse(options, "bad_setting", str(error))
     except _database_error() as error:
         folder = os.environ.get("VIPO_STATE_DIR", "var")
-        complain(
+        return refuse(
+            options,
+            "no_database",
             f"VIPO's database cannot be used: {error}. Run this with the settings of the VIPO that is running (of the "
-            f"demo VIPO_STATE_DIR, which is {folder!r} now), and start that once after an update."
+            f"demo VIPO_STATE_DIR, which is {folder!r} now), and start that once after an update.",
         )
-        return UNUSABLE
 
 
 def _setting_error() -> type[Exception]:
@@ -94,16 +109,18 @@ def _describe(options: argparse.Namespace) -> int:
     try:
         return describe_file(options)
     except ShaclMissing as error:
-        complain(str(error))
-        return UNUSABLE
+        return refuse(options, "shacl_missing", str(error))
+
+
+class _BadUsage(Exception):
+    """The command was used wrongly; the message says how, in one sentence."""
 
 
 class _Parser(argparse.ArgumentParser):
     """Tells of bad usage in one sentence."""
 
     def error(self, message: str) -> NoReturn:
-        complain(f"{message[:1].upper()}{message[1:]}. Try: {self.prog} --help")
-        raise SystemExit(UNUSABLE)
+        raise _BadUsage(f"{message[:1].upper()}{message[1:]}. Try: {self.prog} --help")
 
 
 def _parser() -> argparse.ArgumentParser:

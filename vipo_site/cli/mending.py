@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vipo_site.cli.terminal import CLEAN, FAULTY, complain, set_up, write, write_json, write_table
+from vipo_site.cli.terminal import CLEAN, FAULTY, Unusable, complain, set_up, write, write_json, write_table
 
 if TYPE_CHECKING:
     from editor.services import Change, Mending
@@ -27,30 +27,26 @@ def add_mending_arguments(sub: argparse.ArgumentParser) -> None:
 
 
 def mend(options: argparse.Namespace) -> int:
-    """Show or mend a program; return 0, 1 while rows are left out, 2 when that cannot be."""
+    """Show or mend a program; return 0, or 1 while rows are left out. Raises Unusable or VipoError."""
     set_up()
     from django.conf import settings
 
     from editor import services
-    from vipo_device.protocol.errors import VipoError
 
     folder = options.folder or Path(settings.VIPO_STATE_DIR) / "mended"
     if bool(options.id) == bool(options.restore):
-        return complain("Name a program by its id, or a file with --restore.")
+        raise Unusable("Name a program by its id, or a file with --restore.", "bad_usage")
     is_all_read = True
-    try:
-        if options.restore:
-            found = services.restore_rows(file=options.restore, folder=folder)
+    if options.restore:
+        found = services.restore_rows(file=options.restore, folder=folder)
+    else:
+        services.show_mending(program_id=options.id)  # so that an id that is none is told of first
+        told = _read_unstored(options.id)
+        if options.apply:
+            found = services.mend_program(program_id=options.id, folder=folder, told=told or ())
         else:
-            services.show_mending(program_id=options.id)  # so that an id that is none is told of first
-            told = _read_unstored(options.id)
-            if options.apply:
-                found = services.mend_program(program_id=options.id, folder=folder, told=told or ())
-            else:
-                found = services.show_mending(program_id=options.id, told=told or ())
-            is_all_read = told is not None
-    except VipoError as error:
-        return complain(error.detail)
+            found = services.show_mending(program_id=options.id, told=told or ())
+        is_all_read = told is not None
     is_whole = not found.left_out or options.apply
     if options.json:
         write_json(_to_json(found))

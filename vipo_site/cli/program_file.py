@@ -19,25 +19,35 @@ from editor.language import (
     surroundings_from_json,
     tree_to_document,
 )
+from editor.language.messages.phrases import Language
 from registry.floorplan.map_server import read_map
 from registry.floorplan.plan import FloorPlan
 from vipo_device.protocol.errors import VipoError
+from vipo_site.cli.terminal import Unusable
 
 FILE_VERSION = 1
 MOST_BYTES = 20_000_000
 
 
-class UnreadableFile(Exception):
+class UnreadableFile(Unusable):
     """A file cannot be used; the message says why and how to mend it."""
+
+    code = "unreadable_file"
 
 
 class FaultyScript(UnreadableFile):
     """A script leaves the language; `diagnostics` say where."""
 
+    code = "bad_script"
+
     def __init__(self, path: Path, diagnostics: tuple[Diagnostic, ...]) -> None:
         super().__init__("\n".join(f"{path}: {diagnostic.message}" for diagnostic in diagnostics))
         self.path = path
         self.diagnostics = diagnostics
+
+    def message_in(self, language: Language) -> str:
+        """Return a line for each diagnostic."""
+        return "\n".join(f"{self.path}: {diagnostic.message_in(language)}" for diagnostic in self.diagnostics)
 
 
 @dataclass(frozen=True, slots=True)

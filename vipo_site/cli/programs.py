@@ -14,7 +14,7 @@ from editor.language import compile_document, compiled_to_json, plan_to_json, tr
 from editor.language.compiler import Compiled
 from editor.language.messages.phrases import LANGUAGES, Language
 from vipo_site.cli.program_file import FILE_VERSION, ProgramFile, UnreadableFile, read_program_file
-from vipo_site.cli.terminal import CLEAN, FAULTY, complain, write, write_json
+from vipo_site.cli.terminal import CLEAN, FAULTY, complain, write, write_failure, write_json
 
 _WORDS: Mapping[Language, Mapping[str, tuple[str, ...]]] = {
     "en": {
@@ -86,10 +86,7 @@ def _script(program: ProgramFile, options: argparse.Namespace) -> int:
 def _plan(program: ProgramFile, options: argparse.Namespace) -> int:
     compiled = _compile(program)
     if compiled.plan is None:
-        if options.json:
-            write_json({"diagnostics": compiled_to_json(compiled)["diagnostics"]})
-        _complain_of_errors(compiled, options.lang)
-        return FAULTY
+        return _refuse_errors(program, compiled, options)
     body = plan_to_json(compiled.plan)
     if options.json:
         write_json(body)
@@ -103,8 +100,7 @@ def _plan(program: ProgramFile, options: argparse.Namespace) -> int:
 def _rehearse(program: ProgramFile, options: argparse.Namespace) -> int:
     compiled = _compile(program)
     if compiled.plan is None:
-        _complain_of_errors(compiled, options.lang)
-        return FAULTY
+        return _refuse_errors(program, compiled, options)
     # imported late: rehearsing loads the physics, the other commands do not need it
     from execution.rehearsals.program_file import rehearse_program
 
@@ -185,6 +181,16 @@ def _report(compiled: Compiled, language: Language) -> list[str]:
         severity = words["errors" if d.severity == "error" else "warnings"][0]
         lines.append(f"{severity}: {where or words['program'][0]}{line}: {d.message_in(language)} [{d.code}]")
     return lines
+
+
+def _refuse_errors(program: ProgramFile, compiled: Compiled, options: argparse.Namespace) -> int:
+    """Say which errors keep a program from being carried out; return the exit code."""
+    if options.json:
+        errors = _count(_counts(compiled)[0], "error", "errors")
+        detail = f"{program.name} has {errors} and cannot be carried out. Try: vipo check {options.file}"
+        write_failure("not_ready", detail, diagnostics=compiled_to_json(compiled)["diagnostics"])
+    _complain_of_errors(compiled, options.lang)
+    return FAULTY
 
 
 def _complain_of_errors(compiled: Compiled, language: Language) -> None:

@@ -17,7 +17,7 @@ from simulation.mapping.scores import Scores, score
 from simulation.mapping.survey import NoRoom, Survey, SurveyPlan, run_survey
 from vipo_device.protocol.description import Pose
 from vipo_site.cli.program_file import UnreadableFile
-from vipo_site.cli.terminal import CLEAN, FAULTY, write, write_json
+from vipo_site.cli.terminal import CLEAN, FAULTY, Unusable, write, write_json
 
 SIDES_M = (0.01, 0.25)
 SHORTEST_M = 2.0
@@ -28,7 +28,7 @@ def scan(options: argparse.Namespace) -> int:
     """Map the floor, write the map, print how good it is; return 0, or 1 when it was not finished.
 
     Raises:
-        UnreadableFile: the map cannot be used, or an option is out of bounds.
+        Unusable: the map cannot be used, or an option is out of bounds.
     """
     _check(options)
     truth = read_truth(options.map)
@@ -56,15 +56,19 @@ def scan(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> None:
-    """Refuse options that no robot has. Raises UnreadableFile."""
+    """Refuse options that no robot has. Raises Unusable."""
     if not 0 <= options.seed < 2**63:
-        raise UnreadableFile("--seed must be a whole number from 0 on.")
+        raise _bad_option("--seed must be a whole number from 0 on.")
     if not SHORTEST_M <= options.lidar <= 40:
-        raise UnreadableFile(f"--lidar {options.lidar:g} is out of bounds; choose {SHORTEST_M:g} to 40 metres.")
+        raise _bad_option(f"--lidar {options.lidar:g} is out of bounds; choose {SHORTEST_M:g} to 40 metres.")
     if not 0 <= options.odometry <= 0.3:
-        raise UnreadableFile(f"--odometry {options.odometry:g} is out of bounds; choose 0 to 0.3 (0.05 is 5 %).")
+        raise _bad_option(f"--odometry {options.odometry:g} is out of bounds; choose 0 to 0.3 (0.05 is 5 %).")
     if options.start is not None and not all(isfinite(value) for value in options.start):
-        raise UnreadableFile("--start takes three numbers: x and y in metres, theta in radians.")
+        raise _bad_option("--start takes three numbers: x and y in metres, theta in radians.")
+
+
+def _bad_option(detail: str) -> Unusable:
+    return Unusable(detail, "bad_option")
 
 
 def read_truth(path: Path) -> Grid:

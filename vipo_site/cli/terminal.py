@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import sys
@@ -12,6 +13,16 @@ import django
 from vipo_device.protocol.faults import printable
 
 CLEAN, FAULTY, UNUSABLE, INTERRUPTED = 0, 1, 2, 130
+
+
+class Unusable(Exception):
+    """What was asked for cannot be done; the message says why and how to mend it, `code` says it to programs."""
+
+    code = "unusable"
+
+    def __init__(self, detail: str, code: str = "") -> None:
+        super().__init__(detail)
+        self.code = code or self.code
 
 
 def set_up() -> None:
@@ -42,3 +53,18 @@ def complain(line: str) -> int:
     """Print a line about what is wrong, apart from the answer; return the exit code for what cannot be done."""
     print(line, file=sys.stderr)  # noqa: T201 - a command line tool speaks by printing
     return UNUSABLE
+
+
+def refuse(options: argparse.Namespace, code: str, detail: str, **more: object) -> int:
+    """Say why there is no answer, to who asked for JSON as an object as well; return the code for what cannot be done.
+
+    The object has `code` and `detail`, as those of the API have, and `more`.
+    """
+    if getattr(options, "json", False):
+        write_failure(code, detail, **more)
+    return complain(detail)
+
+
+def write_failure(code: str, detail: str, **more: object) -> None:
+    """Print why there is no answer, for machines: on one line, since some answers are a JSON object for each line."""
+    write(json.dumps({"code": code, "detail": detail, **more}, ensure_ascii=False))

@@ -18,8 +18,8 @@ from execution.trials.trial import Trial
 from execution.trials.trial_file import read_trials
 from execution.trials.trial_run import Outcome, Subject, run_trial, settle
 from execution.trials.yaml_lines import BadTrialFile
-from vipo_site.cli.program_file import ProgramFile, UnreadableFile, read_bounded, read_program_file
-from vipo_site.cli.terminal import CLEAN, FAULTY, complain, write, write_json
+from vipo_site.cli.program_file import FaultyScript, ProgramFile, UnreadableFile, read_bounded, read_program_file
+from vipo_site.cli.terminal import CLEAN, FAULTY, Unusable, complain, write, write_json
 from vipo_site.cli.trial_report import Tested, say_tested, tested_to_json
 
 MOST_SEEDS = 1000
@@ -37,9 +37,15 @@ class _Suite:
 
 
 def test_files(options: argparse.Namespace) -> int:
-    """Carry out the tests of the named files and say how they went; return the exit code."""
+    """Carry out the tests of the named files and say how they went; return the exit code.
+
+    Raises:
+        Unusable: a file or its program cannot be used, or an option is out of bounds.
+    """
     if not 0 <= options.seeds <= MOST_SEEDS or not 1 <= options.mutants <= MOST_MUTANTS:
-        return complain(f"--seeds takes a number up to {MOST_SEEDS}, --mutants one from 1 to {MOST_MUTANTS}.")
+        raise Unusable(
+            f"--seeds takes a number from 0 to {MOST_SEEDS}, --mutants one from 1 to {MOST_MUTANTS}.", "bad_option"
+        )
     suites = [_load(path) for path in _files(options.files)]
     outcomes = [(suite, [run_trial(trial, suite.subject) for trial in suite.trials]) for suite in suites]
     tested = [_tested(group, options) for group in _by_program(outcomes)]
@@ -79,6 +85,8 @@ def _load(path: Path) -> _Suite:
     except BadTrialFile as error:
         line = f"line {error.line}: " if error.line else ""
         raise UnreadableFile(f"{path}: {line}{error.why}") from error
+    except FaultyScript as error:  # otherwise than where a program is checked, that is no result
+        raise UnreadableFile(str(error), error.code) from error
 
 
 def _subject(path: Path, program: ProgramFile) -> Subject:
@@ -87,7 +95,7 @@ def _subject(path: Path, program: ProgramFile) -> Subject:
         first = next(d for d in compiled.diagnostics if d.severity == "error")
         number = compiled.numbers.get(first.step, "")
         where = f"step {number}: " if number else ""
-        raise UnreadableFile(f"{path} has errors, so it cannot be tested. {where}{first.message}")
+        raise UnreadableFile(f"{path} has errors, so it cannot be tested. {where}{first.message}", "not_ready")
     _, scene, places = read_site(dict(program.site), 0)
     lines = tuple(line.strip() for line in compiled.script.splitlines())
     return Subject(compiled.plan, scene, places, compiled.numbers, lines, program.surroundings.zones)

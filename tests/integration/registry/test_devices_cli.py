@@ -33,6 +33,8 @@ def test_devices_are_listed_with_their_state(hall: str, capsys: pytest.CaptureFi
         [("mixer1", "hall", "approved"), ("robot1", "hall", "pending")],
     )
     assert run_vipo(capsys, "devices", "--site", "nowhere") == (2, "", "There is no site 'nowhere'.\n")
+    code, out, err = run_vipo(capsys, "devices", "--site", "nowhere", "--json")
+    assert (code, json.loads(out)["detail"] + "\n", err) == (2, err, "There is no site 'nowhere'.\n")
 
 
 def test_a_device_is_approved_and_its_key_is_printed_once(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
