@@ -12,6 +12,8 @@ from simulation.behaviour import Kind
 from vipo_device.protocol.description import Description, Pose, Scalar
 from vipo_device.protocol.messages import AckStatus, is_final
 
+MOST_SEED = 2**31 - 1
+"""The largest seed that can be asked for; the least is 0, which leaves nothing to chance in rehearsals."""
 FaultKind = Literal[
     "stop", "fail_next", "offline", "lose_ack", "late", "dead", "deaf", "doubled", "wrong_value", "drops", "battery",
     "obstacle",

@@ -10,9 +10,10 @@ from pydantic import Strict
 from editor.shapes import Compiled, Document, Position
 from execution.shapes import Cause, OfVersion, Scalar, StepStatus, WaitReason
 from registry.requests import Asked, Unchecked
+from simulation.world import MOST_SEED
 
 Driver = Literal["physics", "kinematic"]
-Seed = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
+Seed = Annotated[int, Strict(), Field(ge=0, lt=MOST_SEED + 1)]
 
 
 class FaultsOnPurpose(Asked):

@@ -9,6 +9,7 @@ from typing import Any, Final, get_args
 from execution.trials.trial import Expectation, ExpectationKind, Trial, TrialFile
 from execution.trials.yaml_lines import BadTrialFile, Path, read_yaml
 from simulation.fault_form import BadFaults, read_list
+from simulation.world import MOST_SEED
 from vipo_device.protocol.description import Scalar
 
 VERSION: Final = 1
@@ -79,7 +80,7 @@ class _Reader:
             name=name,
             line=self.line(path),
             then=self.then((*path, "then"), body.get("then")),
-            seed=self.whole((*path, "when", "seed"), when.get("seed", 0), 2**31 - 1),
+            seed=self.whole((*path, "when", "seed"), when.get("seed", 0), MOST_SEED),
             driver=self.driver((*path, "when", "driver"), when.get("driver", "kinematic")),
             limit_s=self.number((*path, "when", "limit_s"), when.get("limit_s", 4 * 3600.0), 1.0, LONGEST_S),
             parameters=self.scalars(parameters, when.get("parameters") or {}),

@@ -174,7 +174,9 @@ def _test(options: argparse.Namespace) -> int:
 
 def _add_scan(sub: argparse.ArgumentParser) -> None:
     sub.add_argument("--map", type=Path, required=True, metavar="FILE", help="the true floor: a map's .yaml file")
-    sub.add_argument("--seed", type=int, default=1, help="each seed is a course of noise and slip of its own (1)")
+    sub.add_argument(
+        "--seed", type=int, default=1, help="a course of noise and slip of its own, from 0 to 2147483647 (1)"
+    )
     sub.add_argument("--lidar", type=float, default=8.0, metavar="M", help="how far the lidar sees, in metres (8)")
     sub.add_argument("--odometry", type=float, default=0.05, metavar="SHARE", help="how wrong the wheels are (0.05)")
     sub.add_argument("--start", type=float, nargs=3, metavar=("X", "Y", "THETA"), help="where to begin (most room)")

@@ -14,7 +14,7 @@ from editor.language import compile_document, compiled_to_json, plan_to_json, tr
 from editor.language.compiler import Compiled
 from editor.language.messages.phrases import LANGUAGES, Language
 from vipo_site.cli.program_file import FILE_VERSION, ProgramFile, UnreadableFile, read_program_file
-from vipo_site.cli.terminal import CLEAN, FAULTY, complain, write, write_failure, write_json
+from vipo_site.cli.terminal import CLEAN, FAULTY, complain, refuse_seed, write, write_failure, write_json
 
 _WORDS: Mapping[Language, Mapping[str, tuple[str, ...]]] = {
     "en": {
@@ -51,7 +51,7 @@ def _add_draw_arguments(sub: argparse.ArgumentParser) -> None:
 
 
 def _add_rehearse_arguments(sub: argparse.ArgumentParser) -> None:
-    sub.add_argument("--seed", type=int, default=0, help="another seed, another course of chance (0)")
+    sub.add_argument("--seed", type=int, default=0, help="a course of chance, from 1 to 2147483647; 0: no chance (0)")
     sub.add_argument("--driver", choices=("physics", "kinematic"), default="physics", help="who drives (physics)")
 
 
@@ -98,6 +98,7 @@ def _plan(program: ProgramFile, options: argparse.Namespace) -> int:
 
 
 def _rehearse(program: ProgramFile, options: argparse.Namespace) -> int:
+    refuse_seed(options.seed)
     compiled = _compile(program)
     if compiled.plan is None:
         return _refuse_errors(program, compiled, options)

@@ -17,7 +17,7 @@ from simulation.mapping.scores import Scores, score
 from simulation.mapping.survey import NoRoom, Survey, SurveyPlan, run_survey
 from vipo_device.protocol.description import Pose
 from vipo_site.cli.program_file import UnreadableFile
-from vipo_site.cli.terminal import CLEAN, FAULTY, Unusable, write, write_json
+from vipo_site.cli.terminal import CLEAN, FAULTY, Unusable, refuse_seed, write, write_json
 
 SIDES_M = (0.01, 0.25)
 SHORTEST_M = 2.0
@@ -57,8 +57,7 @@ def scan(options: argparse.Namespace) -> int:
 
 def _check(options: argparse.Namespace) -> None:
     """Refuse options that no robot has. Raises Unusable."""
-    if not 0 <= options.seed < 2**63:
-        raise _bad_option("--seed must be a whole number from 0 on.")
+    refuse_seed(options.seed)
     if not SHORTEST_M <= options.lidar <= 40:
         raise _bad_option(f"--lidar {options.lidar:g} is out of bounds; choose {SHORTEST_M:g} to 40 metres.")
     if not 0 <= options.odometry <= 0.3:

@@ -68,3 +68,12 @@ def refuse(options: argparse.Namespace, code: str, detail: str, **more: object) 
 def write_failure(code: str, detail: str, **more: object) -> None:
     """Print why there is no answer, for machines: on one line, since some answers are a JSON object for each line."""
     write(json.dumps({"code": code, "detail": detail, **more}, ensure_ascii=False))
+
+
+def refuse_seed(seed: int) -> None:
+    """Raise Unusable for a seed that the API does not take either."""
+    # imported late: most commands need nothing of the simulated world
+    from simulation.world import MOST_SEED
+
+    if not 0 <= seed <= MOST_SEED:
+        raise Unusable(f"--seed must be a whole number from 0 to {MOST_SEED}.", "bad_option")

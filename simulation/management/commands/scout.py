@@ -21,6 +21,7 @@ from simulation.mapping.map_maker import RobotSpec
 from simulation.mapping.survey import NoRoom, SurveyPlan
 from simulation.scout import Scout, ScoutPlan
 from simulation.site_facts import read_obstacles
+from simulation.world import MOST_SEED
 from vipo_device.kit.shutdown import stop_on_signals
 from vipo_device.protocol.description import Pose
 from vipo_device.protocol.errors import VipoError
@@ -51,6 +52,8 @@ class Command(BaseCommand):
             raise CommandError(f"--speed {options['speed']:g} is outside 0.1 to 20; 1 is real time.")
         if not 2 <= options["lidar"] <= 40:
             raise CommandError(f"--lidar {options['lidar']:g} is out of bounds; choose 2 to 40 metres.")
+        if not 0 <= options["seed"] <= MOST_SEED:
+            raise CommandError(f"--seed must be a whole number from 0 to {MOST_SEED}.")
         stopping = stop_on_signals(STOP_LIMIT_S)
         try:
             make_scout(options).run(stopping)
@@ -72,7 +75,7 @@ def make_scout(options: dict[str, Any]) -> Scout:
     lidar_m: float = options["lidar"]
     survey = SurveyPlan(
         read_floor(options["map"]),
-        max(0, options["seed"]),
+        options["seed"],
         RobotSpec(range_m=lidar_m),
         LidarSpec(range_m=lidar_m),
         start=None if at is None else Pose(at[0], at[1], 0.0, at[2]),

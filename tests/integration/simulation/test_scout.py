@@ -196,6 +196,7 @@ def test_a_scout_that_does_not_fit_is_refused_before_it_connects() -> None:
     [
         ("--speed", "50", r"--speed 50 is outside 0\.1 to 20; 1 is real time\."),
         ("--lidar", "nan", r"--lidar nan is out of bounds; choose 2 to 40 metres\."),
+        ("--seed", "-1", r"--seed must be a whole number from 0 to 2147483647\."),
     ],
 )
 def test_the_command_refuses_what_no_robot_has(option: str, value: str, told: str) -> None:

@@ -79,7 +79,8 @@ def test_bad_maps_and_options_are_named(hall: Path, tmp_path: Path, capsys: pyte
         ("--lidar", "0.1", "--lidar 0.1 is out of bounds; choose 2 to 40 metres.\n"),
         ("--lidar", "nan", "--lidar nan is out of bounds; choose 2 to 40 metres.\n"),
         ("--odometry", "2", "--odometry 2 is out of bounds; choose 0 to 0.3 (0.05 is 5 %).\n"),
-        ("--seed", "-1", "--seed must be a whole number from 0 on.\n"),
+        ("--seed", "-1", "--seed must be a whole number from 0 to 2147483647.\n"),
+        ("--seed", "2147483648", "--seed must be a whole number from 0 to 2147483647.\n"),
     ):
         assert refused(["--map", str(hall), option, value, *out], capsys) == told
     assert "does not fit at (0.1, 0.1)" in refused(["--map", str(hall), "--start", "0.1", "0.1", "0", *out], capsys)

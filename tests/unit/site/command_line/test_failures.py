@@ -11,6 +11,7 @@ from tests.kit.command_line import run_vipo
 from tests.kit.files import ROOT
 
 SITE = str(ROOT / "examples" / "painting-factory.json")
+PROGRAM = str(ROOT / "examples" / "pick-and-drop.json")
 MAP = str(ROOT / "registry" / "demo" / "painting-factory.yaml")
 TESTS = "version: 1\nprogram: {}\nsite: {}\ntests:\n  - name: a\n    then: [{{ends: well}}]\n"
 
@@ -24,6 +25,9 @@ TESTS = "version: 1\nprogram: {}\nsite: {}\ntests:\n  - name: a\n    then: [{{en
          "gone.yaml cannot be read: No such file or directory."),
         (("scan", "--map", MAP, "--out", "x", "--lidar", "1"), "bad_option",
          "--lidar 1 is out of bounds; choose 2 to 40 metres."),
+        (("rehearse", PROGRAM, "--seed", "-1"), "bad_option", "--seed must be a whole number from 0 to 2147483647."),
+        (("rehearse", PROGRAM, "--seed", "2147483648"), "bad_option",
+         "--seed must be a whole number from 0 to 2147483647."),
         (("test", "a.yaml", "--seeds", "-1"), "bad_option",
          "--seeds takes a number from 0 to 1000, --mutants one from 1 to 1000."),
         (("describe", "gone.ttl"), "unreadable_file", "gone.ttl cannot be read: No such file or directory."),
