@@ -14,6 +14,7 @@ from editor.language import compile_document, compiled_to_json, plan_to_json, tr
 from editor.language.compiler import Compiled
 from editor.language.messages.phrases import LANGUAGES, Language
 from vipo_site.cli.program_file import FILE_VERSION, ProgramFile, UnreadableFile, read_program_file
+from vipo_site.cli.rehearsal_report import result_with_words, say_result
 from vipo_site.cli.terminal import CLEAN, FAULTY, complain, refuse_seed, write, write_failure, write_json
 
 _WORDS: Mapping[Language, Mapping[str, tuple[str, ...]]] = {
@@ -109,9 +110,10 @@ def _rehearse(program: ProgramFile, options: argparse.Namespace) -> int:
         document=program.document, site=dict(program.site), seed=options.seed, driver=options.driver
     )
     if options.json:
-        write_json(result)
+        write_json(result_with_words(compiled, result))
     else:
-        _write_result(program, result)
+        for line in say_result(program.name, compiled, result):
+            write(line)
     return CLEAN if result["ok"] else FAULTY
 
 
@@ -204,16 +206,3 @@ def _details(instruction: Mapping[str, Any]) -> str:
     hidden = {"do", "step", "line", "enters", "leaves"}
     shown = {key: value for key, value in instruction.items() if key not in hidden and value not in (None, [], {})}
     return " ".join(f"{key}={json.dumps(value, ensure_ascii=False)}" for key, value in shown.items())
-
-
-def _write_result(program: ProgramFile, result: Mapping[str, Any]) -> None:
-    minutes, seconds = divmod(round(result["duration_s"]), 60)
-    word = "ends well" if result["ok"] else "does not end well"
-    write(f"{program.name}: {word} after {minutes} min {seconds} s.")
-    for error in result["errors"]:
-        write(f"error: at {error['t']:.0f} s, step {error['step'] or 'none'}: {error['message']}")
-    for robot, figures in sorted(result["robots"].items()):
-        write(
-            f"{robot}: {figures['distance_m']:.1f} m, busy {figures['busy_s']:.0f} s, waits {figures['wait_s']:.0f} s"
-        )
-    write(f"Near misses: {len(result['near_misses'])}, collisions: {len(result['collisions'])}.")
