@@ -54,11 +54,13 @@ def demo_facts() -> SiteFacts:
     return SiteFacts(registry.DEMO_SITE, registry.get_demo_grid(), devices)
 
 
-def read_site_facts(slug: str) -> SiteFacts:
+def read_site_facts(slug: str, described: tuple[DescribedDevice, ...] = ()) -> SiteFacts:
     """Return a site from the database; the demo's devices come from its files, machines stand where people put them.
 
+    `described` are devices that come besides, known to the site or not; what they say of themselves counts then.
+
     Raises VipoError when there is no such site, NoMap when it has no map, NothingToSimulate when no approved
-    device of it is a simulated one, SiteUnread when the database does not answer.
+    device of it is a simulated one and none is `described`, SiteUnread when the database does not answer.
     """
     with _asking():
         known = registry.list_devices(site=slug)
@@ -66,10 +68,14 @@ def read_site_facts(slug: str) -> SiteFacts:
     if slug == registry.DEMO_SITE:
         devices = demo_facts().devices
     else:
+        told = {device.description.id for device in described}
         simulated = [d.canonical for d in known if d.canonical.simulated and d.lifecycle == "approved"]
-        devices = tuple(DescribedDevice(d, write_description(d).encode()) for d in simulated)
+        others = (DescribedDevice(d, write_description(d).encode()) for d in simulated if d.id not in told)
+        devices = (*described, *others)
     if not devices:
-        raise NothingToSimulate(f"The site {slug} has no simulated devices; there is nothing for a twin to do.")
+        raise NothingToSimulate(
+            f"The site {slug} has no simulated devices; there is nothing for a twin to do. Bring some with --devices."
+        )
     placed = {d.id: d.pose for d in known if d.kind == "machine"}
     return SiteFacts(slug, grid, tuple(_placed(device, placed.get(device.description.id)) for device in devices))
 

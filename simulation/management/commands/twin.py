@@ -13,9 +13,11 @@ from typing import Any
 from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
+from registry import services as registry
 from registry.services import Heart
-from simulation.site_facts import SiteFacts, read_obstacles, read_site_facts
+from simulation.site_facts import DescribedDevice, SiteFacts, read_obstacles, read_site_facts
 from simulation.twin import Twin, TwinPlan
+from vipo_device.descriptions.reader import read_description
 from vipo_device.kit.connection import ConnectionMaker
 from vipo_device.kit.enrolment import device_connections
 from vipo_device.kit.keyring import RotatingKeyRing
@@ -24,6 +26,8 @@ from vipo_device.protocol.errors import VipoError
 
 log = logging.getLogger(__name__)
 STOP_LIMIT_S = 20
+FORMS = frozenset({".ttl", ".nt", ".jsonld", ".json", ".txt"})
+"""How files of descriptions end."""
 
 
 class Command(BaseCommand):
@@ -35,6 +39,9 @@ class Command(BaseCommand):
     def add_arguments(self, parser: ArgumentParser) -> None:
         """Say what can be chosen."""
         parser.add_argument("--site", default=settings.VIPO_DEFAULT_SITE, help="the site's short name")
+        parser.add_argument(
+            "--devices", type=Path, metavar="FOLDER", help="descriptions of simulated devices that come besides"
+        )
         parser.add_argument("--speed", type=float, default=1.0, help="times real time (1)")
         parser.add_argument("--driver", choices=["physics", "kinematic"], default="physics")
         parser.add_argument(
@@ -62,9 +69,11 @@ class Command(BaseCommand):
 def make_twin(options: dict[str, Any], heart: Heart) -> Twin:
     """Return the twin that the command line asks for."""
     site: str = options["site"]
-    facts = read_site_facts(site)
+    described = read_folder(options["devices"], site) if options["devices"] else ()
+    facts = read_site_facts(site, described)
     folder = Path(settings.VIPO_STATE_DIR)
-    passwords, enrolment_key = read_credentials(folder / "secrets")
+    passwords = read_passwords(folder / "secrets")
+    enrolment_key = find_enrolment_key(site, folder / "secrets")
     wanted = choose_devices(facts, options["only"], options["left_out"])
     speaking = frozenset(name for name in wanted if name in passwords or enrolment_key)
     for name in sorted(wanted - speaking):
@@ -77,7 +86,7 @@ def make_twin(options: dict[str, Any], heart: Heart) -> Twin:
         speed=options["speed"],
         driver=options["driver"],
         paces=read_paces(facts, options["pace"]),
-        refresh=partial(read_site_facts, site),
+        refresh=partial(read_site_facts, site, described),
         obstacles=partial(read_obstacles, site),
         beat=heart.beat,
     )
@@ -112,18 +121,58 @@ def choose_devices(facts: SiteFacts, only: str, left_out: str) -> frozenset[str]
     return named if only else known - named
 
 
-def read_credentials(folder: Path) -> tuple[dict[str, str], str]:
-    """Return the devices' passwords by id, and the key by which others enrol (empty if there is none)."""
+def read_folder(folder: Path, site: str) -> tuple[DescribedDevice, ...]:
+    """Return the devices that files of a folder describe; what cannot be simulated at the site is refused."""
+    if site == registry.DEMO_SITE:
+        raise CommandError(f"{site} is the demo's, whose devices are fixed. Bring your own to a site of your own.")
+    files = sorted(path for path in folder.glob("*") if path.suffix in FORMS)
+    if not files:
+        raise CommandError(f"{folder} holds no description ({', '.join(sorted(FORMS))}).")
+    found: dict[str, DescribedDevice] = {}
+    for path in files:
+        device = _read_described(path)
+        if device.description.id in found:
+            raise CommandError(f"{path}: another file describes {device.description.id}, too; keep one of the two.")
+        found[device.description.id] = device
+    return tuple(found.values())
+
+
+def _read_described(path: Path) -> DescribedDevice:
+    try:
+        source = path.read_bytes()
+        description = read_description(source)
+    except OSError as error:
+        raise CommandError(f"{path} cannot be read: {error.strerror}.") from error
+    except VipoError as error:
+        raise CommandError(f"{path}: {error.detail} Try: vipo describe {path}") from error
+    if not description.simulated:
+        raise CommandError(f"{path} does not say that {description.id} is simulated. Add: vipo:simulated true")
+    return DescribedDevice(description, source)
+
+
+def read_passwords(folder: Path) -> dict[str, str]:
+    """Return the devices' passwords by id."""
     try:
         passwords: dict[str, str] = json.loads((folder / "devices.json").read_text())
     except FileNotFoundError:
-        passwords = {}
+        return {}
     except ValueError as error:
         raise CommandError(
             f"secrets/devices.json is not JSON ({error}); `make demo RESET=1` writes a new one."
         ) from None
-    join = folder / "join"
-    return passwords, join.read_text().strip() if join.exists() else ""
+    return passwords
+
+
+def find_enrolment_key(site: str, folder: Path) -> str:
+    """Return the key by which a site's other devices enrol: the demo's from its file; empty where nobody knows it."""
+    if site == registry.DEMO_SITE:
+        join = folder / "join"
+        return join.read_text().strip() if join.exists() else ""
+    try:
+        return registry.show_enrolment_key(site=site)
+    except VipoError as error:
+        log.warning("New devices cannot enrol at %s: %s", site, error.detail)
+        return ""
 
 
 def connections(site: str, enrolment_key: str, secrets: Path) -> ConnectionMaker:
