@@ -30,7 +30,7 @@ from registry import services as registry
 from registry.services import Outage
 from vipo_device.protocol import messages
 from vipo_device.protocol.errors import VipoError
-from vipo_device.protocol.faults import facts_of, fault
+from vipo_device.protocol.faults import facts_of, fault, printable
 from vipo_device.protocol.mqtt_client import Message, MqttClient
 
 log = logging.getLogger(__name__)
@@ -127,7 +127,7 @@ class Gateway:
             _count("mqtt_messages_refused", "topic", REASONS)
             message.acknowledge()
             return
-        device, kind = found or (enrolment[1] if enrolment else "", ENROLMENT)
+        device, kind = found or (printable(enrolment[1]) if enrolment else "", ENROLMENT)
         # whoever asks to be enrolled may name any device
         sender = f"join:{enrolment[0]}" if enrolment else f"sim:{device}" if said else device
         if not self._bucket(sender).take(time.monotonic()):

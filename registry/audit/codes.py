@@ -17,9 +17,9 @@ _CODES: dict[Kind, str] = {
     "runs": """run_started run_cancelled run_started_in_emergency armed_run_not_approved robot_let_in zone_opened
         zone_closed obstacle_added obstacles_removed""",
     "stops": "stop_pressed stop_reset",
-    "devices": """device_asked device_approved device_rejected device_retired device_readmitted device_key_given
-        device_key_revoked enrolment_key_renewed calibration_taken calibration_dropped device_simulated
-        device_real_again""",
+    "devices": """device_asked device_turned_away device_approved device_rejected device_retired
+        device_readmitted device_key_given device_key_revoked enrolment_key_renewed calibration_taken
+        calibration_dropped device_simulated device_real_again""",
     "programs": """program_deleted comment_deleted review_rule_set review_asked review_approved review_changes
         review_withdrawn""",
     "map": "map_published place_added place_changed place_removed zone_added zone_changed zone_removed",

@@ -15,12 +15,13 @@ from django.conf import settings
 from django.db import transaction
 
 from registry.alerts.buffer import note_alert
+from registry.audit.acting import VIPO
 from registry.audit.record import device_acts, note_act
 from registry.broker.accounts import Account, accounts
 from registry.devices.history import history_text, write_event
 from registry.devices.rows import STARTS, BadDevice, check_id, forget_starts
 from registry.errors import RegistryError
-from registry.models import Device, DeviceEvent, Site, User
+from registry.models import AuditLine, Device, DeviceEvent, Site, User
 from registry.sites.namespaces import OF_IDS, may_name
 from registry.sites.sites import find_site
 from vipo_device.protocol.credentials import (
@@ -31,11 +32,15 @@ from vipo_device.protocol.credentials import (
     make_credential,
     secret_hash,
 )
-from vipo_device.protocol.faults import fault, refusal_facts
+from vipo_device.protocol.faults import fault, printable, refusal_facts
 from vipo_device.protocol.messages import BadMessage, parse_json
 
 MOST_PENDING = 200
 FORGOTTEN_AFTER = timedelta(days=1)
+TURNED_AWAY = "device_turned_away"
+TOLD_AGAIN_AFTER = timedelta(days=1)
+MOST_TOLD = 50
+"""So many ids that were refused stand in a site's record of a day."""
 JUST_NOW = timedelta(seconds=10)
 """So long after a key was given nobody else gives another: whoever was told the first would hold one that has ended."""
 
@@ -54,9 +59,19 @@ class NotOfSite(BadDevice):
 def enrol_device(*, site: str, device_id: str, payload: bytes, at: datetime) -> bool:
     """Remember the key that a device brings, and let it in as pending; False when it was known with this key.
 
-    A device that was taken out may ask again until it is let come back; nothing is made of that. Raises BadMessage,
-    BadDevice, NotAMember, BrokerAway.
+    A device that was taken out may ask again until it is let come back; nothing is made of that. Nobody can answer who
+    asks here, so a refusal is told to the site's admins, in its record.
+
+    Raises BadMessage, BadDevice, NotAMember, BrokerAway.
     """
+    try:
+        return _enrol(site, device_id, payload, at)
+    except (BadMessage, BadDevice) as error:
+        _note_turned_away(site, device_id, error, at)
+        raise
+
+
+def _enrol(site: str, device_id: str, payload: bytes, at: datetime) -> bool:
     check_id(device_id)
     key = _read_key(payload)
     with transaction.atomic():
@@ -75,6 +90,22 @@ def enrol_device(*, site: str, device_id: str, payload: bytes, at: datetime) -> 
             note_act(site_id=row.pk, code="device_asked", actor=device_acts(device_id))
     accounts().put(Account(device_id, key, site=site))
     return not is_known
+
+
+def _note_turned_away(site: str, device_id: str, refusal: BadMessage | BadDevice, at: datetime) -> None:
+    """Write into a site's record that somebody was refused, and why: of each id once a day, of so many ids at most.
+
+    Devices ask again and again, and whoever has the enrolment key may name any id.
+    """
+    row = Site.objects.filter(slug=site).first()
+    if row is None:
+        return
+    because = "knock_key" if isinstance(refusal, BadMessage) else refusal.facts["faults"][0]["code"]
+    asked = printable(device_id)[:64]
+    lines = AuditLine.objects.filter(site=row, kind="devices", code=TURNED_AWAY, at__gt=at - TOLD_AGAIN_AFTER)
+    told = [facts["device"] for facts in lines.values_list("facts", flat=True)[:MOST_TOLD]]
+    if len(told) < MOST_TOLD and asked not in told:
+        note_act(site_id=row.pk, code=TURNED_AWAY, facts={"device": asked, "because": because}, actor=VIPO, at=at)
 
 
 def _find_own(site: Site, device_id: str) -> Device | None:

@@ -31,7 +31,7 @@ MAX_METRES = 1e6
 MESSAGE = "The message"
 _ID = re.compile(r"[A-Za-z0-9_.-]{1,64}")
 _UNFIT = re.compile(r"[^A-Za-z0-9_.-]")
-_JOIN = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]{1,64})/([A-Za-z0-9_.-]{1,64})")
+_JOIN = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]{1,64})/([^/+#]{1,256})")
 _TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[\[{]|[\]}]|[^\s,:"\[\]{}]+', re.DOTALL)
 _COLON = re.compile(r"\s*:")
 _UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]+)")
@@ -115,7 +115,7 @@ def read_stand_in_topic(topic: str) -> tuple[str, str] | None:
 
 
 def read_join_topic(topic: str) -> tuple[str, str] | None:
-    """Return (site, device id) of an enrolment's topic, or None for any other."""
+    """Return (site, id) of an enrolment's topic, or None for any other; the id may be one that no device can have."""
     found = _JOIN.fullmatch(topic)
     return (found.group(1), found.group(2)) if found else None
 

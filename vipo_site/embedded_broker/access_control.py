@@ -32,7 +32,8 @@ Line = tuple[str, str, Mapping[str, Any]]
 ENROLMENT = "join:"
 """Before a site's name: the user name of who enrols there (docs/protocol.md)."""
 LOOK_EVERY_S = 1.0
-_ENROL = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[A-Za-z0-9_.-]{1,64}")
+_ENROL = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[^/+#]{1,256}")
+"""The id may be one that no device can have: who hears an enrolment says so to the site's admins."""
 _STOP = re.compile(r"vipo/v1/site/[^/#]+/stop")
 EVERY_SITE = "+"
 """In the place of a site, where there is no registry that could say which one is somebody's."""

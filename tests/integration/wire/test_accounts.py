@@ -12,6 +12,7 @@ import pytest
 
 from execution.gateway.gateway import Gateway
 from registry import services
+from registry.models import AuditLine
 from tests.integration.wire.bus import JOIN, SITE, Bus
 from tests.kit.files import MIXER_TEXT
 from tests.kit.waiting import wait_for
@@ -29,6 +30,20 @@ def lifecycle(device: str) -> str:
 
 def decide(what: Callable[..., Any], device: str) -> Any:
     return what(site=SITE, device_id=device, by=None, at=datetime.now(UTC))
+
+
+def test_an_id_that_can_be_none_is_told_to_the_admins_of_the_site(bus: Bus, gateway: Gateway) -> None:
+    door = bus.client(f"join:{SITE}", JOIN)
+    for device in ("oven 1", "ö" * 100):
+        door.publish(f"vipo/v1/join/{SITE}/{device}", json.dumps({"key": KEY}).encode())
+    door.start()
+    lines = AuditLine.objects.filter(site__slug=SITE, code="device_turned_away").order_by("pk")
+    wait_for("both in the record", lambda: lines.count() == 2)
+    door.stop()
+    assert [line.facts for line in lines] == [
+        {"device": "oven 1", "because": "device_id"},
+        {"device": "ö" * 64, "because": "device_id"},
+    ]
 
 
 def test_a_stranger_joins_by_its_description_and_the_join_key_alone(bus: Bus, gateway: Gateway, tmp_path: Path) -> None:

@@ -28,6 +28,7 @@ function factsOf(line: AuditEntry): [string, unknown][] {
   return Object.entries(line.facts as Record<string, unknown>).map(([name, value]) => {
     if (ROLES.includes(name)) return [name, i18next.t(`role.${String(value)}`)];
     if (name === "why") return [name, i18next.t(`people.audit.signOn.${String(value)}`)];
+    if (name === "because") return [name, i18next.t(`people.audit.turnedAway.${String(value)}`)];
     if (name === "until" && typeof value === "string") return [name, formatMoment(value)];
     return [name, value];
   });

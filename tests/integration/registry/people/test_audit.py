@@ -18,6 +18,7 @@ from registry import services
 from registry.models import AuditLine, Site
 from tests.kit.sign_in import PASSWORD, find_person, post_json, signed_in
 from tests.kit.sites import MIXER, describe
+from vipo_device.protocol.errors import VipoError
 
 SITE = "/api/sites/hall"
 FIREFOX = "Mozilla/5.0 (X11; Linux x86_64; rv:140.0) Gecko/20100101 Firefox/140.0"
@@ -83,6 +84,40 @@ def test_what_devices_and_admins_do_with_devices_is_told(fresh: str) -> None:
         ("Admin Person", "device_readmitted"),
         ("Admin Person", "enrolment_key_renewed"),
     ]
+
+
+def test_what_wanted_to_enrol_and_was_refused_is_told_once_a_day(fresh: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    services.create_site(name="Yard", slug="yard")
+    now, key = datetime.now(UTC), b'{"key": "k2345678901234567890"}'
+
+    def ask(device: str, payload: bytes, at: datetime = now) -> None:
+        with pytest.raises(VipoError):
+            services.enrol_device(site="yard", device_id=device, payload=payload, at=at)
+
+    def refused() -> list[tuple[str, str]]:
+        lines = AuditLine.objects.filter(site__slug="yard", code="device_turned_away").order_by("pk")
+        assert {(line.actor_kind, line.kind) for line in lines} <= {("vipo", "devices")}
+        return [(line.facts["device"], line.facts["because"]) for line in lines]
+
+    for device in ("oven 1", "oven 1", "o" * 65, "two\nlines"):
+        ask(device, key)
+    ask("mixer1", key)
+    ask("yard.mixer1", b"{")
+    assert refused() == [
+        ("oven 1", "device_id"),
+        ("o" * 64, "device_id"),
+        ("two\ufffdlines", "device_id"),
+        ("mixer1", "id_of_site"),
+        ("yard.mixer1", "knock_key"),
+    ]
+    ask("oven 1", key, now + timedelta(days=1, seconds=1))
+    assert len(refused()) == 6
+    monkeypatch.setattr("registry.devices.enrolment.MOST_TOLD", 7)
+    for number in range(9):
+        ask(f"oven {number}", key)
+    assert len(refused()) == 7
+    services.enrol_device(site="yard", device_id="yard.mixer1", payload=key, at=now)
+    assert len(refused()) == 7
 
 
 def test_a_program_that_is_deleted_is_told_by_its_name(fresh: str) -> None:

@@ -64,6 +64,7 @@ def test_a_kept_key_is_what_mosquitto_checks() -> None:
     [
         ("vipo/v1/join/hall/new01", True),
         ("vipo/v1/join/other/new01", False),
+        ("vipo/v1/join/hall/oven 1", True),  # it is refused by who hears it, and told to admins
         ("vipo/v1/join/hall/new01/more", False),
         ("vipo/v1/join/hall/+", False),
         ("vipo/v1/dev/join:hall/up/state", False),
