@@ -1,18 +1,31 @@
-"""What the painting factory's devices say of themselves: `python -m registry.demo.devices` writes their RDF."""
+"""What the painting factory's devices say of themselves.
+
+`python -m registry.demo.devices` writes their RDF, and the devices of the site file that programs are checked with.
+"""
 
 from __future__ import annotations
 
+import json
 from math import pi
 from pathlib import Path
 from typing import Any
 
 from registry.demo.factory import FOLDER, read_plan
 from vipo_device.descriptions.reader import write_description
-from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
+from vipo_device.protocol.description import (
+    Description,
+    MethodSpec,
+    ParameterSpec,
+    Pose,
+    PropertySpec,
+    Size,
+    description_to_json,
+)
 from vipo_device.protocol.messages import down_topic
 
 SITE = "painting-factory"
 DEVICES = FOLDER / "devices"
+SITE_FILE = FOLDER.parents[1] / "examples" / "painting-factory.json"
 PENDING_DEVICE = "paintMixer03"
 ROBOT_RADIUS_M = 0.18
 DOCK_HEADING_RAD = pi / 2
@@ -148,6 +161,20 @@ def write_devices(folder: Path = DEVICES) -> None:
         (folder / f"{description.id}.ttl").write_text(write_description(description))
 
 
+def with_devices(site_file: str) -> str:
+    """Return a site file with the demo's devices as its devices; what is empty is left out of them."""
+    devices = [_without_empty(description_to_json(description)) for description in describe_devices()]
+    devices[-1]["lifecycle"] = "pending"
+    site = json.loads(site_file) | {"devices": devices}
+    return json.dumps(site, indent=1, ensure_ascii=False) + "\n"
+
+
+def _without_empty(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _without_empty(one) for key, one in value.items() if one not in (None, "", [])}
+    return [_without_empty(one) for one in value] if isinstance(value, list) else value
+
+
 def read_demo_descriptions() -> dict[str, bytes]:
     """Return what each device of the demo says of itself, as its file has it, by id."""
     return {path.stem: path.read_bytes() for path in sorted(DEVICES.glob("*.ttl"))}
@@ -155,3 +182,4 @@ def read_demo_descriptions() -> dict[str, bytes]:
 
 if __name__ == "__main__":
     write_devices()
+    SITE_FILE.write_text(with_devices(SITE_FILE.read_text()))

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from registry.demo.devices import DEVICES, describe_devices, write_devices
+from registry.demo.devices import DEVICES, SITE_FILE, describe_devices, with_devices, write_devices
 from registry.demo.factory import FOLDER, make_grid, read_plan, write_maps
 from registry.floorplan.plan import FloorPlan, cells_array, stations
 
@@ -19,6 +19,10 @@ def test_the_committed_descriptions_are_the_ones_that_are_made(tmp_path: Path) -
     made = {p.name: p.read_text() for p in tmp_path.iterdir()}
     assert made == {p.name: p.read_text() for p in DEVICES.iterdir()}
     assert len(made) == 11
+
+
+def test_the_site_file_that_programs_are_checked_with_has_the_devices_as_they_describe_themselves() -> None:
+    assert SITE_FILE.read_text() == with_devices(SITE_FILE.read_text()), "run `python -m registry.demo.devices`"
 
 
 def test_the_factory_has_walls_doors_and_an_outside() -> None:
