@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 
 from editor.language.constructs.record import Construct, Field
-from editor.language.constructs.script_form import CALLS
+from editor.language.constructs.script_form import CALLS, OF_THE_FLEET
 from editor.language.constructs.table import CONSTRUCTS
 
 _TYPES = {
@@ -49,7 +49,7 @@ def _construct(construct: Construct) -> dict[str, object]:
         branches=[name for name, _ in construct.branches],
         loops=construct.loops,
         tall=look.tall,
-        drives=construct.drives,
+        drives=construct.drives and ("fleet" if any(call in OF_THE_FLEET for call in calls) else "robot"),
         method=calls[0] if calls else "",
         forms=[
             _present(marked_by=form.marked_by, fields=[_field(field) for field in form.fields])

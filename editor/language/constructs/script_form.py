@@ -63,3 +63,7 @@ def _name(node: ast.expr) -> str:
 
 CALLS: Final[Mapping[str, ScriptCall]] = {node: script_call(form) for node, (_, form) in FORMS.items() if form.script}
 """How nodes are written that are calls, by the names of their classes."""
+RELEASE: Final = "release"
+"""The call by which a role gives its robot back: the fleet is asked, not the robot."""
+OF_THE_FLEET: Final = frozenset({RELEASE, "cover"})
+"""Calls of a role that the fleet carries out; a robot needs no method that is called so."""

@@ -11,12 +11,8 @@ from functools import lru_cache
 from itertools import pairwise
 from unicodedata import normalize
 
-from editor.language.constructs.script_form import CALLS
+from editor.language.constructs.script_form import CALLS, OF_THE_FLEET, RELEASE
 
-RELEASE = "release"
-"""The call by which a role gives its robot back: the fleet is asked, not the robot."""
-OF_THE_FLEET = frozenset({RELEASE, "cover"})
-"""Calls of a role that the fleet carries out; a robot needs no method that is called so."""
 ROBOT_METHODS = tuple(call.method for call in CALLS.values() if call.role and call.method not in OF_THE_FLEET)
 CLOSED_FUNCTIONS = (
     "abs",

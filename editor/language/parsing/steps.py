@@ -8,9 +8,10 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from string import ascii_lowercase
 
+from editor.language.constructs.script_form import OF_THE_FLEET
 from editor.language.document.outline import DEEPEST_STEP
 from editor.language.expressions import nodes as e
-from editor.language.expressions.names import OF_THE_FLEET, ROBOT_METHODS, member_name, snake_case
+from editor.language.expressions.names import ROBOT_METHODS, member_name, snake_case
 from editor.language.expressions.nodes import Expression, PlaceRef
 from editor.language.messages.syntax_errors import (
     LIMIT,

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
+from editor.language.constructs.script_form import OF_THE_FLEET
 from editor.language.expressions.names import (
-    OF_THE_FLEET,
     RESERVED_ATTRIBUTES,
     ROBOT_METHODS,
     member_name,

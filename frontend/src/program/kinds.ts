@@ -44,8 +44,8 @@ interface Look {
   readonly loops?: boolean;
   /** Its condition stands beside the chip. */
   readonly tall?: boolean;
-  /** A robot does it. */
-  readonly drives?: boolean;
+  /** A robot does it: by a method that it describes, or as the fleet tells it. */
+  readonly drives?: "robot" | "fleet";
   /** The call that it is in a script. */
   readonly method?: string;
   readonly forms: readonly FormRecord[];
@@ -92,5 +92,5 @@ export function isLoop(name: string): boolean {
 
 /** The kinds that a robot does. */
 export function isDriving(name: string): boolean {
-  return kindOf(name).drives ?? false;
+  return kindOf(name).drives !== undefined;
 }

@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "./document/document";
+import { STEP_KINDS } from "./kinds";
 import { choices, givenToRole, methodOf, operable, operated, roleOfStep } from "./operation";
 import { surroundingsOf, type SiteDevice } from "./surroundings";
 import { chipText, plainText } from "./words/stepWords";
@@ -24,6 +25,21 @@ function operate(params: Step["params"]): Step {
 
 test("a robot is operated by its own methods, a machine by those that hand nothing over", () => {
   expect([FIRST, SHELF].map((each) => operable(each).map(({ name }) => name))).toEqual([["honk"], ["turn"]]);
+});
+
+test("what is a step of its own is no method to choose, and a robot's own may be called as the fleet's are", () => {
+  const all = STEP_KINDS.flatMap(({ method }) => method ?? []).map(NAMED);
+  const names = operable(device("r4", "robot", all)).map(({ name }) => name);
+  expect(names).toEqual(expect.arrayContaining(["cover", "release"]));
+  expect(all.map(({ name }) => name).filter((name) => !names.includes(name))).toEqual(["move", "pick", "drop"]);
+});
+
+test("each step that the records give to a role says which", () => {
+  const roles = STEP_KINDS.filter(({ drives }) => drives).map(({ kind }) => {
+    return roleOfStep({ ...operate({ role: "c" }), kind });
+  });
+  expect(roles).toEqual(roles.map(() => "c"));
+  expect(roles.length).toBeGreaterThan(5);
 });
 
 test("any robot of the site may take a role that is bound to none, and each method stands there once", () => {

@@ -1,12 +1,12 @@
 /** Who carries out a step, and what there is to choose for an Operate: machines' methods, and robots' own. */
 import { isRobot } from "@/map/devices/device";
 import { type ProgramDocument, type Step, textOf } from "./document/document";
+import { isDriving, STEP_KINDS } from "./kinds";
 import type { Method, SiteDevice, Surroundings } from "./surroundings";
 
 export const DEFAULT_ROLE = "robot";
-const DRIVING = new Set(["move", "pick", "drop", "pick_and_drop"]);
 /** Methods of robots that are steps of their own. */
-const STEPS = new Set(["move", "pick", "drop"]);
+const STEPS = new Set(STEP_KINDS.map((each) => each.drives === "robot" && each.method));
 /** Methods of machines that are part of picking and dropping. */
 const HANDING = new Set(["dispense", "accept"]);
 
@@ -16,10 +16,10 @@ export function operatedRole(device: unknown): string | null {
   return textOf(device.role) || null;
 }
 
-/** The role whose robot carries out the step; null where none does. */
+/** The role whose robot carries out the step, or is given back by it; null where there is none. */
 export function roleOfStep(step: Step | undefined): string | null {
   if (step?.kind === "operate") return operatedRole(step.params.device);
-  return step && DRIVING.has(step.kind) ? textOf(step.params.role, DEFAULT_ROLE) : null;
+  return step && isDriving(step.kind) ? textOf(step.params.role, DEFAULT_ROLE) : null;
 }
 
 /** The parameter that gives a step to a role. */
