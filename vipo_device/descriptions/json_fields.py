@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from math import isfinite
 from typing import Any, NoReturn
 
 from vipo_device.descriptions.forms import refuse
@@ -46,9 +47,9 @@ class Fields:
         value = self.body.get(key)
         if value is None:
             return None
-        if not _is_number(value):
+        if (number := _number(value)) is None:
             self.refuse(key, "need_number")
-        return float(value)
+        return number
 
     def whole(self, key: str) -> int:
         """Return a whole number, 0 when it is not given."""
@@ -71,9 +72,11 @@ class Fields:
         values = self.body.get(key)
         if values is None:
             return []
-        if not isinstance(values, list) or not all(_is_number(value) for value in values):
+        read = [_number(value) for value in values] if isinstance(values, list) else [None]
+        numbers = [number for number in read if number is not None]
+        if len(numbers) < len(read):
             self.refuse(key, "need_numbers")
-        return [float(value) for value in values]
+        return numbers
 
     def words(self, key: str) -> tuple[str, ...]:
         """Return a list of texts, empty when it is not given."""
@@ -131,5 +134,12 @@ def read_size(fields: Fields, key: str, radius: float) -> Size:
     return Size(*numbers)
 
 
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
+def _number(value: object) -> float | None:
+    """Return a number that can be worked with, whichever form it came in; None for what is none, or has no end."""
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return None
+    try:
+        number = float(value)
+    except OverflowError:
+        return None
+    return number if isfinite(number) else None

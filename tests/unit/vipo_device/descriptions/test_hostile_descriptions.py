@@ -11,6 +11,7 @@ import pytest
 from tests.kit.work import within_processor_time
 from tests.unit.vipo_device.descriptions.examples import THING, linked, turtle
 from vipo_device.descriptions.forms import BadDescription
+from vipo_device.descriptions.json_fields import Fields
 from vipo_device.descriptions.reader import read
 
 MESSAGE: dict[str, Any] = {"id": "m1", "location": [1, 2], "size": [1, 1, 1]}
@@ -267,3 +268,14 @@ def test_what_the_hostile_ones_are_made_of_is_believed(payload: bytes) -> None:
 def test_long_repetitions_take_no_time(payload: bytes) -> None:
     with pytest.raises(BadDescription), within_processor_time(2):
         read(payload)
+
+
+@pytest.mark.parametrize("number", [10**400, -(10**400), float("inf"), float("nan"), True, "1"])
+def test_a_number_that_no_form_may_bring_is_refused_with_its_place(number: Any) -> None:
+    with pytest.raises(BadDescription, match="needs a number for speed"):
+        Fields({"speed": number}).number("speed")
+    with pytest.raises(BadDescription, match="needs a number for capacity"):
+        Fields({"capacity": number}).whole("capacity")
+    with pytest.raises(BadDescription, match="needs a list of numbers for size"):
+        Fields({"size": [1, number]}).numbers("size")
+    assert Fields({"speed": 10**300}).number("speed") == 1e300
