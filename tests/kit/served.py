@@ -19,9 +19,10 @@ from tests.kit.files import ROOT
 from tests.kit.servers import Mosquitto, find_program, free_port, run_mosquitto
 from tests.kit.sign_in import open_page, sign_in
 from tests.kit.waiting import PATIENCE_S, wait_for
+from vipo_site.http import MOST_MESSAGE_BYTES
 
 SPEED = 6
-WEB = ["-m", "daphne", "-b", "127.0.0.1", "--websocket-max-message-size", "16777216"]
+WEB = ["-m", "daphne", "-b", "127.0.0.1", "--websocket-max-message-size", str(MOST_MESSAGE_BYTES)]
 _CELERY = ["-m", "celery", "-A", "vipo_site", "worker", "--loglevel", "INFO"]
 WORKER = [*_CELERY, "-Q", "runs", "--concurrency", "4"]
 REHEARSALS = [*_CELERY, "-Q", "rehearsals,upkeep"]

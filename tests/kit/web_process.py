@@ -15,7 +15,8 @@ from typing import Any
 import django
 from daphne.server import Server
 
-MIB = 1024 * 1024
+from vipo_site.http import MOST_MESSAGE_BYTES
+
 ROLES = {"viewer": "viewer", "operator": "operator", "author": "author", "admin": "admin", "second": "author"}
 
 
@@ -61,8 +62,8 @@ def serve(port: str) -> None:
     Server(
         application,
         endpoints=[f"tcp:port={port}:interface=127.0.0.1"],
-        websocket_max_message_size=16 * MIB,
-        websocket_max_frame_size=16 * MIB,
+        websocket_max_message_size=MOST_MESSAGE_BYTES,
+        websocket_max_frame_size=MOST_MESSAGE_BYTES,
         application_close_timeout=2,
         verbosity=0,
     ).run()

@@ -27,11 +27,11 @@ from django.core.exceptions import ImproperlyConfigured
 
 from vipo_device.protocol.errors import VipoError
 from vipo_site.demo.children import HOST, Part, say, start_children
+from vipo_site.http import MOST_MESSAGE_BYTES
 
 log = logging.getLogger(__name__)
 WEB_PORT = 8000
 MQTT_PORT = 1883
-MIB = 1024 * 1024
 STOP_LIMIT_S = 10.0
 EMPTY = "empty"
 
@@ -250,8 +250,8 @@ def serve(options: argparse.Namespace, state: Path) -> None:
     Server(
         application,
         endpoints=[f"tcp:port={options.port}:interface={HOST}"],
-        websocket_max_message_size=16 * MIB,
-        websocket_max_frame_size=16 * MIB,
+        websocket_max_message_size=MOST_MESSAGE_BYTES,
+        websocket_max_frame_size=MOST_MESSAGE_BYTES,
         application_close_timeout=2,
         ready_callable=lambda: greet(options, state),
         server_name="vipo",

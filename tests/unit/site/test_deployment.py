@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from typing import Any
 
@@ -9,7 +10,9 @@ import pytest
 import yaml
 from django.core.management import get_commands
 
+from editor.rooms.yjs_protocol import MOST_FRAME_BYTES
 from tests.kit.files import ROOT
+from vipo_site.http import MOST_MESSAGE_BYTES
 
 COMPOSE = (ROOT / "docker-compose.yml").read_text()
 EXAMPLE = (ROOT / "deploy" / "env.example").read_text()
@@ -36,6 +39,15 @@ FOR_OTHER_FORMS = {
 def read_by_settings() -> set[str]:
     source = (ROOT / "vipo_site" / "settings.py").read_text() + (ROOT / "vipo_site" / "environment.py").read_text()
     return set(re.findall(r'"(VIPO_[A-Z0-9_]+)"', source))
+
+
+def test_the_web_processes_take_messages_of_sockets_as_large_as_everywhere() -> None:
+    given = "--websocket-max-{}-size {}"
+    wanted = " ".join(given.format(what, MOST_MESSAGE_BYTES) for what in ("message", "frame"))
+    (image,) = re.findall(r"^CMD (.*)$", (ROOT / "Dockerfile").read_text(), re.MULTILINE)
+    assert wanted in " ".join(json.loads(image))
+    assert wanted in (ROOT / "docs" / "operations.md").read_text()
+    assert MOST_MESSAGE_BYTES > MOST_FRAME_BYTES
 
 
 def test_env_example_names_all_that_the_deployment_takes_from_it_and_nothing_else() -> None:
