@@ -18,7 +18,7 @@ from editor.rooms.awareness import AwarenessBoard
 from editor.rooms.compiled_form import CompiledForm
 from editor.rooms.ledger import Ledger, encode_change
 from editor.rooms.member import KIB, MIB, Close, Member
-from editor.rooms.refusals import INTERRUPTED, TOO_LARGE, TOO_MANY_PAGES
+from editor.rooms.refusals import INTERRUPTED, PROGRAM_FULL, TOO_MANY_PAGES
 from editor.rooms.spreading import Spreading, post_form
 from editor.rooms.stream import Note
 
@@ -247,7 +247,7 @@ class Receiver:
             self._room.spread_later(change, member)
             self._room.touched = True
         if steps < self._steps > MOST_STEPS:
-            raise Close(Close.TOO_LARGE, TOO_LARGE)
+            raise Close(Close.TOO_LARGE, PROGRAM_FULL)
 
     def _check_size(self, update: bytes, said: Knowledge) -> None:
         clocks = self._room.document.clocks()
@@ -258,4 +258,4 @@ class Receiver:
             self._bytes = self._room.document.measure() + len(update)
         if self._bytes > MOST_DOCUMENT_BYTES:
             self._bytes -= len(update)
-            raise Close(Close.TOO_LARGE, TOO_LARGE)
+            raise Close(Close.TOO_LARGE, PROGRAM_FULL)

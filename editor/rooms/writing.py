@@ -33,7 +33,7 @@ from editor.programs.scripts import draw_script
 from editor.rooms.hub import tell_rooms
 from editor.rooms.ledger import encode_change, encode_stored
 from editor.rooms.receiving import MOST_DOCUMENT_BYTES, MOST_STEPS
-from editor.rooms.refusals import TOO_LARGE
+from editor.rooms.refusals import PROGRAM_FULL
 from editor.rooms.stream import Note, StreamLost
 
 STORED_WITHIN_S = 4.0
@@ -142,7 +142,7 @@ def change_content(
         stored.migrate()
         stored.change_to(change(stored.to_json()))
         if stored.step_count() > MOST_STEPS or len(stored.encode()) > MOST_DOCUMENT_BYTES:
-            raise BadRequest(TOO_LARGE)
+            raise BadRequest(PROGRAM_FULL)
         written, origin = Change(author, stored.encode(before)), uuid.uuid4().hex
         rows = append_changes(str(program_id), [written], timezone.now())
         try:
