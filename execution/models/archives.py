@@ -1,4 +1,4 @@
-"""What is kept of archives: files of what are no longer rows, and for how long a site keeps rows."""
+"""What is kept of archives, files of what are no longer rows, and what a site sets: for how long it keeps rows."""
 
 from __future__ import annotations
 

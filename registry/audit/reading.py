@@ -51,18 +51,16 @@ def count_audit(*, site: str, kind: Kind | None = None) -> int:
 
 
 def write_table(*, site: str, kind: Kind | None = None) -> Iterator[str]:
-    """Yield the record as lines of CSV with a head, the newest first, read bit by bit.
-
-    A field that a spreadsheet would carry out as a formula begins with an apostrophe.
-    """
-    yield _line(COLUMNS)
+    """Yield the record as lines of CSV with a head, the newest first, read bit by bit."""
+    yield csv_line(COLUMNS)
     for row in _rows(site, kind).order_by("-at", "-pk").iterator(chunk_size=500):
         facts = json.dumps(row.facts, ensure_ascii=False, sort_keys=True)
         at = row.at.astimezone(UTC).isoformat(timespec="seconds")
-        yield _line((at, row.kind, row.code, row.actor_kind, row.actor, row.address, row.agent, facts))
+        yield csv_line((at, row.kind, row.code, row.actor_kind, row.actor, row.address, row.agent, facts))
 
 
-def _line(fields: tuple[str, ...]) -> str:
+def csv_line(fields: tuple[str, ...]) -> str:
+    """Return a line of CSV; a field that a spreadsheet would carry out as a formula begins with an apostrophe."""
     text = io.StringIO()
     csv.writer(text).writerow(f"'{field}" if field.startswith(_RUNS_AS_FORMULA) else field for field in fields)
     return text.getvalue()
