@@ -32,8 +32,8 @@ FieldType = Literal[
 ]
 """What can stand in a field. `own_robot`: the role whose robot does a method of its own; `variable`: the name of one
 that the step sets; `loop_variable`: its body alone sees it; `choice`: one of fixed words, `choices`: several of them;
-`route`: points; `zone`: one of the program; `whole`: a whole number that is written out; `text`: plain text without
-values."""
+`route`: points; `zone`: one of the program; `whole`: a whole number that is written out, which only Parallel reads (a
+number that a step is told is a `value` with `wanted="number"`); `text`: plain text without values."""
 Wanted = Literal["", "time", "length", "number", "text", "boolean", "object", "list"]
 
 
