@@ -210,15 +210,36 @@ def drop_pieces(turn: Turn, robot: Robot, *, cancel: bool) -> None:
 
 
 def leave_gone(turn: Turn) -> None:
-    """Reckon no more with devices that were taken out: a robot that stands or drives there stays where it is."""
+    """Reckon no more with what was taken out or moved: a robot that stands or drives there stays where it is."""
     for machine in [machine for machine in turn.stations if machine not in turn.layout.stations]:
         del turn.stations[machine]
     for robot in list(turn.robots.values()):
         if robot.id not in turn.layout.devices:
             turn.offline.setdefault(robot.id, turn.now)
             robot = turn.put(robot, online=False)
-        if not all(turn.layout.has_node(node) for node in robot.path):
+        if not all(turn.layout.has_node(node) for node in robot.path) or _is_misled(turn, robot):
             _stand_here(turn, robot)
+
+
+def _is_misled(turn: Turn, robot: Robot) -> bool:
+    """Tell whether a place on the path is not where it was when the path was planned.
+
+    What says so: a robot at rest is not there, or the path does not come to it by its cell.
+    """
+    path, places = robot.path[robot.passed :], turn.layout.places
+    if not any(node in places for node in path):
+        return False
+    x, y = turn.layout.point(path[0])
+    at_rest = not turn.is_driving(robot) and not turn.is_acting(robot)
+    if path[0] in places and at_rest and hypot(x - robot.x, y - robot.y) > LOST_M:
+        return True
+    return any(_is_detached(turn, one, other) for one, other in pairwise(path))
+
+
+def _is_detached(turn: Turn, one: Node, other: Node) -> bool:
+    """Tell whether one of two nodes of a path is a place that is not reached from the other, a cell."""
+    spot, cell = (other, one) if isinstance(one, int) else (one, other)
+    return isinstance(cell, int) and spot in turn.layout.places and turn.layout.cell(spot) != cell
 
 
 def leave_other_lattice(turn: Turn) -> None:
