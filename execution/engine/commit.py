@@ -46,6 +46,8 @@ WRITTEN = (
     "ended_at",
 )  # fmt: skip
 """What a turn may change of a run's row beside its state."""
+BEGUN = ("state", "places", *WRITTEN)
+"""What is written of a run that begins."""
 
 
 class Outdated(Exception):
@@ -84,7 +86,7 @@ def _write(turn: Turn, lease: Lease, *, is_floor: bool) -> None:
         with database.sent_together() as batch:
             held = leases.ask_to_hold(batch, lease)
             guarded += [_write_floor(batch, turn)] if is_floor else []
-            guarded += _write_states(batch, _changed(turn))
+            guarded += _write_states(batch, _changed(turn), turn.now)
             _insert_rows(batch, turn, lease, is_floor=is_floor)
             mark_taken(batch, turn.taken, turn.now)
     except IntegrityError:
@@ -186,18 +188,20 @@ def _mark_simulated(turn: Turn, written: Sequence[RunWork | ByHand]) -> None:
                 line.args = {**line.args, "simulated": True}
 
 
-def _write_states(batch: database.Batch, changed: Sequence[RunWork]) -> list[Guarded]:
+def _write_states(batch: database.Batch, changed: Sequence[RunWork], now: datetime) -> list[Guarded]:
     """Write the rows of runs; the state of one that has not begun stays nothing."""
     for work in changed:
         work.row.reason = work.row.reason[:500]
         work.row.inputs_kept += bool(work.inputs)
         if work.state is not None:
             work.row.state = machine.to_json(work.state)
-    begun = [(work.row, work.row.epoch) for work in changed if work.state is not None]
-    others = [(work.row, work.row.epoch) for work in changed if work.state is None]
-    written = [update_all(batch, Run, ("state", *WRITTEN), begun), update_all(batch, Run, WRITTEN, others)]
-    for row, _ in begun:
-        row.__dict__.pop("state", None)
+    rows: dict[tuple[str, ...], list[tuple[Run, int]]] = {}
+    for work in changed:
+        names = WRITTEN if work.state is None else BEGUN if work.row.started_at == now else ("state", *WRITTEN)
+        rows.setdefault(names, []).append((work.row, work.row.epoch))
+    written = [update_all(batch, Run, names, those) for names, those in rows.items()]
+    for work in changed:
+        work.row.__dict__.pop("state", None)
     return written
 
 

@@ -48,7 +48,7 @@ def list_dead_letters(*, site: str, state: str | None = None) -> tuple[DeadLette
     The state `settled` is that of all that was retried or dropped; there what was settled last comes first.
     """
     rows = DeadLetter.objects.filter(site__slug=site).select_related("site", "run").order_by("-id")
-    rows = rows.defer("run__document", "run__compiled", "run__plan", "run__state")
+    rows = rows.defer("run__document", "run__compiled", "run__plan", "run__state", "run__places")
     if state == SETTLED:
         rows = rows.exclude(state=DeadLetter.State.OPEN).order_by("-settled_at", "-id")
     elif state:

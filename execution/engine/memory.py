@@ -18,13 +18,14 @@ from editor.language import plan_from_json
 from editor.language.plan.instructions import Plan
 from execution.engine.inbox import MOST_AT_ONCE
 from execution.floor.fold import FloorWork
-from execution.floor.layouts import look_at_site
+from execution.floor.layouts import look_at_site, places_from_json
 from execution.machine import machine
 from execution.machine.floor_task import TaskOrder
 from execution.machine.needs import Needs, needs_of
 from execution.models import FloorState, Run
 from execution.runs.fold import RunWork
 from execution.traffic import floor
+from execution.traffic.kept_places import keep_places
 from execution.traffic.layout import Layout
 from registry import services as registry
 
@@ -71,6 +72,7 @@ class SiteMemory:
     floor_written_at: float = 0.0
     _plans: dict[str, _Known] = field(default_factory=dict)
     _layout: Layout | None = None
+    _kept: tuple[Layout, dict[str, Any], Layout] | None = None
     _looked_at: float = float("-inf")
     _names: dict[str, str | None] = field(default_factory=dict)
     _named_at: float = 0.0
@@ -98,6 +100,16 @@ class SiteMemory:
         """The layout as it was when somebody looked last."""
         assert self._layout is not None
         return self._layout
+
+    def layout_for(self, runs: Mapping[str, RunWork]) -> Layout:
+        """Return the layout with the places of open runs as these began with them; `runs` are new in this turn."""
+        rows = {key: row for key, (row, _) in self.broken.items()}
+        rows |= {key: work.row for key, work in {**self.runs, **runs}.items()}
+        began_with = {key: row.places for key, row in rows.items() if row.places}
+        if self._kept is None or self._kept[0] is not self.layout or self._kept[1] != began_with:
+            known = {key: places_from_json(places) for key, places in began_with.items()}
+            self._kept = (self.layout, began_with, keep_places(self.layout, known))
+        return self._kept[2]
 
     @property
     def has_layout(self) -> bool:

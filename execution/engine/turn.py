@@ -25,6 +25,7 @@ from execution.engine.aside import (
 from execution.engine.inbox import News, Row
 from execution.engine.memory import SiteMemory
 from execution.floor.fold import FloorWork, news_of, step_floor
+from execution.floor.layouts import places_to_json
 from execution.floor_protocol import (
     RoleFilled,
     TaskEnded,
@@ -211,6 +212,7 @@ class Turn:
 
     def _step_run(self, work: RunWork, messages: list[ToRun]) -> None:
         """Let a run take messages in; one that raises is set aside, the run is paused in its place."""
+        work = self._with_places(work)
         reading = self._facts_reader(work, messages)
         for _ in range(len(messages) + 2):
             names = self.site.names_of(things_named(messages))
@@ -233,6 +235,14 @@ class Turn:
                 self.runs[work.id] = new
                 self._for_floor += told
                 return
+
+    def _with_places(self, work: RunWork) -> RunWork:
+        """Return a run that begins now with the places of its site: by these it goes, whatever becomes of them."""
+        if work.state is not None or not may_begin(work.row, self.now):
+            return work
+        new = work.fork()
+        new.row.places = places_to_json(site=self.site.slug)
+        return new
 
     def _facts_reader(self, work: RunWork, messages: Sequence[ToRun]) -> Any:
         """Return what reads the facts for a run: once in a turn, and again when it has a robot that it had not."""
@@ -301,7 +311,8 @@ class Turn:
 
     def _take_step(self, work: FloorWork, news: Sequence[m.Event], told: Sequence[ToFloor]) -> None:
         self._floor_was_told |= bool(told)  # then it is written, so that nobody else has changed it meanwhile
-        self.floor, said = step_floor(work, self.site.layout, news, told, self.now.timestamp())
+        layout = self.site.layout_for(self.runs)
+        self.floor, said = step_floor(work, layout, news, told, self.now.timestamp())
         for run, message in said:
             self._post(run, Mail(message, self.now))
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, replace
 from math import cos, pi, sin
-from typing import Literal
+from typing import Any, Literal
 
 from editor import services as editor
 from editor.language.site.surroundings import PlaceFacts
@@ -109,3 +109,13 @@ def place_facts(place: registry.PlaceView) -> PlaceFacts:
         "dock" if place.kind == "dock" else "room" if place.kind == "room" else "point"
     )
     return PlaceFacts(place.id, place.name, kind, place.x, place.y, place.theta)
+
+
+def places_to_json(*, site: str) -> list[dict[str, Any]]:
+    """Return the places of a site as they are now, as runs keep them; raises NotAMember."""
+    return [asdict(place_facts(place)) for place in registry.list_places(site=site)]
+
+
+def places_from_json(kept: Iterable[Mapping[str, Any]]) -> tuple[PlaceFacts, ...]:
+    """Return the places that a run has kept."""
+    return tuple(PlaceFacts(*(place[name] for name in ("id", "name", "kind", "x", "y", "theta"))) for place in kept)

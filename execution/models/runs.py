@@ -14,7 +14,8 @@ class Run(Archivable):
 
     `not_before` is when it may begin, `deadline` when it should be over; `late` says that people were told that it is
     not. `fence` is the site's when somebody started it or resumed it last: with one from before a stop it stands still.
-    `permit` says which approvals let it start, or for which emergency; it is empty where none were demanded.
+    `permit` says which approvals let it start, or for which emergency; it is empty where none were demanded. `places`
+    are those of the site when it began, by which it goes until it ends; None before, and of runs older than the column.
     """
 
     class Status(models.TextChoices):
@@ -49,6 +50,7 @@ class Run(Archivable):
     compiled = models.JSONField(default=dict)
     plan = models.JSONField(default=dict)
     state = models.JSONField(null=True)
+    places = models.JSONField(null=True)
     epoch = models.PositiveIntegerField(default=0)
     watches = models.BooleanField(default=False)
     steps = models.JSONField(default=dict)

@@ -21,11 +21,14 @@ _posed_at: OrderedDict[UUID, float] = OrderedDict()
 
 
 def facts_of(needs: Needs, run: Run, messages: Iterable[ToRun], now: datetime) -> Facts:
-    """Return what a run wants to know; robots' positions at most once a second."""
+    """Return what a run wants to know; robots' positions at most once a second, places as they were when it began."""
     robots = run.started_at is None or _is_time_for_poses(run.id)
     taken = {message.robot for message in messages if isinstance(message, RoleFilled)}
     of_roles = frozenset(taken.union(run.roles.values()))
-    return site_facts(needs, run.site.slug, now, robots=robots, of_roles=of_roles) | role_facts(needs, run.roles)
+    facts = site_facts(needs, run.site.slug, now, robots=robots, of_roles=of_roles) | role_facts(needs, run.roles)
+    if needs.positions:
+        facts |= position_facts((place["id"], place["x"], place["y"]) for place in run.places or ())
+    return facts
 
 
 def site_facts(

@@ -28,9 +28,9 @@ def list_questions(*, site: str, run_id: UUID | str | None = None) -> tuple[Ques
     """Return the open questions of a site, the oldest first; of one run all questions."""
     rows = Question.objects.select_related("run", "run__site").filter(run__site__slug=site).order_by("asked_at")
     rows = rows.filter(run_id=run_id) if run_id else rows.filter(state=Question.State.OPEN)
-    found = list(rows.defer("run__plan", "run__state", "run__document", "run__compiled"))
+    found = list(rows.defer("run__plan", "run__state", "run__document", "run__compiled", "run__places"))
     if run_id:
-        runs = Run.objects.select_related("site", "archive").defer("plan", "state", "document", "compiled")
+        runs = Run.objects.select_related("site", "archive").defer("plan", "state", "places", "document", "compiled")
         archived = runs.filter(id=run_id, site__slug=site).exclude(archive=None).first()
         found = read_questions(archived) if archived is not None else found
     return tuple(view_question(row) for row in found)

@@ -167,7 +167,7 @@ def _order(row: Run, order: ToRun) -> RunView:
 
 
 def _find(run_id: UUID | str) -> Run:
-    row = Run.objects.select_related("site", "archive").defer("plan", "state").filter(id=run_id).first()
+    row = Run.objects.select_related("site", "archive").defer("plan", "state", "places").filter(id=run_id).first()
     if row is None:
         raise NotFound("There is no such run. It may have been deleted with its site.")
     return row
@@ -249,7 +249,7 @@ def list_runs(
     rows = Run.objects.select_related("site").filter(site__slug=site, **which.conditions())
     if before is not None:
         rows = rows.filter(number__lt=before)
-    found = list(rows.defer("document", "compiled", "plan", "state").order_by("-number")[: limit + 1])
+    found = list(rows.defer("document", "compiled", "plan", "state", "places").order_by("-number")[: limit + 1])
     return tuple(view_run(row) for row in found[:limit]), len(found) > limit
 
 

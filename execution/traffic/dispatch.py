@@ -145,7 +145,7 @@ def _cost(turn: Turn, task: FloorTask, robot: Robot) -> float:
     try:
         if task.order.kind == "cover":
             return distance_to_zone(turn, task, robot)
-        goal = turn.layout.spot_for(task.order.target).cell
+        goal = turn.layout.spot_for(task.order.target, task.run).cell
     except NoSuchSpot:
         return 0.0
     reach = turn.layout.lattice.distances(goal, closed_links=turn.layout.against_backwards)
@@ -204,7 +204,7 @@ def _dispatch_with(turn: Turn, task: FloorTask, robot: Robot) -> None:
         cover(turn, task, robot)
         return
     try:
-        spot = turn.layout.spot_for(task.order.target)
+        spot = turn.layout.spot_for(task.order.target, task.run)
     except NoSuchSpot as error:
         turn.finish(task, "blocked", str(error))
         return
@@ -288,7 +288,8 @@ def _act(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:
     elif order.kind == "call":
         _call(turn, task)
     elif spot.id not in turn.layout.devices:
-        turn.finish(task, "refused", f"Nothing can be handed over at {turn.name(spot.id)}; choose a device.")
+        where = turn.name(order.target.id or spot.id)
+        turn.finish(task, "refused", f"Nothing can be handed over at {where}; choose a device.")
     elif spot.id in turn.calls:
         turn.wait(task, "machine_busy", f"{turn.name(spot.id)} is busy.", device=spot.id)
     elif not turn.is_acting(robot):

@@ -62,6 +62,8 @@ class Layout:
     """What holds on this floor for every robot, besides the zones of its run's program."""
     bodies: tuple[FloorZone, ...] = ()
     """Where real robots stand that are simulated for a while, with the key `body/<id>`: all other robots keep out."""
+    kept: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    """By run and place: the point where a place was when the run began, if it is elsewhere by now or gone."""
     points: dict[str, Spot] = field(default_factory=dict)
     zone_cells: dict[tuple[tuple[Point, ...], bool], frozenset[int]] = field(default_factory=dict)
 
@@ -116,7 +118,7 @@ class Layout:
             return False
 
     def spot(self, spot: str) -> Spot:
-        """Return a spot by its id: a device's, a place's, or `@x,y` for a point."""
+        """Return a spot by its id: a device's, a place's, or `@x,y` for a point, `@x,y,theta` where robots face."""
         if spot in self.stations:
             return self.stations[spot]
         if spot in self.places:
@@ -124,18 +126,20 @@ class Layout:
         if spot not in self.points:
             if len(self.points) >= MOST_POINTS:
                 self.points.clear()
-            x, y = (float(part) for part in spot.removeprefix("@").split(","))
-            self.points[spot] = _attach(self.ground, self.lattice, spot, (x, y), None)
+            x, y, *theta = (float(part) for part in spot.removeprefix("@").split(","))
+            self.points[spot] = _attach(self.ground, self.lattice, spot, (x, y), theta[0] if theta else None)
         return self.points[spot]
 
-    def spot_for(self, target: Target) -> Spot:
-        """Return the spot where a robot stands for a target.
+    def spot_for(self, target: Target, run: str = "") -> Spot:
+        """Return the spot where a robot stands for a target, or for that of a run.
 
         Raises:
             NoSuchSpot: the target is unknown or nothing can stand there.
         """
         if target.point is not None:
             return self.spot(f"@{target.point[0]:.3f},{target.point[1]:.3f}")
+        if (run, target.id) in self.kept:
+            return self.spot(self.kept[run, target.id])
         if target.id in self.stations or target.id in self.places:
             return self.spot(target.id)
         if target.id in self.devices:

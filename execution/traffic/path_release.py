@@ -224,7 +224,8 @@ def leave_gone(turn: Turn) -> None:
 def _is_misled(turn: Turn, robot: Robot) -> bool:
     """Tell whether a place on the path is not where it was when the path was planned.
 
-    What says so: a robot at rest is not there, or the path does not come to it by its cell.
+    What says so: a robot at rest is not there, the path does not come to it by its cell, or the run of a robot on its
+    way has kept it where it was.
     """
     path, places = robot.path[robot.passed :], turn.layout.places
     if not any(node in places for node in path):
@@ -233,7 +234,11 @@ def _is_misled(turn: Turn, robot: Robot) -> bool:
     at_rest = not turn.is_driving(robot) and not turn.is_acting(robot)
     if path[0] in places and at_rest and hypot(x - robot.x, y - robot.y) > LOST_M:
         return True
-    return any(_is_detached(turn, one, other) for one, other in pairwise(path))
+    if any(_is_detached(turn, one, other) for one, other in pairwise(path)):
+        return True
+    task = turn.task_of(robot)
+    goal = "" if task is None else task.order.target.id
+    return task is not None and len(path) > 1 and path[-1] == goal and (task.run, goal) in turn.layout.kept
 
 
 def _is_detached(turn: Turn, one: Node, other: Node) -> bool:

@@ -24,7 +24,7 @@ def read_picture(site: str) -> dict[str, Any]:
     rows = Run.objects.select_related("site").filter(site__slug=site, status__in=OPEN)
     runs = [
         run_to_wall(view_run(row), row.compiled)
-        for row in rows.defer("document", "plan", "state").order_by("-number")[:MOST_RUNS]
+        for row in rows.defer("document", "plan", "state", "places").order_by("-number")[:MOST_RUNS]
     ]
     return picture_of(
         site=registry.get_site(site=site),

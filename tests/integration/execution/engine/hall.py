@@ -6,7 +6,7 @@ from uuid import uuid4
 from bench.hall import OVEN, SITE
 from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant, PlaceRef
-from editor.language.plan.instructions import Call, End, Instruction, LimitBegin, Plan, TryEnd, Wait
+from editor.language.plan.instructions import Call, End, Instruction, LimitBegin, Move, Plan, RoleBinding, TryEnd, Wait
 from execution import database, services
 from execution.models import Command, Run
 
@@ -16,6 +16,13 @@ WAITS = Plan((Instruction(Wait(Constant(3600)), "w", 1), Instruction(End())))
 def heating(steps=3, oven=OVEN):
     call = Call(PlaceRef(device=oven), "heat", {"value": Constant(1)})
     return Plan((*(Instruction(call, f"s{n}", n) for n in range(steps)), Instruction(End())))
+
+
+def driving(place, oven=OVEN):
+    """Return a program in which the oven heats, then a robot drives to a place."""
+    heat = Instruction(Call(PlaceRef(device=oven), "heat", {"value": Constant(1)}), "s0", 1)
+    move = Instruction(Move("robot", PlaceRef(place=place)), "way", 2)
+    return Plan((heat, move, Instruction(End())), {"robot": RoleBinding("robot", "robot001", ("move",))})
 
 
 def limited(oven=OVEN):

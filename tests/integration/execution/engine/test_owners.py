@@ -18,7 +18,8 @@ from execution.fault_points import DIES_WITH, OWNER_POINTS
 from execution.frozen_sessions import end_frozen_sessions
 from execution.mailbox import DRIVE_SITE
 from execution.models import Command, DeadLetter, InboxEvent, SiteLease
-from tests.integration.execution.engine.hall import answer_open, heating, limited, row, start, told
+from registry.maps.places import PlaceChange, add_place, change_place
+from tests.integration.execution.engine.hall import answer_open, driving, heating, limited, row, start, told
 from tests.kit.databases import on_database
 from tests.kit.files import ROOT
 from tests.kit.served import WORKER, served_without_broker
@@ -131,6 +132,25 @@ def test_an_owner_that_is_killed_at_a_named_point_loses_and_repeats_nothing(owne
     drive.advance_site(SITE)
     assert (row(run).status, InboxEvent.objects.filter(taken_at=None).count()) == ("finished", 0)
     assert len({command.id for command in told(run)}) == 2
+
+
+@pytest.mark.parametrize(("point", "goal"), [("before_commit", [4.5, 2.0]), ("after_commit", [4.0, 1.5])])
+def test_an_owner_that_is_killed_has_kept_the_places_of_a_run_if_and_only_if_it_has_begun_it(
+    owners, point, goal, tmp_path
+):
+    add_place(site=SITE, place_id="bay", place=PlaceChange(name="Bay 1", x=4.0, y=1.5))
+    run = start(driving("bay"))
+    (tmp_path / point).write_text("kill")
+    assert owners(*OWNER, "1", "0", VIPO_FAULTS=str(tmp_path)).wait(60) == DIES_WITH
+    change_place(site=SITE, place_id="bay", place=PlaceChange(x=4.5, y=2.0))
+    expire()
+    drive.forget_all()
+    for _ in range(2):
+        drive.advance_site(SITE)
+        answer_open(run)
+    assert [(command.step, command.arguments.get("path", [[]])[-1]) for command in told(run)] == [
+        ("s0", []), ("way", goal),
+    ]  # fmt: skip
 
 
 def children_of(process):

@@ -1,13 +1,13 @@
-/** Asks before a place goes, and names the programs that go there. */
+/** Asks before a place goes, and names the programs and runs that go there. */
 import { Button, Modal } from "@mantine/core";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { useChangePlace } from "@/api/places";
 import { usePrograms, useRuns } from "@/api/queries";
-import type { MapPlace } from "@/api/types";
+import type { MapPlace, RunSummary } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
-import { underWay } from "../zones/uses";
+import { planned, underWay } from "../zones/uses";
 import styles from "./places.module.css";
 
 /** The programs of a site that name the place; null until that is known. */
@@ -18,6 +18,7 @@ export function usePlaceUses(slug: string, place: string) {
 export function PlaceUses({ slug, place }: { slug: string; place: string }) {
   const { t } = useTranslation();
   const uses = usePlaceUses(slug, place);
+  const runs = underWay(useRuns(slug).data ?? [], uses ?? []);
   if (uses === null) return null;
   if (uses.length === 0) return <p className={styles.quiet}>{t("place.unused")}</p>;
   return (
@@ -27,6 +28,24 @@ export function PlaceUses({ slug, place }: { slug: string; place: string }) {
         {uses.map((program) => (
           <li key={program.id}>
             <Link to={`/programs/${program.id}`}>{program.name}</Link>
+          </li>
+        ))}
+      </ul>
+      <RunList words={t("place.runs", { count: runs.length })} runs={runs} />
+    </div>
+  );
+}
+
+function RunList({ words, runs }: { words: string; runs: readonly RunSummary[] }) {
+  const { t } = useTranslation();
+  if (runs.length === 0) return null;
+  return (
+    <div role="note">
+      <p className={styles.quiet}>{words}</p>
+      <ul className={styles.uses}>
+        {runs.map((run) => (
+          <li key={run.id}>
+            <Link to={`/runs/${run.id}`}>{t("place.run", { number: run.number, name: run.program.name })}</Link>
           </li>
         ))}
       </ul>
@@ -45,24 +64,13 @@ export function RemovePlace({ slug, place, onClose }: RemovePlaceProps) {
   useReturnFocus();
   const change = useChangePlace(slug);
   const uses = usePlaceUses(slug, place.id);
-  const runs = underWay(useRuns(slug).data ?? [], uses ?? []);
+  const later = planned(useRuns(slug).data ?? [], uses ?? []);
   return (
     <Modal opened onClose={onClose} title={t("place.removeAsk", { name: place.name })} size={440}>
       <div className={styles.form}>
         <PlaceUses slug={slug} place={place.id} />
         {uses && uses.length > 0 ? <p>{t("place.removeText", { count: uses.length })}</p> : null}
-        {runs.length > 0 ? (
-          <div role="note">
-            <p>{t("place.runs", { count: runs.length })}</p>
-            <ul className={styles.uses}>
-              {runs.map((run) => (
-                <li key={run.id}>
-                  <Link to={`/runs/${run.id}`}>{t("place.run", { number: run.number, name: run.program.name })}</Link>
-                </li>
-              ))}
-            </ul>
-          </div>
-        ) : null}
+        <RunList words={t("place.planned", { count: later.length })} runs={later} />
         {change.error ? <p role="alert">{problemText(change.error, t("shell.problem.screen"))}</p> : null}
         <div className={styles.decide}>
           <Button variant="default" onClick={onClose} data-autofocus>

@@ -35,10 +35,16 @@ export function usesOf({ points }: Pick<MapZone, "points">, known: Known): ZoneU
 
 /** The runs of these programs that are under way. */
 export const underWay = (runs: readonly RunSummary[], programs: readonly Program[]): RunSummary[] =>
-  runs.filter(
-    ({ status, program }) =>
-      (status === "running" || status === "paused") && programs.some(({ id }) => id === program.id),
-  );
+  openRuns(runs, programs).filter(({ started_at: began }) => began !== null);
+
+/** The runs of these programs that have not begun yet. */
+export const planned = (runs: readonly RunSummary[], programs: readonly Program[]): RunSummary[] =>
+  openRuns(runs, programs).filter(({ started_at: began }) => began === null);
+
+const OPEN: readonly string[] = ["pending", "running", "paused"];
+
+const openRuns = (runs: readonly RunSummary[], programs: readonly Program[]) =>
+  runs.filter(({ status, program }) => OPEN.includes(status) && programs.some(({ id }) => id === program.id));
 
 /** A machine's middle, and where robots might stand on each side of it. */
 function around(device: Device): Point[] {
