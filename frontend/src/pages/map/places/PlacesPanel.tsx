@@ -1,7 +1,7 @@
 /** The places of a map as a list; admins add, change and remove them here. */
 import { Button } from "@mantine/core";
 import { MapPinPlus, X } from "lucide-react";
-import { useState } from "react";
+import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { MapPlace, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
@@ -22,6 +22,10 @@ interface PlacesPanelProps {
 export function PlacesPanel({ slug, map, editing }: PlacesPanelProps) {
   const { t } = useTranslation();
   const [removing, setRemoving] = useState<MapPlace | null>(null);
+  const isThere = map.places.some(({ id }) => id === removing?.id);
+  useEffect(() => {
+    if (!isThere) setRemoving(null); // whoever has removed it
+  }, [isThere]);
   return (
     <section aria-labelledby="places">
       <h2 id="places">{t("pages.map.places")}</h2>
@@ -37,7 +41,9 @@ export function PlacesPanel({ slug, map, editing }: PlacesPanelProps) {
           </li>
         ))}
       </ul>
-      {removing ? <RemovePlace slug={slug} place={removing} onClose={() => setRemoving(null)} /> : null}
+      {editing && removing && isThere ? (
+        <RemovePlace slug={slug} place={removing} select={editing.select} onClose={() => setRemoving(null)} />
+      ) : null}
     </section>
   );
 }

@@ -7,6 +7,8 @@ import { usePrograms, useRuns } from "@/api/queries";
 import type { MapPlace, RunSummary } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
+import { useFreshUses } from "../useFreshUses";
+import { isGone } from "../useRemovedMeanwhile";
 import { planned, underWay } from "../zones/uses";
 import styles from "./places.module.css";
 
@@ -17,6 +19,7 @@ export function usePlaceUses(slug: string, place: string) {
 
 export function PlaceUses({ slug, place }: { slug: string; place: string }) {
   const { t } = useTranslation();
+  useFreshUses(slug);
   const uses = usePlaceUses(slug, place);
   const runs = underWay(useRuns(slug).data ?? [], uses ?? []);
   if (uses === null) return null;
@@ -56,15 +59,22 @@ function RunList({ words, runs }: { words: string; runs: readonly RunSummary[] }
 interface RemovePlaceProps {
   slug: string;
   place: MapPlace;
+  /** Choose another place to edit, or none. */
+  select: (place: string | null) => void;
   onClose: () => void;
 }
 
-export function RemovePlace({ slug, place, onClose }: RemovePlaceProps) {
+export function RemovePlace({ slug, place, select, onClose }: RemovePlaceProps) {
   const { t } = useTranslation();
   useReturnFocus();
   const change = useChangePlace(slug);
   const uses = usePlaceUses(slug, place.id);
   const later = planned(useRuns(slug).data ?? [], uses ?? []);
+  const remove = () => {
+    select(null);
+    const onError = (error: Error) => (isGone(error) ? onClose() : select(place.id));
+    change.mutate({ do: "remove", id: place.id }, { onSuccess: onClose, onError });
+  };
   return (
     <Modal opened onClose={onClose} title={t("place.removeAsk", { name: place.name })} size={440}>
       <div className={styles.form}>
@@ -76,11 +86,7 @@ export function RemovePlace({ slug, place, onClose }: RemovePlaceProps) {
           <Button variant="default" onClick={onClose} data-autofocus>
             {t("keys.cancel")}
           </Button>
-          <Button
-            color="red"
-            loading={change.isPending}
-            onClick={() => change.mutate({ do: "remove", id: place.id }, { onSuccess: onClose })}
-          >
+          <Button color="red" loading={change.isPending} onClick={remove}>
             {t("place.remove")}
           </Button>
         </div>

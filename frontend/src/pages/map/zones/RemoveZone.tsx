@@ -8,6 +8,8 @@ import { useChangeZone } from "@/api/zones";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
 import styles from "../places/places.module.css";
+import { useFreshUses } from "../useFreshUses";
+import { isGone } from "../useRemovedMeanwhile";
 import { usesOf } from "./uses";
 
 interface ZoneUsesProps {
@@ -18,6 +20,7 @@ interface ZoneUsesProps {
 
 export function ZoneUses({ slug, map, zone }: ZoneUsesProps) {
   const { t } = useTranslation();
+  useFreshUses(slug);
   const [devices, programs, runs] = [useDevices(slug).data, usePrograms(slug).data, useRuns(slug).data];
   if (!devices || !programs || !runs) return null;
   const uses = usesOf(zone, { places: map.places, devices, programs, runs });
@@ -55,10 +58,21 @@ export function ZoneUses({ slug, map, zone }: ZoneUsesProps) {
   );
 }
 
-export function RemoveZone({ slug, map, zone, onClose }: ZoneUsesProps & { onClose: () => void }) {
+interface RemoveZoneProps extends ZoneUsesProps {
+  /** Choose another zone to edit, or none. */
+  select: (zone: string | null) => void;
+  onClose: () => void;
+}
+
+export function RemoveZone({ slug, map, zone, select, onClose }: RemoveZoneProps) {
   const { t } = useTranslation();
   useReturnFocus();
   const change = useChangeZone(slug);
+  const remove = () => {
+    select(null);
+    const onError = (error: Error) => (isGone(error) ? onClose() : select(zone.id));
+    change.mutate({ do: "remove", id: zone.id }, { onSuccess: onClose, onError });
+  };
   return (
     <Modal opened onClose={onClose} title={t("zone.removeAsk", { name: zone.name })} size={440}>
       <div className={styles.form}>
@@ -69,11 +83,7 @@ export function RemoveZone({ slug, map, zone, onClose }: ZoneUsesProps & { onClo
           <Button variant="default" onClick={onClose} data-autofocus>
             {t("keys.cancel")}
           </Button>
-          <Button
-            color="red"
-            loading={change.isPending}
-            onClick={() => change.mutate({ do: "remove", id: zone.id }, { onSuccess: onClose })}
-          >
+          <Button color="red" loading={change.isPending} onClick={remove}>
             {t("zone.remove")}
           </Button>
         </div>

@@ -1,5 +1,6 @@
 /** The zones over the map while an admin edits them, and the floor on which a new one is drawn. */
 import type { SiteMap } from "@/api/types";
+import { useRemovedMeanwhile } from "../useRemovedMeanwhile";
 import { MovableZone } from "./MovableZone";
 import { pathOf } from "./outline";
 import type { ZoneEditing } from "./useZones";
@@ -9,6 +10,7 @@ import styles from "./zones.module.css";
 
 export function ZoneHandles({ slug, map, zones }: { slug: string; map: SiteMap; zones: ZoneEditing }) {
   const { drawn, draw, stop } = zones;
+  useRemovedMeanwhile(zones.zone, map.zones, () => zones.select(null));
   return (
     <>
       {drawn

@@ -1,7 +1,7 @@
 /** The zones of a map as a list; admins draw, change and remove them here. */
 import { Button } from "@mantine/core";
 import { SquareDashed, X } from "lucide-react";
-import { useState } from "react";
+import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useFloorCheck } from "@/api/floorCheck";
 import { useFloorUse } from "@/api/floorUse";
@@ -32,6 +32,10 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
   const { t } = useTranslation();
   const at = useZonesAt(map.zones);
   const [removing, setRemoving] = useState<MapZone | null>(null);
+  const isThere = map.zones.some(({ id }) => id === removing?.id);
+  useEffect(() => {
+    if (!isThere) setRemoving(null); // whoever has removed it
+  }, [isThere]);
   const costs = useZoneCosts(slug, map.zones).data ?? [];
   const widths = useFloorCheck(slug, map, useDevices(slug).data ?? [], { enabled: costs.length > 0 }).data?.zones ?? [];
   const uses = useFloorUse(slug, { enabled: costs.length > 0 }).data?.zones ?? [];
@@ -52,7 +56,9 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
           </li>
         ))}
       </ul>
-      {removing ? <RemoveZone slug={slug} map={map} zone={removing} onClose={() => setRemoving(null)} /> : null}
+      {editing && removing && isThere ? (
+        <RemoveZone slug={slug} map={map} zone={removing} select={editing.select} onClose={() => setRemoving(null)} />
+      ) : null}
     </section>
   );
 }
