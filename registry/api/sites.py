@@ -32,7 +32,10 @@ def upload_site(
     image: File[UploadedFile | None] = None,
     archive: File[UploadedFile | None] = None,
 ) -> dict[str, Any]:
-    """Make a site, from a ROS map (two files, or one .zip of both) or without a map; the asker becomes its admin."""
+    """Make a site, from a ROS map (two files, or one .zip of both) or without a map; the asker becomes its admin.
+
+    A name that another site of the asker has, whatever the letters' case, is refused (409, `name_taken`).
+    """
     user = signed_in(request)
     require_factor(user, "admin")
     files = services.MapFiles(yaml, image, archive)

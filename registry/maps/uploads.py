@@ -18,7 +18,7 @@ from registry.floorplan.plan import Grid
 from registry.maps.site_maps import compare_with_site, save_map
 from registry.models import User
 from registry.sites.quota import lock_site_quota, require_site_quota
-from registry.sites.sites import create_site, get_site
+from registry.sites.sites import checked_name, create_site, get_site
 from registry.sites.views import SiteView
 
 READING_PATIENCE_S = 5.0
@@ -53,9 +53,10 @@ class MapFiles:
 def create_site_from_map(*, name: str, files: MapFiles, admin: User) -> SiteView:
     """Make a site, from a ROS map if there are files of one; nothing is made when that cannot be read.
 
-    Raises BadMap, BadName, MayNotCreateSites, SiteQuotaReached, TooManyUploads.
+    Raises BadMap, BadName, SiteNameTaken, MayNotCreateSites, SiteQuotaReached, TooManyUploads.
     """
     require_site_quota(admin)
+    checked_name(name, admin)
     grid = None if files.are_none else read_upload(files=files, by=admin)
     with transaction.atomic():
         lock_site_quota(admin)

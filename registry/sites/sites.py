@@ -32,6 +32,13 @@ class BadName(RegistryError):
     status = 422
 
 
+class SiteNameTaken(RegistryError):
+    """A new site's name is that of another site of whoever makes it."""
+
+    code = "name_taken"
+    status = 409
+
+
 class NoEnrolmentKey(RegistryError):
     """A site's enrolment key that cannot be shown."""
 
@@ -98,15 +105,30 @@ def _site_view(site: Site, role: str, held_role: str = "") -> SiteView:
 
 
 def create_site(*, name: str, admin: User | None = None, slug: str = "") -> SiteView:
-    """Make an empty site; `admin` becomes its first member. Raises BadName."""
-    name = normal(" ".join(name.split()))
-    if not 1 <= len(name) <= 100 or find_unfit(name, is_line=True):
-        raise BadName("A site needs a name of 1 to 100 characters that can be printed.")
+    """Make an empty site; `admin` becomes its first member. Raises BadName, SiteNameTaken."""
+    name = checked_name(name, admin)
     with transaction.atomic():
         site = _new_site(name, slug or slugify(name)[:50] or "site", admin, exact=bool(slug))
         if admin:
             Membership.objects.create(site=site, user=admin, role=Membership.Role.ADMIN, joined_at=timezone.now())
     return _site_view(site, Membership.Role.ADMIN if admin else "")
+
+
+def checked_name(name: str, admin: User | None) -> str:
+    """Return a name for a site in its normal form. Raises BadName, SiteNameTaken.
+
+    It is told from those of the sites that `admin` sees, whatever their letters' case; nobody learns of other sites by
+    it. Who makes several at once holds `lock_site_quota`.
+    """
+    name = normal(" ".join(name.split()))
+    if not 1 <= len(name) <= 100 or find_unfit(name, is_line=True):
+        raise BadName("A site needs a name of 1 to 100 characters that can be printed.")
+    others = list_memberships(admin).values_list("site__name", flat=True) if admin else ()
+    other = next((each for each in others if each.casefold() == name.casefold()), None)
+    if other is not None:
+        text = f"You have a site {other!r} already. Choose another name, so that nobody takes one for the other."
+        raise SiteNameTaken(text, {"why": "site", "name": other})
+    return name
 
 
 def _new_site(name: str, slug: str, made_by: User | None, *, exact: bool) -> Site:

@@ -1751,6 +1751,8 @@ export interface paths {
         /**
          * Upload Site
          * @description Make a site, from a ROS map (two files, or one .zip of both) or without a map; the asker becomes its admin.
+         *
+         *     A name that another site of the asker has, whatever the letters' case, is refused (409, `name_taken`).
          */
         post: operations["upload_site"];
         delete?: never;

@@ -227,13 +227,13 @@ def upload(client: Client, **files: Any) -> Any:
 
 
 def test_a_site_is_made_from_a_ros_map_and_its_maker_is_admin(hall: str) -> None:
-    services.set_site_quota(email="stranger@vipo.example", sites=2)
-    client = signed_in("stranger")
-    for slug in ("second-hall", "second-hall-2"):
+    for name, slug in (("stranger", "second-hall"), ("author", "second-hall-2")):
+        services.set_site_quota(email=f"{name}@vipo.example", sites=1)
+        client = signed_in(name)
         answer = upload(client, yaml=SimpleUploadedFile("m.yaml", YAML), image=SimpleUploadedFile("a.pgm", IMAGE))
         assert answer.status_code == 201
         assert (answer.json()["slug"], answer.json()["role"], answer.json()["name"]) == (slug, "admin", "Second Hall")
-    assert client.get("/api/sites/second-hall/map").json()["width"] == 2
+        assert client.get(f"/api/sites/{slug}/map").json()["width"] == 2
     assert signed_in("admin").get("/api/sites/second-hall").status_code == 404
 
 

@@ -360,9 +360,8 @@ def test_who_joins_while_whoever_invited_them_is_lowered_was_first(url: str) -> 
     assert Invitation.objects.get().revoked_at is not None
 
 
-def test_who_may_make_one_more_site_makes_one(url: str) -> None:
-    services.set_site_quota(email="author@vipo.example", sites=1)
-    clients = [signed_in("author") for _ in range(2)]
+def make_sites(url: str, *names: str) -> list[Any]:
+    """Let the author make sites of these names at once, each out of a map."""
     yaml = "image: map.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"
 
     def upload(client: Client, name: str) -> Any:
@@ -372,12 +371,23 @@ def test_who_may_make_one_more_site_makes_one(url: str) -> None:
         }
         return client.post("/api/sites", {"name": name, **files})
 
-    answers = press_together(
-        url, OF_PERSON, *(lambda c=client, n=name: upload(c, n) for client, name in zip(clients, "AB", strict=True))
-    )
+    clients = [(signed_in("author"), name) for name in names]
+    return press_together(url, OF_PERSON, *(lambda c=client, n=name: upload(c, n) for client, name in clients))
+
+
+def test_who_may_make_one_more_site_makes_one(url: str) -> None:
+    services.set_site_quota(email="author@vipo.example", sites=1)
+    answers = make_sites(url, "A", "B")
     made = told(answers).index(201)
     assert told(answers)[1 - made] == (403, "site_quota_reached")
     assert list(Site.objects.exclude(slug="hall").values_list("name", flat=True)) == ["AB"[made]]
+
+
+def test_who_makes_two_sites_of_one_name_at_once_makes_one(url: str) -> None:
+    services.set_site_quota(email="author@vipo.example", sites=2)
+    answers = make_sites(url, "Shed", "shed")
+    assert sorted(told(answers), key=str) == [(409, "name_taken"), 201]
+    assert Site.objects.exclude(slug="hall").count() == 1
 
 
 def test_of_two_who_publish_one_name_at_once_one_is_told_to_take_another(url: str) -> None:

@@ -1,4 +1,4 @@
-"""Who may make a site, and how many."""
+"""Who may make a site, how many, and what it may be called."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ YAML = b"image: a.pgm\nresolution: 0.05\norigin: [-1, -2, 0]\n"
 IMAGE = b"P5 2 2 255\n" + bytes([254, 0, 205, 254])
 
 
-def upload(client: Client, image: bytes = IMAGE) -> Any:
+def upload(client: Client, image: bytes = IMAGE, name: str = "Shed") -> Any:
     files = {"yaml": SimpleUploadedFile("m.yaml", YAML), "image": SimpleUploadedFile("a.pgm", image)}
-    return client.post("/api/sites", {"name": "Shed", **files})
+    return client.post("/api/sites", {"name": name, **files})
 
 
 def told(client: Client) -> bool:
@@ -45,10 +45,46 @@ def test_one_makes_as_many_sites_as_one_may(hall: str) -> None:
     services.set_site_quota(email="stranger@vipo.example", sites=2)
     client = signed_in("stranger")
     assert (upload(client).status_code, told(client)) == (201, True)
-    assert (upload(client).status_code, told(client)) == (201, False)
-    answer = upload(client)
+    assert (upload(client, name="Yard").status_code, told(client)) == (201, False)
+    answer = upload(client, name="Dock")
     assert (answer.status_code, answer.json()["code"]) == (403, "site_quota_reached")
-    assert list(Site.objects.values_list("slug", flat=True).order_by("slug")) == ["hall", "shed", "shed-2"]
+    assert list(Site.objects.values_list("slug", flat=True).order_by("slug")) == ["hall", "shed", "yard"]
+
+
+def test_no_two_sites_of_a_person_have_one_name(hall: str) -> None:
+    for name in ("stranger", "author"):
+        services.set_site_quota(email=f"{name}@vipo.example", sites=5)
+    client = signed_in("stranger")
+    assert upload(client, name="Große Halle").status_code == 201
+    for name, image in (("Große Halle", b"no image"), ("  GROSSE   halle\n", IMAGE)):
+        answer = upload(client, image, name=name)
+        assert (answer.status_code, answer.json()["code"]) == (409, "name_taken")
+        assert answer.json()["args"] == {"why": "site", "name": "Große Halle"}
+    assert answer.json()["detail"] == (
+        "You have a site 'Große Halle' already. Choose another name, so that nobody takes one for the other."
+    )
+    assert client.post("/api/sites", {"name": "große halle"}).json()["code"] == "name_taken", "an empty one, too"
+    assert upload(client, name="Große Halle 2").status_code == 201
+    assert list(Site.objects.order_by("pk").values_list("name", flat=True)) == ["Hall", "Große Halle", "Große Halle 2"]
+
+
+def test_what_sites_of_others_are_called_is_not_learnt_by_making_one(hall: str) -> None:
+    services.set_site_quota(email="stranger@vipo.example", sites=2)
+    services.set_site_quota(email="author@vipo.example", sites=2)
+    assert upload(signed_in("author")).status_code == 201
+    client = signed_in("stranger")
+    made = [upload(client, name=name) for name in ("Hall", "Shed")]
+    assert [answer.status_code for answer in made] == [201, 201]
+    services.set_member(site="shed", email="stranger@vipo.example", role="viewer")
+    assert [site["name"] for site in client.get("/api/sites").json()] == ["Hall", "Shed", "Shed"], "both go on"
+
+
+def test_a_name_is_free_again_to_whom_its_site_is_closed(hall: str) -> None:
+    services.set_site_quota(email="viewer@vipo.example", sites=1)
+    client = signed_in("viewer")
+    assert upload(client, name="hall").json()["code"] == "name_taken"
+    services.remove_member(site="hall", email="viewer@vipo.example")
+    assert upload(client, name="hall").status_code == 201
 
 
 def test_leaving_a_site_that_one_made_makes_no_room_for_another(hall: str) -> None:
