@@ -1,5 +1,5 @@
 /** A form that tells a device to carry out one of its methods, and shows what comes of it. */
-import { Alert, Button, Modal, NumberInput, Select, Switch, TextInput } from "@mantine/core";
+import { Alert, Button, Modal, Select, Switch, TextInput } from "@mantine/core";
 import { skipToken, useMutation, useQuery } from "@tanstack/react-query";
 import { Play, Square } from "lucide-react";
 import { type FormEvent, useEffect, useRef, useState } from "react";
@@ -8,6 +8,7 @@ import { api } from "@/api/client";
 import { useOnce } from "@/api/once";
 import { useDevices, useSiteMap } from "@/api/queries";
 import type { Device, DeviceMethod, MethodCall, MethodParameter, Site } from "@/api/types";
+import { NumberField } from "@/design/NumberField";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { unitSign } from "@/i18n/units";
 import { problemText } from "@/shell/LoadProblem";
@@ -36,7 +37,7 @@ function Field({ parameter, choices, value, error, change }: FieldProps) {
     );
   if (type === "number")
     return (
-      <NumberInput
+      <NumberField
         {...common}
         value={typeof value === "boolean" ? "" : value}
         description={[unitSign(unit), range].filter(Boolean).join(", ") || undefined}

@@ -1,9 +1,10 @@
 /** One thing that is given when a test begins: what a machine holds, what a robot carries, what a reading shows. */
-import { Autocomplete, NumberInput, Select } from "@mantine/core";
+import { Autocomplete, Select } from "@mantine/core";
 import { Trash2 } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import type { Device } from "@/api/types";
 import { IconButton } from "@/design/IconButton";
+import { NumberField } from "@/design/NumberField";
 import { unitText } from "@/program/words/stepWords";
 import { ScalarInput } from "@/shell/start/ScalarInput";
 import { type GivenRow, isWhole } from "./testRows";
@@ -40,7 +41,7 @@ export function GivenLine({ row, number, devices, onChange, onRemove }: GivenLin
         <Reading row={row} devices={devices} set={set} />
       ) : (
         <>
-          <NumberInput
+          <NumberField
             size="xs"
             className={classes.short}
             aria-label={t("tests.form.count")}

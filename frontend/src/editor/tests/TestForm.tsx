@@ -1,9 +1,10 @@
 /** A test as sentences and fields: what is given, what happens, what goes wrong on purpose, and what then holds. */
-import { Button, Menu, NumberInput, Select, TextInput } from "@mantine/core";
+import { Button, Menu, Select, TextInput } from "@mantine/core";
 import { Plus } from "lucide-react";
 import { type ReactNode, useId, useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { TestResult } from "@/api/types";
+import { NumberField } from "@/design/NumberField";
 import { useEditorText } from "@/program/canvas/useScene";
 import { DRIVERS, LARGEST_SEED } from "@/shell/start/conditions";
 import { FaultCard } from "@/shell/start/FaultCard";
@@ -196,7 +197,7 @@ function WhenPart({ values, set, about }: FormProps) {
             }}
           />
         ) : null}
-        <NumberInput
+        <NumberField
           size="xs"
           label={t("start.rehearse.seed")}
           placeholder="0"
@@ -214,7 +215,7 @@ function WhenPart({ values, set, about }: FormProps) {
           allowDeselect={false}
           onChange={(driver) => set({ driver })}
         />
-        <NumberInput
+        <NumberField
           size="xs"
           label={t("tests.form.limit")}
           placeholder={t("tests.form.limit_usual")}

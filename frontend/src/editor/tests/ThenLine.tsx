@@ -1,8 +1,9 @@
 /** One thing that a test expects, as a sentence with fields. */
-import { Autocomplete, NumberInput, Select, TagsInput, TextInput } from "@mantine/core";
+import { Autocomplete, Select, TagsInput, TextInput } from "@mantine/core";
 import { Check, Trash2, X } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { IconButton } from "@/design/IconButton";
+import { NumberField } from "@/design/NumberField";
 import type { Choice, Startable } from "@/shell/start/startable";
 import { objectsOf, ReadingValue } from "./GivenLine";
 import { COMPARISONS, isWhole, type ThenRow } from "./testRows";
@@ -119,7 +120,7 @@ interface CountProps {
 
 function CountField({ label, value, suffix = "", placeholder, onChange }: CountProps) {
   return (
-    <NumberInput
+    <NumberField
       size="xs"
       className={classes.short}
       aria-label={label}

@@ -1,9 +1,11 @@
 /** The inspector of a zone: its name, its rule, its speed. */
-import { NumberInput, Radio, Select, TextInput } from "@mantine/core";
+import { Radio, Select, TextInput } from "@mantine/core";
 import { Trash2, X } from "lucide-react";
 import { useEffect, useState } from "react";
 import { IconButton } from "@/design/IconButton";
+import { NumberField } from "@/design/NumberField";
 import { VipoIcon } from "@/design/VipoIcon";
+import { formatNumber, withUnit } from "@/i18n/format";
 import { useGestures, selectZone } from "../state/gestures";
 import { FormBody } from "../canvas/FormBody";
 import inspector from "../panel.module.css";
@@ -26,7 +28,7 @@ export function ZoneForm() {
 function Panel({ id, zone }: { id: string; zone: Zone }) {
   const open = useOpenProgram();
   const { t, canEdit } = open;
-  const area = `${areaOf(zone.points).toFixed(1)}\u202fm²`;
+  const area = withUnit(formatNumber(areaOf(zone.points), 1), "m²");
   return (
     <aside className={inspector.panel} aria-label={t("gesture.zone.label")}>
       <header className={inspector.head}>
@@ -98,7 +100,7 @@ function RuleField({ id, zone }: { id: string; zone: Zone }) {
 function SpeedField({ id, zone }: { id: string; zone: Zone }) {
   const open = useOpenProgram();
   return (
-    <NumberInput
+    <NumberField
       label={open.t("gesture.zone.speed")}
       value={zone.speed_m_s ?? ""}
       min={0.05}

@@ -1,8 +1,9 @@
 /** What the tool in hand is told, and what is done to the map as a whole. */
-import { Button, NumberInput, SegmentedControl } from "@mantine/core";
+import { Button, SegmentedControl } from "@mantine/core";
 import { RotateCcw, RotateCw, Sparkles } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
+import { NumberField } from "@/design/NumberField";
 import { formatNumber, withUnit } from "@/i18n/format";
 import type { CellMap } from "@/map/floor/rosFiles";
 import type { Point } from "@/map/plane/projection";
@@ -41,7 +42,7 @@ export function ToolPanel({ map, settings, set, change, measured }: PanelProps) 
           />
         ) : null}
         {tool === "brush" || tool === "line" ? (
-          <NumberInput
+          <NumberField
             label={t("mapEdit.width")}
             suffix=" cm"
             min={1}
@@ -70,7 +71,7 @@ function Scale({ map, measured, change }: Pick<PanelProps, "map" | "change" | "m
   const scaled = known > 0 && Number(length) > 0 ? rescale(map, Number(length) / known) : map;
   return (
     <>
-      <NumberInput
+      <NumberField
         label={t("mapEdit.trueLength")}
         description={known > 0 ? t("mapEdit.measured", { length: withUnit(formatNumber(known, 2), "m") }) : null}
         suffix=" m"
@@ -107,7 +108,7 @@ function Turning({ map, change }: WholeProps) {
         ))}
       </div>
       <div className={styles.pair}>
-        <NumberInput
+        <NumberField
           aria-label={t("mapEdit.angle")}
           placeholder={t("mapEdit.angle")}
           suffix="°"
@@ -138,7 +139,7 @@ function Specks({ map, change }: WholeProps) {
   return (
     <section aria-labelledby="specks">
       <h2 id="specks">{t("mapEdit.specks")}</h2>
-      <NumberInput label={t("mapEdit.least")} min={2} max={10_000} value={least} onChange={setLeast} />
+      <NumberField label={t("mapEdit.least")} min={2} max={10_000} value={least} onChange={setLeast} />
       <Button variant="default" leftSection={<Sparkles size={16} />} disabled={!(Number(least) >= 2)} onClick={erase}>
         {t("mapEdit.eraseSpecks")}
       </Button>

@@ -1,11 +1,12 @@
 /** A question of a run with what one answers it by; who may not answer sees that it waits. */
-import { Button, Group, NumberInput, TextInput } from "@mantine/core";
+import { Button, Group, TextInput } from "@mantine/core";
 import { CircleHelp } from "lucide-react";
 import { useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { api, ApiProblem } from "@/api/client";
 import type { Question, Scalar } from "@/api/types";
+import { NumberField } from "@/design/NumberField";
 import { unitSign } from "@/i18n/units";
 import { readAnswer } from "./answer";
 import styles from "./questions.module.css";
@@ -79,7 +80,7 @@ function Field(props: FormProps) {
     >
       <Group gap={8} align="flex-start">
         {question.answer.type === "number" ? (
-          <NumberInput
+          <NumberField
             {...common}
             value={typed}
             onChange={setTyped}

@@ -1,9 +1,10 @@
 /** One fault on purpose: what goes wrong, with which device, when, and what else its kind needs. */
-import { NumberInput, Select, TextInput } from "@mantine/core";
+import { Select, TextInput } from "@mantine/core";
 import { Trash2 } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import type { Device } from "@/api/types";
 import { IconButton } from "@/design/IconButton";
+import { NumberField } from "@/design/NumberField";
 import { unitText } from "@/program/words/stepWords";
 import {
   beginningsOf,
@@ -69,7 +70,7 @@ export function FaultCard(props: FaultCardProps) {
         <Details {...props} set={set} />
         <Begins {...props} set={set} />
         {lasts(draft.fault) ? (
-          <NumberField {...props} set={set} name="for_s" placeholder={t("start.fault.to_the_end")} />
+          <FaultNumber {...props} set={set} name="for_s" placeholder={t("start.fault.to_the_end")} />
         ) : null}
       </div>
       {refusal === undefined ? null : (
@@ -97,18 +98,18 @@ function useProblem(problem: FaultProblems[string] | undefined): string | undefi
   return problem && t(`start.fault.problem.${problem.why}`, { least: problem.least, most: problem.most });
 }
 
-interface NumberFieldProps extends PartProps {
+interface FaultNumberProps extends PartProps {
   name: keyof FaultDraft["numbers"];
   placeholder?: string;
 }
 
-function NumberField({ draft, set, name, problems, placeholder }: NumberFieldProps) {
+function FaultNumber({ draft, set, name, problems, placeholder }: FaultNumberProps) {
   const { t } = useTranslation();
   const { numbers } = draft;
   const scale = name === "odds" ? 100 : 1;
   const value = numbers[name];
   return (
-    <NumberInput
+    <NumberField
       label={t(`start.fault.field.${name}`)}
       placeholder={placeholder}
       value={value === undefined ? "" : Math.round(value * scale * 1e6) / 1e6}
@@ -131,8 +132,8 @@ function Begins(props: PartProps) {
         allowDeselect={false}
         onChange={(begins) => set({ begins: begins as FaultDraft["begins"] })}
       />
-      {draft.begins === "at" ? <NumberField {...props} name="at_s" /> : null}
-      {draft.begins === "chance" ? <NumberField {...props} name="odds" /> : null}
+      {draft.begins === "at" ? <FaultNumber {...props} name="at_s" /> : null}
+      {draft.begins === "chance" ? <FaultNumber {...props} name="odds" /> : null}
       {draft.begins === "step" ? (
         <>
           <Select
@@ -144,7 +145,7 @@ function Begins(props: PartProps) {
             error={problem}
             onChange={(step) => set({ at_step: step })}
           />
-          <NumberField {...props} name="nth" />
+          <FaultNumber {...props} name="nth" />
         </>
       ) : null}
     </>
@@ -160,7 +161,7 @@ function Details(props: PartProps) {
       {(["after_s", "percent", "x", "y", "size_m"] as const)
         .filter((name) => words.includes(name))
         .map((name) => (
-          <NumberField key={name} {...props} name={name} />
+          <FaultNumber key={name} {...props} name={name} />
         ))}
       {words.includes("error") ? (
         <TextInput

@@ -1,11 +1,12 @@
 /** Simulate with …: parameters, chance, how robots drive, and what goes wrong on purpose. */
-import { Button, Modal, NumberInput, SegmentedControl } from "@mantine/core";
+import { Button, Modal, SegmentedControl } from "@mantine/core";
 import { useMutation } from "@tanstack/react-query";
 import { Dices, Plus, RotateCcw } from "lucide-react";
 import { useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { ApiProblem } from "@/api/client";
 import { useOnce } from "@/api/once";
+import { NumberField } from "@/design/NumberField";
 import { useEditorText } from "@/program/canvas/useScene";
 import { problemText } from "../LoadProblem";
 import {
@@ -216,7 +217,7 @@ function SeedField({ seed, error, onChange }: SeedProps) {
   const { t } = useTranslation();
   return (
     <div className={classes.seed}>
-      <NumberInput
+      <NumberField
         label={t("start.rehearse.seed")}
         description={t("start.rehearse.seed_about")}
         inputWrapperOrder={["label", "input", "description", "error"]}

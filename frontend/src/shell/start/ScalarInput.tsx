@@ -1,7 +1,8 @@
 /** A field for one value: a number, yes or no, or a text; null while nothing is filled in. */
-import { NumberInput, Select, TextInput } from "@mantine/core";
+import { Select, TextInput } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useTranslation } from "react-i18next";
+import { NumberField } from "@/design/NumberField";
 
 interface ScalarInputProps {
   /** `number`, `boolean`, or anything else for a text. */
@@ -25,7 +26,7 @@ export function ScalarInput({ type, value, onChange, suffix, className, ...field
   const { t } = useTranslation();
   if (type === "number")
     return (
-      <NumberInput
+      <NumberField
         {...field}
         className={className}
         suffix={suffix}

@@ -1,6 +1,7 @@
 /** One parameter of a function or of the program: name, type, unit, and what it is when nobody says. */
-import { ActionIcon, NumberInput, Select, TextInput } from "@mantine/core";
+import { ActionIcon, Select, TextInput } from "@mantine/core";
 import { Trash2 } from "lucide-react";
+import { NumberField } from "@/design/NumberField";
 import { asName } from "../../edits/variables";
 import type { Parameter } from "@/program/document/document";
 import { UNIT_CHOICES } from "@/program/words/stepWords";
@@ -136,7 +137,7 @@ function Default({ parameter, disabled, onChange }: Omit<ParameterCardProps, "on
   };
   if (parameter.type === "number")
     return (
-      <NumberInput
+      <NumberField
         {...shared}
         value={typeof parameter.default === "number" ? parameter.default : ""}
         onChange={(next) => store(typeof next === "number" ? next : null)}

@@ -1,5 +1,6 @@
 /** Asking people: the question, what may be answered, and where the answer goes. */
-import { NumberInput, Select, TagsInput } from "@mantine/core";
+import { Select, TagsInput } from "@mantine/core";
+import { NumberField } from "@/design/NumberField";
 import type { Answer } from "@/program/document/document";
 import { useOpenProgram } from "../../state/context";
 import { FieldFrame } from "../fields/FieldFrame";
@@ -69,7 +70,7 @@ function Range({ answer }: { answer: Answer }) {
   const { set, disabled } = useStepEditor();
   const store = (change: Partial<Answer>) => set("answer", withoutNulls({ ...answer, ...change }));
   const end = (name: "minimum" | "maximum") => (
-    <NumberInput
+    <NumberField
       aria-label={t(`ask.${name}`)}
       placeholder={t(`ask.${name}`)}
       value={answer[name] ?? ""}

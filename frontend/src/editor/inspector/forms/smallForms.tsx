@@ -1,6 +1,7 @@
 /** Forms of the constructs whose fields depend on each other: Wait, Parallel. */
-import { Button, NumberInput, SegmentedControl } from "@mantine/core";
+import { Button, SegmentedControl } from "@mantine/core";
 import { Minus, Plus } from "lucide-react";
+import { NumberField } from "@/design/NumberField";
 import { branchesOf } from "@/program/document/tree";
 import { type Ending, endingOf } from "@/program/words/parallelWords";
 import { useOpenProgram } from "../../state/context";
@@ -111,7 +112,7 @@ function EndsWith({ count }: { count: number }) {
             data={choices.map((choice) => ({ value: choice, label: t(`parallel.ends_${choice}`) }))}
           />
           {ending === "some" ? (
-            <NumberInput
+            <NumberField
               aria-label={t("parallel.number")}
               aria-describedby={bad ? note : undefined}
               error={bad}

@@ -1,11 +1,12 @@
 /** What robots cannot come to on this floor and why, as a list; each finding has its number on the map. */
-import { Button, NumberInput, Skeleton } from "@mantine/core";
+import { Button, Skeleton } from "@mantine/core";
 import { CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
 import { useRef } from "react";
 import { useTranslation } from "react-i18next";
 import { useDevices, usePrograms } from "@/api/queries";
 import type { FloorCheck, FloorFinding, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
+import { NumberField } from "@/design/NumberField";
 import { problemText } from "@/shell/LoadProblem";
 import places from "../places/places.module.css";
 import styles from "./check.module.css";
@@ -39,7 +40,7 @@ export function FloorCheckPanel(props: FloorCheckPanelProps) {
         ) : null}
         {check ? <Counts findings={check.findings} /> : null}
       </div>
-      <NumberInput
+      <NumberField
         className={styles.other}
         label={t("floorCheck.other")}
         description={t("floorCheck.otherHelp")}

@@ -1,9 +1,10 @@
 /** What lies in the way of simulated robots, as a list; who runs programs puts it there and takes it away. */
-import { Button, NumberInput } from "@mantine/core";
+import { Button } from "@mantine/core";
 import { TrafficCone, Trash2, X } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import type { SiteMap } from "@/api/types";
 import { IconButton } from "@/design/IconButton";
+import { NumberField } from "@/design/NumberField";
 import places from "../places/places.module.css";
 import styles from "./obstacles.module.css";
 import { obstacleWords } from "./obstacleWords";
@@ -64,7 +65,7 @@ function Adding({ editing }: { editing: ObstacleEditing }) {
         {t(adding ? "obstacle.putHelp" : "obstacle.help")}
       </p>
       <p className={places.quiet}>{t("obstacle.simulatedOnly")}</p>
-      <NumberInput
+      <NumberField
         label={t("obstacle.size")}
         value={size_m}
         min={SMALLEST_M}

@@ -1,10 +1,11 @@
 /** The selected place: its name, what it is, how a robot parks there, who goes there. */
-import { Button, NumberInput, TextInput } from "@mantine/core";
+import { Button, TextInput } from "@mantine/core";
 import { Trash2 } from "lucide-react";
 import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useChangePlace, type PlaceFields } from "@/api/places";
 import type { MapPlace } from "@/api/types";
+import { NumberField } from "@/design/NumberField";
 import { formatPoint } from "@/i18n/format";
 import { KindField } from "./KindField";
 import { PlaceUses } from "./RemovePlace";
@@ -73,7 +74,7 @@ function HeadingField({ place, keep }: { place: MapPlace; keep: (theta: number) 
     else setDegrees(known);
   };
   return (
-    <NumberInput
+    <NumberField
       label={t("place.heading")}
       description={t("place.headingHelp")}
       suffix="°"

@@ -1,9 +1,10 @@
 /** What a zone asks of robots, with a sentence about it: how fast they may be there, how many at once, or where to. */
-import { NativeSelect, NumberInput, Radio } from "@mantine/core";
+import { NativeSelect, Radio } from "@mantine/core";
 import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { MapZone } from "@/api/types";
 import { ZONE_RULES, type ZoneRule } from "@/api/zones";
+import { NumberField } from "@/design/NumberField";
 import { formatNumber } from "@/i18n/format";
 import styles from "../places/places.module.css";
 
@@ -115,7 +116,7 @@ function SettledNumber({ known, keep, ...field }: SettledNumberProps) {
     else setValue(known);
   };
   return (
-    <NumberInput
+    <NumberField
       {...field}
       value={value}
       onChange={setValue}

@@ -1,6 +1,7 @@
 /** What is said about a DXF drawing: its unit, which layers are walls, how thick these are, how large a cell is. */
-import { Checkbox, NativeSelect, NumberInput, Switch } from "@mantine/core";
+import { Checkbox, NativeSelect, Switch } from "@mantine/core";
 import { useTranslation } from "react-i18next";
+import { NumberField } from "@/design/NumberField";
 import { formatNumber, withUnit } from "@/i18n/format";
 import { isTooFine, sizeOf, UNITS, type Drawing, type DrawingReading } from "./drawing";
 import styles from "./drawing.module.css";
@@ -34,7 +35,7 @@ export function DrawingFields({ drawing, reading, change }: FieldsProps) {
       {size ? <p>{t("mapImport.drawing.size", { width: metres(size.width), height: metres(size.height) })}</p> : null}
       <Layers drawing={drawing} reading={reading} change={change} />
       <div className={styles.pair}>
-        <NumberInput
+        <NumberField
           label={t("mapImport.drawing.thickness")}
           suffix=" m"
           min={0}
@@ -44,7 +45,7 @@ export function DrawingFields({ drawing, reading, change }: FieldsProps) {
           value={reading.thickness}
           onChange={(value) => change({ ...reading, thickness: Math.min(2, Math.max(0, Number(value) || 0)) })}
         />
-        <NumberInput
+        <NumberField
           label={t("mapImport.drawing.cell")}
           suffix=" m"
           min={0.01}

@@ -1,6 +1,7 @@
 /** What is said about a picture of a plan: how long the measured line is, what is dark enough to be wall. */
-import { NumberInput, Slider, Switch } from "@mantine/core";
+import { Slider, Switch } from "@mantine/core";
 import { useTranslation } from "react-i18next";
+import { NumberField } from "@/design/NumberField";
 import { formatNumber, withUnit } from "@/i18n/format";
 import { pixelSize, type Picture, type PlanReading } from "./picture";
 import styles from "./plan.module.css";
@@ -32,7 +33,7 @@ export function PlanFields({ picture, reading, change }: FieldsProps) {
   return (
     <div className={styles.fields}>
       <p>{t("mapEdit.plan.help")}</p>
-      <NumberInput
+      <NumberField
         label={t("mapEdit.plan.length")}
         description={
           size ? t("mapEdit.plan.size", { width: metres(picture.width), height: metres(picture.height) }) : null
