@@ -8,6 +8,7 @@ import { useOnce } from "@/api/once";
 import { mayOperate } from "@/api/roles";
 import type { Rehearsal, Role } from "@/api/types";
 import { clock } from "@/design/clock";
+import { formatNumber } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
 import { isOver } from "@/live/messages";
 import { useFreshRehearsal } from "@/live/rehearsal";
@@ -147,7 +148,7 @@ function columnsOf(old: Rehearsal, next: Rehearsal, nameOf: (id: string) => stri
     column("time", (each) => clock(each.duration_s)),
     column("steps", (each) => String(each.steps)),
     column("drives", (each) =>
-      t("compare.rehearsed.driven", { count: each.robots, metres: each.distance_m.toFixed(1) }),
+      t("compare.rehearsed.driven", { count: each.robots, metres: formatNumber(each.distance_m, 1) }),
     ),
     column("waits", (each) => t("compare.rehearsed.waited", { count: each.waits, seconds: Math.round(each.waited_s) })),
     column("encounters", (each) => String(each.encounters)),

@@ -2,6 +2,7 @@ import { AlertOctagon, CircleCheck } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import type { RehearsalResult } from "@/api/types";
 import { clock } from "@/design/clock";
+import { formatNumber } from "@/i18n/format";
 import { Course } from "./Course";
 import { Events } from "./Events";
 import styles from "./ResultPanel.module.css";
@@ -35,7 +36,7 @@ function Facts({ result }: { result: RehearsalResult }) {
       />
       <Fact
         label={t("simulation.distance")}
-        value={distance.toFixed(1)}
+        value={formatNumber(distance, 1)}
         unit="m"
         note={t("simulation.robotsDrove", { count: robots.length })}
       />
@@ -46,7 +47,12 @@ function Facts({ result }: { result: RehearsalResult }) {
         note={t("simulation.secondsWaited", { seconds: Math.round(waited) })}
       />
       {Number.isFinite(lowest) && (
-        <Fact label={t("simulation.battery")} value={lowest.toFixed(0)} unit="%" note={t("simulation.lowestRobot")} />
+        <Fact
+          label={t("simulation.battery")}
+          value={formatNumber(lowest)}
+          unit="%"
+          note={t("simulation.lowestRobot")}
+        />
       )}
     </div>
   );

@@ -1,6 +1,7 @@
 /** What a thread is about: in the words of who looks, where it is on the map, and whether it is still there. */
 import i18next from "i18next";
 import type { Thread, ThreadToStart } from "@/api/types";
+import { formatNumber } from "@/i18n/format";
 import { pathLength, type PixelPoint, pointAlong } from "@/map/plane/paths";
 import { momentOf, momentWords } from "@/shell/comments/moments";
 import { toMetres, toPixels } from "@/map/plane/projection";
@@ -94,7 +95,7 @@ export function aboutFrom(open: OpenProgram, on: Pick<On, "steps" | "link" | "at
     return { anchor: { kind: "construct", root: "steps", id, ...(corner ? placed(corner) : {}) }, label: step };
   }
   if (at && on.steps.length === 0) {
-    const label = say("comments.at", { x: at[0].toFixed(1), y: at[1].toFixed(1) });
+    const label = say("comments.at", { x: formatNumber(at[0], 1), y: formatNumber(at[1], 1) });
     return { anchor: { kind: "place", x: at[0], y: at[1] }, label };
   }
   return { anchor: { kind: "program" }, label: "" };

@@ -1,7 +1,7 @@
 /** What was done as a sentence without its subject, and who did it from where; in the language of the screen. */
 import i18next from "i18next";
 import type { AuditEntry } from "@/api/types";
-import { formatDay, formatMoment } from "@/i18n/format";
+import { formatDay, formatMoment, formatNumber } from "@/i18n/format";
 
 const ROLES = ["role", "before", "after"];
 
@@ -30,6 +30,7 @@ function factsOf(line: AuditEntry): [string, unknown][] {
     if (name === "why") return [name, i18next.t(`people.audit.signOn.${String(value)}`)];
     if (name === "because") return [name, i18next.t(`people.audit.turnedAway.${String(value)}`)];
     if (name === "until" && typeof value === "string") return [name, formatMoment(value)];
+    if (typeof value === "number" && !Number.isInteger(value)) return [name, formatNumber(value, 2)];
     return [name, value];
   });
 }

@@ -2,6 +2,7 @@
 import { ReactFlowProvider, useReactFlow } from "@xyflow/react";
 import "@xyflow/react/dist/style.css";
 import { type PointerEvent, useCallback, useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
+import { formatNumber, withUnit } from "@/i18n/format";
 import { type FloorPlan, knownBox } from "@/map/floor/floor";
 import { isRobot } from "@/map/devices/device";
 import { FloorCanvas } from "@/map/floor/FloorCanvas";
@@ -214,7 +215,7 @@ export function Guides({ guides }: { guides: readonly Guide[] }) {
         <g key={index} className={classes.guide}>
           <line x1={from.x} y1={from.y} x2={to.x} y2={to.y} />
           <text x={(from.x + to.x) / 2 + 5} y={(from.y + to.y) / 2 - 5}>
-            {`${(Math.hypot(to.x - from.x, to.y - from.y) / PIXELS_PER_METRE).toFixed(1)}\u202fm`}
+            {withUnit(formatNumber(Math.hypot(to.x - from.x, to.y - from.y) / PIXELS_PER_METRE, 1), "m")}
           </text>
         </g>
       ))}

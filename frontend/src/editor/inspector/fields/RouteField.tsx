@@ -2,6 +2,7 @@
 import { SegmentedControl } from "@mantine/core";
 import { useId } from "react";
 import { VipoIcon } from "@/design/VipoIcon";
+import { formatNumber, withUnit } from "@/i18n/format";
 import { knownRoute } from "@/program/canvas/useRoutes";
 import { drawnRoute, plannedBends, pathsOf } from "@/program/scene/stepPaths";
 import { durationText } from "@/program/words/stepWords";
@@ -16,7 +17,7 @@ export function RouteField() {
   const path = pathsOf(document, scene.tree, surroundings).find((each) => each.step === id);
   const route = path ? knownRoute(site.slug, floorMark(plan), path.key) : null;
   if (!path) return null;
-  const length = route ? `${route.length_m.toFixed(1)}\u202fm` : "";
+  const length = route ? withUnit(formatNumber(route.length_m, 1), "m") : "";
   const added = compiled?.added_moves.includes(id) || document.steps[id]?.kind === "pick_and_drop";
   if (drawnRoute(document.steps[id])) return <RouteChoice />;
   return (
