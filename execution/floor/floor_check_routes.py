@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import asdict, replace
 from time import thread_time
-from typing import Any
+from typing import Any, NamedTuple
 
 from django.http import HttpRequest
 from ninja import Query, Router, Schema
@@ -14,7 +14,7 @@ from pydantic import Field
 from editor.language.site.surroundings import PlaceFacts
 from execution.errors import ExecutionError
 from execution.floor.floor_check import Finding, FindingCode, FloorCheck, check_floor
-from execution.floor.layouts import get_layout, place_facts
+from execution.floor.layouts import get_floor
 from execution.floor.remedies import CheckedFloor, find_remedies
 from execution.traffic.layout import DEFAULT_RADIUS_M, Layout, make_layout
 from registry import services as registry
@@ -35,6 +35,14 @@ MOST_SEARCHED_S = 4.0
 """So much of a processor's time a search may take before its last trial."""
 _kept: dict[tuple[str, float | None], tuple[Layout, FloorCheck]] = {}
 """Checks of sites by width, with the site's own layout at that time; not that of the width, which may be large."""
+
+
+class _Floor(NamedTuple):
+    """A site's floor as it was read once: what is found on it and what is tried on it are of the same moment."""
+
+    grid: Grid
+    layout: Layout
+    places: tuple[PlaceFacts, ...]
 
 
 class TooManyChecks(ExecutionError):
@@ -133,8 +141,9 @@ def get_floor_check(request: HttpRequest, site: str, asked: Query[AskFloorCheck]
     registry.require(user, site, "viewer")
     refusal = TooManyChecks("Other floors are being checked, by you or others. Try again in a moment.")
     with check_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
-        layout, check = _check(site, asked.width_m)
-    robot = None if asked.width_m else _widest(layout.devices.values())
+        floor = _Floor(*get_floor(site))
+        check = _check(site, floor, asked.width_m)
+    robot = None if asked.width_m else _widest(floor.layout.devices.values())
     return _to_json(check, registry.get_map(site=site).version, robot)
 
 
@@ -149,12 +158,13 @@ def list_remedies(request: HttpRequest, site: str, asked: Query[AskRemedies]) ->
     registry.require(user, site, "admin")
     refusal = TooManyChecks("Remedies are being looked for, for you or others. Try again in a moment.")
     with remedy_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
-        floor = _checked_floor(site, asked.width_m)
+        now = _Floor(*get_floor(site))
+        floor = _checked_floor(site, now, asked.width_m)
         wanted = (asked.code, asked.target, asked.other)
         finding = next((each for each in floor.check.findings if _key(each) == wanted), None)
         if finding is None:
             raise NoSuchFinding("The floor check finds this no more. Look at it anew.")
-        own = _checked_floor(site, None) if asked.width_m else None
+        own = _checked_floor(site, now, None) if asked.width_m else None
         ends_at = thread_time() + MOST_SEARCHED_S
         found = find_remedies(floor, finding, own, lambda: thread_time() > ends_at)
     return [{"target": each.target, "x": each.at[0], "y": each.at[1], "by_m": each.by_m} for each in found]
@@ -164,15 +174,13 @@ def _key(finding: Finding) -> tuple[str, str, str | None]:
     return finding.code, finding.target, _id_of(finding.other)
 
 
-def _check(site: str, width_m: float | None) -> tuple[Layout, FloorCheck]:
-    """Return the site's own layout, and what was found on the floor for robots so wide."""
-    layout = get_layout(site)
+def _check(site: str, floor: _Floor, width_m: float | None) -> FloorCheck:
+    """Return what is found on a site's floor for robots so wide."""
     kept = _kept.get((site, width_m))
-    if kept is None or kept[0] is not layout:
-        places = _places(site)
-        grid = registry.get_map(site=site).grid
-        kept = _keep(site, width_m, layout, check_floor(grid, _for_width(layout, grid, places, width_m), places))
-    return kept
+    if kept is None or kept[0] is not floor.layout:
+        found = check_floor(floor.grid, _for_width(floor, width_m), floor.places)
+        kept = _keep(site, width_m, floor.layout, found)
+    return kept[1]
 
 
 def _keep(site: str, width_m: float | None, layout: Layout, found: FloorCheck) -> tuple[Layout, FloorCheck]:
@@ -182,19 +190,15 @@ def _keep(site: str, width_m: float | None, layout: Layout, found: FloorCheck) -
     return kept
 
 
-def _places(site: str) -> tuple[PlaceFacts, ...]:
-    return tuple(place_facts(place) for place in registry.list_places(site=site))
-
-
-def _checked_floor(site: str, width_m: float | None) -> CheckedFloor:
+def _checked_floor(site: str, floor: _Floor, width_m: float | None) -> CheckedFloor:
     """Return a floor as it is laid out for robots so wide, with what was found on it."""
-    layout, check = _check(site, width_m)
-    grid, places = registry.get_map(site=site).grid, _places(site)
-    return CheckedFloor(grid, _for_width(layout, grid, places, width_m), places, check)
+    check = _check(site, floor, width_m)
+    return CheckedFloor(floor.grid, _for_width(floor, width_m), floor.places, check)
 
 
-def _for_width(layout: Layout, grid: Grid, places: Iterable[PlaceFacts], width_m: float | None) -> Layout:
+def _for_width(floor: _Floor, width_m: float | None) -> Layout:
     """Return the floor as it would be laid out if all robots were so wide."""
+    grid, layout, places = floor
     if width_m is None:
         return layout
     devices = [

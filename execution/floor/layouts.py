@@ -56,6 +56,13 @@ def look_at_site(slug: str) -> tuple[Layout, tuple[registry.PositionView, ...]]:
     return layout, positions
 
 
+def get_floor(slug: str) -> tuple[Grid, Layout, tuple[PlaceFacts, ...]]:
+    """Return the map of a site, its layout and its places as they belong together; raises NoMap."""
+    look_at_site(slug)
+    known = _layouts[slug]
+    return known.made_of[0], known.layout, known.made_of[2]
+
+
 def _floor_zone(zone: registry.ZoneView) -> FloorZone:
     """Return a zone as the floor knows it, with how long it is open."""
     (known,) = site_zones([editor.zone_facts(zone=zone)])

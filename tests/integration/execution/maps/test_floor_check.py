@@ -3,6 +3,8 @@
 import json
 
 import pytest
+from django.db import connection
+from django.test.utils import CaptureQueriesContext
 
 from execution.floor import floor_check_routes as routes
 from registry import services as registry
@@ -138,6 +140,18 @@ def test_remedies_are_looked_for_at_the_width_that_was_asked_for(admin):
     asked = {"code": "together", "target": finding["target"], "other": finding["other"]}
     assert admin.get(REMEDIES, asked).status_code == 409  # there is none at the site's own width
     assert admin.get(REMEDIES, asked | {"width_m": 0.8}).json()
+
+
+@pytest.mark.parametrize("width", [{}, {"width_m": 0.4}])
+def test_what_is_found_and_what_is_tried_are_of_one_reading_of_the_places(admin, width):
+    put_spare_dock()
+    (finding, *_) = [each for each in admin.get(CHECK, width).json()["findings"] if each["code"] == "together"]
+    asked = {"code": "together", "target": finding["target"], "other": finding["other"], **width}
+    routes._kept.clear()
+    for _ in range(2):  # checked anew, and as it was kept
+        with CaptureQueriesContext(connection) as read:
+            assert admin.get(REMEDIES, asked).json()
+        assert sum('FROM "registry_place"' in each["sql"] for each in read.captured_queries) == 1
 
 
 def test_what_a_zone_does_has_no_remedy_by_moving(admin):
