@@ -1,7 +1,7 @@
 /** Changing a site's map by hand: tools, undo and redo until it is saved as a new version. */
 import { Button } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
-import { Check, Redo2, Undo2 } from "lucide-react";
+import { Check, Redo2, Undo2, X } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate } from "react-router-dom";
@@ -56,10 +56,18 @@ export function MapEditor({ site, newest }: { site: Site; newest: SiteMap }) {
           <IconButton label={t("mapEdit.redo")} disabled={edits.future.length === 0} onClick={() => setEdits(redo)}>
             <Redo2 size={17} aria-hidden="true" />
           </IconButton>
-          <Button variant="default" component={Link} to={`/sites/${site.slug}/map`}>
+          <Button
+            variant="default"
+            component={Link}
+            to={`/sites/${site.slug}/map`}
+            title={t("mapEdit.close")}
+            classNames={{ root: styles.action ?? "", label: styles.closeLabel ?? "", section: styles.closeIcon ?? "" }}
+            leftSection={<X size={16} aria-hidden="true" />}
+          >
             {t("mapEdit.close")}
           </Button>
           <Button
+            className={styles.action}
             leftSection={<Check size={16} aria-hidden="true" />}
             disabled={!isChanged}
             onClick={() => setStage("saving")}
