@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from typing import Any
 
@@ -123,6 +124,19 @@ def test_a_viewer_measures_a_door_by_keyboard_alone(sign_in: SignIn, onlooker: s
     page.keyboard.press("m")
     expect(page.get_by_role("region", name=PANEL)).to_have_count(0)
     expect(page.get_by_role("button", name="Measure")).to_be_focused()
+
+
+def test_who_has_switched_letters_off_does_not_measure_by_one(sign_in: SignIn, onlooker: str) -> None:
+    page = sign_in(onlooker, MAP)
+    measure = page.get_by_role("button", name="Measure")
+    expect(measure).to_have_attribute("aria-keyshortcuts", "M")
+    person = ask(page, "/api/me")["user"]["id"]
+    kept = json.dumps({"own": {}, "characters": False})  # as the editor's list of keys keeps it
+    page.evaluate("([name, kept]) => localStorage.setItem(name, kept)", [f"vipo.keys.{person}", kept])
+    page.reload()
+    expect(measure).not_to_have_attribute("aria-keyshortcuts", "M")
+    page.keyboard.press("m")
+    expect(measure).to_have_attribute("aria-pressed", "false")
 
 
 def test_measuring_ends_where_editing_begins_and_the_other_way_round(sign_in: SignIn) -> None:

@@ -1,8 +1,10 @@
 /** Begins and ends measuring on the map, for everybody who sees it; M. */
 import { Button } from "@mantine/core";
 import { Ruler } from "lucide-react";
+import { useEffect } from "react";
 import { useTranslation } from "react-i18next";
-import { useKeymap } from "@/shell/keys/keymap";
+import { useMe } from "@/api/queries";
+import { openKeymap, useKeymap } from "@/shell/keys/keymap";
 import page from "../MapPage.module.css";
 import { usePageKey } from "../usePageKey";
 
@@ -11,6 +13,10 @@ export const MEASURE_BUTTON = "measure-button";
 
 export function MeasureButton({ isOn, toggle }: { isOn: boolean; toggle: () => void }) {
   const { t } = useTranslation();
+  const person = useMe().data?.user?.id;
+  useEffect(() => {
+    if (person !== undefined) openKeymap(String(person));
+  }, [person]);
   const hasLetters = useKeymap(({ characters }) => characters); // who dictates has none
   usePageKey("m", toggle, hasLetters);
   return (
