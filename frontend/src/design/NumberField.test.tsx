@@ -1,9 +1,10 @@
 // @vitest-environment jsdom
 import { MantineProvider } from "@mantine/core";
 import { act, cleanup, render, screen } from "@testing-library/react";
+import i18next from "i18next";
 import { useState } from "react";
+import { initReactI18next } from "react-i18next";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import { chooseLanguage, startI18n } from "@/i18n";
 import { NumberField } from "./NumberField";
 
 const told = vi.fn();
@@ -28,7 +29,7 @@ function Form() {
 beforeEach(async () => {
   const media = { matches: false, addEventListener: () => undefined, removeEventListener: () => undefined };
   vi.stubGlobal("matchMedia", () => media);
-  await startI18n();
+  await i18next.use(initReactI18next).init({ lng: "en", resources: {} });
 });
 afterEach(() => {
   cleanup();
@@ -70,7 +71,7 @@ test("a number has the decimal sign of the screen's language, and either may be 
     ["de", ","],
     ["en", "."],
   ] as const) {
-    await act(() => chooseLanguage(language));
+    await act(() => i18next.changeLanguage(language));
     for (const bring of [type, paste])
       for (const text of ["2,05", "2.05"]) {
         bring(text);

@@ -3,7 +3,6 @@
 import { NumberInput, type NumberInputProps } from "@mantine/core";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import { formatNumber } from "@/i18n/format";
 
 interface NumberFieldProps extends Omit<NumberInputProps, "value" | "onChange"> {
   value: number | string;
@@ -12,7 +11,7 @@ interface NumberFieldProps extends Omit<NumberInputProps, "value" | "onChange"> 
 }
 
 export function NumberField({ value, onChange, onBlur, ...field }: NumberFieldProps) {
-  useTranslation(); // follows another language
+  const { language } = useTranslation().i18n;
   /** What was typed to get the present number: `2.0` is on the way to `2.05`. */
   const [typed, setTyped] = useState(value);
   const change = (next: number | string) => {
@@ -23,7 +22,7 @@ export function NumberField({ value, onChange, onBlur, ...field }: NumberFieldPr
   return (
     <NumberInput
       {...field}
-      decimalSeparator={formatNumber(0.5, 1).charAt(1)}
+      decimalSeparator={new Intl.NumberFormat(language).format(0.5).charAt(1)}
       value={meant(typed) === value ? typed : value}
       onChange={change}
       onBlur={(event) => {
