@@ -21,6 +21,7 @@ from registry.devices.rows import BadDevice, announce, check_id
 from registry.devices.stand_ins import keep_aside, real_of
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, DeviceEvent, Site
+from vipo_device.protocol.faults import refusal_facts
 from vipo_device.protocol.messages import Presence, parse_presence
 
 STALE_AFTER = timedelta(seconds=45)
@@ -49,7 +50,8 @@ def _default_site() -> Site:
 def ingest_presence(*, device_id: str, payload: bytes, at: datetime, stand_in: bool = False) -> DeviceView | None:
     """Take in that a device, or its stand-in, came or went.
 
-    None when it changed nothing (a stale will), nobody described the device yet, or it is only kept aside.
+    None when it changed nothing (a stale will), nobody described the device yet, or it is only kept aside. Raises
+    BadDevice when it comes as an older start than one that was heard.
     """
     said = parse_presence(payload)
     with transaction.atomic():
@@ -59,7 +61,10 @@ def ingest_presence(*, device_id: str, payload: bytes, at: datetime, stand_in: b
         if stand_in != device.stand_in:
             _keep_aside(device, said, at, stand_in=stand_in)
             return None
-        if said.boot < device.presence_boot or (said.online and device.is_locked_out):
+        if said.online and device.is_locked_out:
+            return None
+        if said.boot < device.presence_boot:
+            _refuse_old_start(said, device.presence_boot)
             return None
         before = view_of(device, device.site.slug) if device.description else None
         came_or_went = device.online != said.online
@@ -72,6 +77,12 @@ def ingest_presence(*, device_id: str, payload: bytes, at: datetime, stand_in: b
         after = view_of(device, device.site.slug)
         announce(before, after)
     return after
+
+
+def _refuse_old_start(said: Presence, known: int) -> None:
+    """Raise BadDevice for who comes as an older start, and would never be heard; a late will may be older."""
+    if said.online:
+        raise BadDevice(*refusal_facts("old_start", said=said.boot, known=known))
 
 
 def _keep_aside(device: Device, said: Presence, at: datetime, *, stand_in: bool) -> None:

@@ -15,12 +15,14 @@ from typing import Any
 from django.db import connection, transaction
 
 from registry.devices.history import history_text, write_event
+from registry.devices.rows import BadDevice
 from registry.devices.stand_ins import keep_aside, real_of
 from registry.devices.views import DeviceView, changed_state, view_of
 from registry.live.fanout import publish_all
 from registry.models import Device
 from vipo_device.protocol.description import DeviceState
 from vipo_device.protocol.errors import VipoError
+from vipo_device.protocol.faults import refusal_facts
 from vipo_device.protocol.messages import parse_state
 
 MOST_READINGS = 128
@@ -45,7 +47,10 @@ class StateMessage:
 
 
 Outcome = DeviceView | VipoError | None
-"""The device as it is now; why its message was refused; None when it was old, or of a device that nobody knows."""
+"""The device as it is now; why its message was refused; None when it was old, or of a device that nobody knows.
+
+Who counts as offline and says old states only would never be heard: that is refused.
+"""
 
 
 def ingest_states(*, states: Sequence[StateMessage]) -> tuple[Outcome, ...]:
@@ -76,8 +81,8 @@ def ingest_state(
     return outcome
 
 
-def _take_all(said: Mapping[str, tuple[DeviceState, StateMessage]]) -> dict[str, DeviceView]:
-    views: dict[str, DeviceView] = {}
+def _take_all(said: Mapping[str, tuple[DeviceState, StateMessage]]) -> dict[str, Outcome]:
+    views: dict[str, Outcome] = {}
     written: list[Device] = []
     news: list[tuple[str, dict[str, Any]]] = []
     for device in _lock_rows(list(said)):
@@ -88,6 +93,7 @@ def _take_all(said: Mapping[str, tuple[DeviceState, StateMessage]]) -> dict[str,
             _keep_aside(device, state, message)
             continue
         if (state.boot, state.seq) <= (device.boot, device.seq):
+            views[device.pk] = _why_unheard(device, state, message)
             continue
         before = view_of(device, device.site.slug) if device.description_hash else None
         _change(device, state, message)
@@ -99,6 +105,14 @@ def _take_all(said: Mapping[str, tuple[DeviceState, StateMessage]]) -> dict[str,
     _write(written)
     transaction.on_commit(lambda: publish_all([(slug, {"type": "device", "device": told}) for slug, told in news]))
     return views
+
+
+def _why_unheard(device: Device, said: DeviceState, message: StateMessage) -> VipoError | None:
+    """Return why an old state is refused: its device speaks, and counts as offline. None where it is but late."""
+    if message.retained or device.online or device.is_locked_out:
+        return None
+    facts = {"seq": said.seq, "boot": said.boot, "last": device.seq, "start": device.boot}
+    return BadDevice(*refusal_facts("old_state", **facts))
 
 
 def _keep_aside(device: Device, state: DeviceState, message: StateMessage) -> None:

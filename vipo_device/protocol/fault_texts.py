@@ -209,6 +209,15 @@ _MEANING: Mapping[str, str] = {
 }
 _STATES: Mapping[str, str] = {
     "presence_said": "Presence needs `s`: online or offline.",
+    "old_start": (
+        "It comes as start {said} (`boot`), but start {known} was heard before: what it says is left aside. `boot` has "
+        "to be higher at each start. Set its clock or its count; for another board in its place give the device a new "
+        "key; of two devices with this id give one another id."
+    ),
+    "old_state": (
+        "It says state {seq} of start {boot}, but state {last} of start {start} was heard before: it is left aside, "
+        "and the device counts as offline. `boot` has to be higher at each start, and `seq` at each state of it."
+    ),
     "state_done": "State needs `done`: true or false.",
     "answer_id": "An answer needs `id`, the command's.",
     "answer_status": "An answer needs `st`: one of {choices}.",

@@ -108,6 +108,22 @@ def test_hostile_messages_harm_nobody_and_are_counted(bus: Bus, gateway: Gateway
     loud.stop()
 
 
+def test_a_device_that_counts_its_starts_wrongly_is_told_so(bus: Bus, gateway: Gateway) -> None:
+    """Its clock was lost, or it begins every start as the same one: it would be away for ever, and nobody knew why."""
+    loud = join(bus, "loud01")
+    say(loud, "loud01", 7, 1.0)
+    wait_for("its state", lambda: reading("loud01") == 1.0)
+    loud.publish("vipo/v1/dev/loud01/up/presence", b'{"s": "offline", "boot": 5}', retain=True)
+    wait_for("its leaving", lambda: not services.get_device(site=SITE, device_id="loud01").online)
+    loud.publish("vipo/v1/dev/loud01/up/presence", b'{"s": "online", "boot": 3}', retain=True)
+    wait_for("the note", lambda: any("comes as start 3" in text for text in problems("loud01")))
+    DeviceEvent.objects.all().delete()
+    gateway.complaints.written_at.clear()
+    say(loud, "loud01", 1, 2.0)
+    wait_for("the note", lambda: any("state 1 of start 5, but state 7" in text for text in problems("loud01")))
+    loud.stop()
+
+
 def test_a_flood_is_held_back_and_counted(bus: Bus, gateway: Gateway) -> None:
     calm, loud = join(bus, "calm01"), join(bus, "loud01")
     say(calm, "calm01", 1, 1.0)

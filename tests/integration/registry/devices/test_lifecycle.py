@@ -107,7 +107,8 @@ def test_another_board_of_the_same_id_counts_its_starts_anew(hall: str, again: s
         services.rotate_credential(**WHO)
     assert come(boot=1).online is True
     assert say(boot=1, seq=1, done=False).done is False
-    assert come(boot=0) is None
+    with pytest.raises(BadDevice, match="comes as start 0"):
+        come(boot=0)
     assert say(boot=1, seq=1) is None
 
 

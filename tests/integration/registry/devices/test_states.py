@@ -12,7 +12,7 @@ import pytest
 from registry import services
 from registry.devices.views import changed_fields, changed_state
 from registry.models import Device, DeviceEvent
-from registry.services import StateMessage
+from registry.services import BadDevice, StateMessage
 from tests.kit.sites import MIXER, NOW, ROBOT, come, describe
 from vipo_device.descriptions.reader import write_description
 from vipo_device.protocol.messages import BadMessage
@@ -114,3 +114,21 @@ def test_descriptions_that_say_nothing_new_are_found(hall: str) -> None:
     assert services.find_unchanged(descriptions={**own, "nobody": b"x"}, at=later) == {"mixer1"}
     assert services.get_device(site="hall", device_id="mixer1").last_seen_at == later
     assert services.get_device(site="hall", device_id="robot1").last_seen_at == NOW
+
+
+def test_who_counts_as_offline_and_says_old_states_only_is_refused_with_the_reason(three: None) -> None:
+    services.ingest_states(states=[said("robot1", state(5))])
+    assert services.ingest_states(states=[said("robot1", state(1))]) == (None,)
+    Device.objects.update(online=False)
+    assert services.ingest_states(states=[said("robot1", state(1), retained=True)]) == (None,)
+    (refused,) = services.ingest_states(states=[said("robot1", state(1))])
+    assert isinstance(refused, BadDevice)
+    assert "state 1 of start 1, but state 5 of start 1 was heard before" in refused.detail
+    (fault,) = refused.facts["faults"]
+    assert (fault["code"], fault["args"]) == ("old_state", {"seq": 1, "boot": 1, "last": 5, "start": 1})
+
+
+def test_a_device_whose_key_was_taken_away_is_not_blamed_for_what_was_on_its_way(three: None) -> None:
+    services.ingest_states(states=[said("robot1", state(5))])
+    services.revoke_credential(site="hall", device_id="robot1", by=None, at=NOW)
+    assert services.ingest_states(states=[said("robot1", state(5))]) == (None,)
