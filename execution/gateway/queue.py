@@ -16,6 +16,7 @@ ENROLMENTS_PER_S = 1.0
 ENROLMENTS_AT_ONCE = 20.0
 KNOWN_DEVICES = 5_000
 COMPLAINT_EVERY_S = 60.0
+COMPLAINTS_AT_ONCE = 6.0
 
 
 @dataclass(slots=True)
@@ -101,11 +102,16 @@ class Inbox:
 
 @dataclass(slots=True)
 class Complaints:
-    """How often each device's messages were dropped or refused, and when that was last written into its history."""
+    """How often each device's messages were dropped or refused, and when which reason was last written down.
+
+    Each other reason has a line of its own, so that who mends one thing hears of the next: six at once, and one a
+    minute in the long run.
+    """
 
     counts: Counter[str] = field(default_factory=Counter)
     waiting: Counter[str] = field(default_factory=Counter)
-    written_at: OrderedDict[str, float] = field(default_factory=OrderedDict)
+    _written_at: OrderedDict[tuple[str, int], float] = field(default_factory=OrderedDict)
+    _lines: OrderedDict[str, TokenBucket] = field(default_factory=OrderedDict)
     _dropped: Counter[str] = field(default_factory=Counter)
     _guard: threading.Lock = field(default_factory=threading.Lock)
 
@@ -116,23 +122,35 @@ class Complaints:
         return taken
 
     def add(self, device: str, reason: str, now: float) -> str | None:
-        """Count one more; return a line for the device's history, at most one a minute."""
+        """Count one more; return a line for the device's history where one is due."""
         others = self.count(device, reason, now)
         return None if others is None else with_others(reason, others)
 
     def count(self, device: str, reason: str, now: float) -> int | None:
-        """Count one more; at most once a minute, where a line is due, return how many others it stands for."""
+        """Count one more; where a line is due, return how many others it stands for. The same is due once a minute."""
         self.counts[reason.split(":", 1)[0]] += 1
         self.waiting[device] += 1
         with self._guard:
             self._dropped[device] += 1
-        if now - self.written_at.get(device, -COMPLAINT_EVERY_S) < COMPLAINT_EVERY_S:
+        said = (device, hash(reason))
+        if now - self._written_at.get(said, -COMPLAINT_EVERY_S) < COMPLAINT_EVERY_S:
             return None
-        self.written_at[device] = now
-        self.written_at.move_to_end(device)
-        if len(self.written_at) > KNOWN_DEVICES:
-            self.written_at.popitem(last=False)
+        if not self._lines_of(device, now).take(now):
+            return None
+        self._written_at[said] = now
+        self._written_at.move_to_end(said)
+        if len(self._written_at) > KNOWN_DEVICES:
+            self._written_at.popitem(last=False)
         return self.waiting.pop(device) - 1
+
+    def _lines_of(self, device: str, now: float) -> TokenBucket:
+        """Return what keeps a device from filling its history."""
+        most = COMPLAINTS_AT_ONCE
+        lines = self._lines.pop(device, None) or TokenBucket(1 / COMPLAINT_EVERY_S, most, most, now)
+        self._lines[device] = lines
+        if len(self._lines) > KNOWN_DEVICES:
+            self._lines.popitem(last=False)
+        return lines
 
 
 def with_others(reason: str, others: int) -> str:

@@ -16,7 +16,7 @@ from django.db import transaction
 from django.utils import timezone
 
 from registry.alerts.buffer import note_alert
-from registry.devices.history import history_text, write_event
+from registry.devices.history import MOST_CHARACTERS, history_text, write_event
 from registry.devices.rows import BadDevice, announce, check_id
 from registry.devices.stand_ins import keep_aside, real_of
 from registry.devices.views import DeviceView, view_of
@@ -138,10 +138,12 @@ def count_dropped(*, dropped: Mapping[str, int]) -> None:
 def record_problem(
     *, device_id: str, text: str, facts: Mapping[str, Any] | None = None, at: datetime | None = None
 ) -> bool:
-    """Note in a device's history that something of it was refused, at most every 10 s; tell whether it was noted."""
+    """Note in a device's history that something of it was refused, the same at most every 10 s; tell whether it was."""
     at = at or timezone.now()
     device = Device.objects.filter(pk=device_id).first()
-    if device is None or DeviceEvent.objects.filter(device=device, kind="problem", at__gt=at - PROBLEM_EVERY).exists():
+    words = history_text("problem", **{**(facts or {}), "text": text})
+    noted = DeviceEvent.objects.filter(device=device, kind="problem", text=words.text[:MOST_CHARACTERS])
+    if device is None or noted.filter(at__gt=at - PROBLEM_EVERY).exists():
         return False
-    write_event(device, at, "problem", history_text("problem", **{**(facts or {}), "text": text}))
+    write_event(device, at, "problem", words)
     return True

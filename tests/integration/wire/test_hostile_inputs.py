@@ -108,6 +108,21 @@ def test_hostile_messages_harm_nobody_and_are_counted(bus: Bus, gateway: Gateway
     loud.stop()
 
 
+def test_who_mends_one_thing_hears_of_the_next(bus: Bus, gateway: Gateway) -> None:
+    loud = join(bus, "loud01")
+    for number, payload in enumerate(DESCRIPTIONS.values(), 1):
+        loud.publish("vipo/v1/dev/loud01/up/desc", payload, retain=True)
+        wait_for("the refusal", lambda n=number: gateway.complaints.counts.total() == n)
+    wait_for("the notes", lambda: len(problems("loud01")) == 6)
+    assert problems("loud01")[:-3:-1] == [
+        "desc: The description is RDF/XML or HTML, which is not accepted. Send Turtle, N-Triples, JSON-LD, a Thing "
+        "Description or the paper's message.",
+        "desc: The description's context 'http://127.0.0.1:9/context' is not known here. Use 'urn:vipo:context', or "
+        "write its prefixes out.",
+    ]
+    loud.stop()
+
+
 def test_a_device_that_counts_its_starts_wrongly_is_told_so(bus: Bus, gateway: Gateway) -> None:
     """Its clock was lost, or it begins every start as the same one: it would be away for ever, and nobody knew why."""
     loud = join(bus, "loud01")
@@ -117,8 +132,6 @@ def test_a_device_that_counts_its_starts_wrongly_is_told_so(bus: Bus, gateway: G
     wait_for("its leaving", lambda: not services.get_device(site=SITE, device_id="loud01").online)
     loud.publish("vipo/v1/dev/loud01/up/presence", b'{"s": "online", "boot": 3}', retain=True)
     wait_for("the note", lambda: any("comes as start 3" in text for text in problems("loud01")))
-    DeviceEvent.objects.all().delete()
-    gateway.complaints.written_at.clear()
     say(loud, "loud01", 1, 2.0)
     wait_for("the note", lambda: any("state 1 of start 5, but state 7" in text for text in problems("loud01")))
     loud.stop()

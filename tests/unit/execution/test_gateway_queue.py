@@ -60,6 +60,15 @@ def test_a_bucket_gives_its_burst_and_then_its_rate() -> None:
     assert [bucket.take(200.0) for _ in range(4)] == [True, True, True, False]
 
 
+def test_each_other_complaint_is_written_too_but_does_not_fill_the_history() -> None:
+    complaints = Complaints()
+    said = [complaints.add("a", f"desc: number {number}", float(number)) for number in range(20)]
+    assert [line is not None for line in said] == [True] * 6 + [False] * 14
+    assert complaints.add("a", "desc: number 5", 64.0) is None
+    assert complaints.add("a", "desc: number 99", 64.0) == "desc: number 99 (15 more since the last note)"
+    assert [complaints.add("a", f"x: {number}", 64.0) for number in range(3)] == [None] * 3
+
+
 def test_complaints_are_counted_and_written_once_a_minute() -> None:
     complaints = Complaints()
     assert complaints.add("a", "ack: not JSON", 0.0) == "ack: not JSON"
