@@ -16,22 +16,30 @@ LEGACY = "hall/old-mixer/mix"
 ASKING = TEXT.replace("vipo/v1/dev/mixer-7/down/mixPaint", LEGACY)
 
 
-def come_in(setup: dict[str, str | int]) -> mqtt.Client:
-    """Connect with what the dialog says, as a device that describes itself."""
+def connect(setup: dict[str, str | int]) -> mqtt.Client:
+    """Connect with what the dialog says."""
     name = str(setup["id"])
     client = mqtt.Client(mqtt.CallbackAPIVersion.VERSION2, name)
     client.username_pw_set(name, str(setup["password"]))
     client.will_set(f"vipo/v1/dev/{name}/up/presence", '{"s": "offline", "boot": 1}', 1, retain=True)
     client.connect(str(setup["host"]), int(setup["port"]))
     client.loop_start()
+    return client
+
+
+def introduce(client: mqtt.Client, name: str) -> None:
+    """Describe the device, and say that it is there."""
     said = [
         ("desc", ASKING),
         ("presence", '{"s": "online", "boot": 1}'),
         ("state", '{"boot": 1, "seq": 1, "done": true}'),
     ]
     for topic, payload in said:
-        client.publish(f"vipo/v1/dev/{name}/up/{topic}", payload, 1, retain=True).wait_for_publish(20)
-    return client
+        say(client, name, topic, payload)
+
+
+def say(client: mqtt.Client, name: str, topic: str, payload: str) -> None:
+    client.publish(f"vipo/v1/dev/{name}/up/{topic}", payload, 1, retain=True).wait_for_publish(20)
 
 
 def test_a_device_is_added_comes_in_and_is_approved(sign_in: SignIn) -> None:
@@ -59,8 +67,13 @@ def test_a_device_is_added_comes_in_and_is_approved(sign_in: SignIn) -> None:
     assert violations(page) == []
 
     dialog.get_by_role("tab", name="One device").click()
-    device = come_in(setup)
+    device = connect(setup)
     try:
+        say(device, "mixer-7", "desc", TEXT.replace(";", "", 1))
+        expect(dialog.get_by_text("What it says of itself was refused", exact=False)).to_be_visible()
+        expect(dialog.get_by_text("Waiting for mixer-7")).to_be_visible()
+        assert violations(page) == []
+        introduce(device, "mixer-7")
         dialog.get_by_role("button", name="Look at it").click()
         row = page.locator("tr[data-status]", has_text="mixer-7")
         expect(row).to_contain_text("Waiting for approval")
