@@ -8,6 +8,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -81,6 +82,10 @@ def test_the_guide_brings_in_a_lamp(folder: Path, gateway: Gateway) -> None:
     with running(folder, "sh", "lamp.sh"):
         assert shell(folder, call) == "lamp01: dim is done\n"
         wait_for("the level", lambda: level() == 30)
+        # a command that it does not know: it must not say that it has taken the key
+        decided = services.rotate_credential(site=SITE, device_id="lamp01", by=None, at=datetime.now(UTC))
+        assert not decided.taken
+    (folder / "lamp.key").write_text(str(decided.credential))
     with running(folder, sys.executable, "lamp.py"):
         wait_for("the program's first state", lambda: level() == 0)
         assert shell(folder, call) == "lamp01: dim is done, level 30\n"
