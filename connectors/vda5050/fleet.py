@@ -128,7 +128,8 @@ class Fleet:
             self.refused[who] += 1
             if now_s - self._complained_s.get(who, -COMPLAIN_EVERY_S) >= COMPLAIN_EVERY_S:
                 self._complained_s[who] = now_s
-                log.warning("%s: %s (%d refused so far)", who, error.detail, self.refused[who])
+                named = who if device else f"{who}, here {'/'.join(said.name)!r}"
+                log.warning("%s: %s (%d refused so far)", named, error.detail, self.refused[who])
 
     def _admit(self, said: VehicleMessage) -> VehicleDevice | None:
         """Make a device of a vehicle that says that it is connected; nothing else of a stranger is listened to.

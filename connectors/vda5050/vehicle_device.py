@@ -28,7 +28,7 @@ from connectors.vda5050.tasks import Vehicle
 from connectors.vda5050.vehicle_memory import VehicleMemory, memory_path, read_memory, write_memory
 from vipo_device.descriptions.reader import write_description
 from vipo_device.kit.connection import ConnectionEvent, ConnectionMaker, DeviceConnection
-from vipo_device.protocol.messages import AckMessage, DeviceCommand
+from vipo_device.protocol.messages import AckMessage, BadMessage, DeviceCommand
 
 log = logging.getLogger(__name__)
 Publish = Callable[[VehicleName, str, bytes], None]
@@ -63,6 +63,7 @@ class VehicleDevice:
         self.connection: DeviceConnection | None = None
         self._sheet: Factsheet | None = None
         self._sheet_said = b""
+        self._sheet_fault = ""
         self._description = b""
         self._version = "2.0.0"
         self._described_facts = (b"", "")
@@ -78,8 +79,7 @@ class VehicleDevice:
             case "connection":
                 self._hear_connection(payload, now_s)
             case "factsheet" if payload != self._sheet_said:
-                self._sheet = read_factsheet(payload, self.name)
-                self._sheet_said = payload
+                self._hear_factsheet(payload)
             case "state":
                 state = read_state(payload, self.name)
                 if self._is_news("state", state.header):
@@ -159,6 +159,15 @@ class VehicleDevice:
             self._newest.clear()
         self._follow_presence(now_s)
 
+    def _hear_factsheet(self, payload: bytes) -> None:
+        """Take in what the vehicle is; why one is refused is told again when it is missed. Raises BadMessage."""
+        try:
+            self._sheet = read_factsheet(payload, self.name)
+        except BadMessage as error:
+            self._sheet_fault = error.detail.rstrip(".")
+            raise
+        self._sheet_said = payload
+
     def _is_news(self, subtopic: str, header: Header) -> bool:
         if header.is_stale(self._newest.get(subtopic)):
             return False
@@ -217,15 +226,16 @@ class VehicleDevice:
         """Tell in the log, once, why a vehicle that is connected is not on the map."""
         if self.control is not None or not self._connection_state.is_long_here(now_s):
             return
+        refused = f"its factsheet was refused ({self._sheet_fault})"
         known = {
-            "has not told its factsheet": self._sheet is not None,
-            "has not told its state": self._state is not None,
-            "does not know where it is": self._located is not None,
+            refused if self._sheet_fault else "it has not told its factsheet": self._sheet is not None,
+            "it has not told its state": self._state is not None,
+            "it does not know where it is": self._located is not None,
         }
         missing = next((what for what, is_there in known.items() if not is_there), "")
         if missing and missing != self._missed:
             self._missed = missing
-            log.warning("%s is connected, but not on the map yet: it %s.", self.id, missing)
+            log.warning("%s is connected, but not on the map yet: %s.", self.id, missing)
 
     def _save(self, control: Mapping[str, Any]) -> None:
         if control != self._memory.control:

@@ -43,6 +43,12 @@ def test_strangers_are_heard_only_when_they_say_that_they_are_connected(fleet: F
     assert (dict(fleet.refused), list(fleet._devices)) == ({STRANGERS: 1, "Acme-1": 1}, ["Acme-1"])
 
 
+def test_the_log_names_a_stranger_that_is_not_understood(fleet: Fleet, caplog: pytest.LogCaptureFixture) -> None:
+    old = payload({**HEADER, "version": "1.1.0"}, connectionState="ONLINE")
+    fleet._take(VehicleMessage(NAME, "connection", old), 0.0)
+    assert caplog.messages == ["strangers, here 'Acme/1': connection/version must be 2.0 or 2.1. (1 refused so far)"]
+
+
 def test_who_has_been_a_device_is_known_by_its_state(fleet: Fleet, tmp_path: Path) -> None:
     (tmp_path / "Acme-1.json").write_text("{}")
     fleet._take(VehicleMessage(NAME, "visualization", payload(STATE)), 0.0)

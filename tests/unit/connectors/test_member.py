@@ -17,6 +17,7 @@ from connectors.vda5050.vehicle_device import Setting, VehicleDevice
 from tests.integration.connectors.factsheet import FACTSHEET
 from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
 from vipo_device.kit.connection import Will, leave
+from vipo_device.protocol.messages import BadMessage
 from vipo_device.protocol.mqtt_client import MqttClient
 
 
@@ -87,6 +88,19 @@ def test_the_log_says_why_a_vehicle_is_not_on_the_map(member: VehicleDevice, cap
     assert caplog.messages == [
         "Acme-1 is connected, but not on the map yet: it has not told its factsheet.",
         "Acme-1 is connected, but not on the map yet: it does not know where it is.",
+    ]
+
+
+def test_the_log_says_why_a_factsheet_was_refused_and_not_that_there_is_none(
+    member: VehicleDevice, caplog: pytest.LogCaptureFixture
+) -> None:
+    say(member, "connection", 0.0, connectionState="ONLINE")
+    with pytest.raises(BadMessage):
+        say(member, "factsheet", 0.0, **{**FACTSHEET, "physicalParameters": {"length": 0.8}})
+    member.tick(PATIENCE_S)
+    assert caplog.messages == [
+        "Acme-1 is connected, but not on the map yet: its factsheet was refused (factsheet/physicalParameters/width "
+        "must be a number)."
     ]
 
 
