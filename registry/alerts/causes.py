@@ -60,7 +60,11 @@ CAUSES: Mapping[AlertCode, Cause] = {
     "description_refused": Cause("warning", "What it says of itself was refused"),
     "messages_dropped": Cause("warning", "It sends too many messages; some were dropped", quiet=SOON),
     "messages_refused": Cause("warning", "Messages of it were refused", quiet=SOON),
-    "flapping": Cause("warning", "It comes and leaves all the time", quiet=SOON),
+    "flapping": Cause(
+        "warning",
+        "It comes and leaves all the time: its network is bad, or two connections by its id end each other",
+        quiet=SOON,
+    ),
     "wrong_key": Cause("warning", "Somebody tried to come in as it with a wrong key", quiet=timedelta(hours=1)),
     "foreign_knock": Cause("warning", "Somebody wanted to enrol as it with another key", quiet=timedelta(hours=1)),
     "command_rejected": Cause("warning", "It refused {method}", quiet=timedelta(days=1), anew=timedelta(minutes=1)),

@@ -18,6 +18,7 @@ from registry.alerts import buffer as alert_notes
 from registry.alerts import inbox
 from registry.alerts.alerts import Raised
 from registry.alerts.buffer import AGAIN_S, NoteBuffer
+from registry.alerts.causes import sentence_of
 from registry.models import Device, DeviceAlert, User
 from registry.services import BadDevice
 from tests.kit.sign_in import below_role, from_role, signed_in
@@ -127,6 +128,7 @@ def test_a_device_that_comes_and_leaves_and_a_foreign_key_are_told(mixer: str) -
     Device.objects.filter(pk=mixer).update(lifecycle="approved", online=True)
     services.flush_alerts()
     assert sorted(alerts()) == [("flapping", "", 1), ("foreign_knock", "", 1), ("wrong_key", "", 1)]
+    assert "two connections by its id end each other" in sentence_of("flapping", {})
     quiet = DeviceAlert.objects.get(code="flapping").last_at
     services.watch_devices(now=quiet + timedelta(minutes=11), since=LONG_AGO, at_work=())
     assert sorted(alerts()) == [("foreign_knock", "", 1), ("wrong_key", "", 1)]
