@@ -8,6 +8,7 @@ import shlex
 from pathlib import Path
 
 from connectors.management.commands.vda5050 import Command
+from registry.alerts.causes import CAUSES
 from tests.kit.files import ROOT
 from tests.unit.robot_agent.agent import make_config
 from vipo_device.protocol import messages
@@ -69,3 +70,11 @@ def test_the_flashing_guide_names_files_that_there_are() -> None:
     sources = re.findall(r"firmware/\S+", commands)
     assert sources == ["firmware/package.json", "firmware/main.py"]
     assert all((ROOT / name).is_file() for name in sources)
+
+
+def test_the_apis_page_lists_every_alert_with_how_bad_it_is() -> None:
+    section = (DOCS / "api.md").read_text().partition("\n## Alerts\n")[2].partition("\n## ")[0]
+    rows = [row.split("|")[1:3] for row in section.splitlines() if row.startswith("| `")]
+    told = {code: how for codes, how in rows for code in re.findall(r"`(\w+)`", codes)}
+    assert set(told) == set(CAUSES)
+    assert all(cause.severity in told[code] for code, cause in CAUSES.items())
