@@ -6,9 +6,9 @@ import type { Method, SiteDevice, Surroundings } from "./surroundings";
 
 export const DEFAULT_ROLE = "robot";
 /** Methods of robots that are steps of their own. */
-const STEPS = new Set(STEP_KINDS.map((each) => each.drives === "robot" && each.method));
+export const ROBOT_STEPS = STEP_KINDS.flatMap((each) => (each.drives === "robot" && each.method ? [each.method] : []));
 /** Methods of machines that are part of picking and dropping. */
-const HANDING = new Set(["dispense", "accept"]);
+const HANDING = ["dispense", "accept"];
 
 /** The role of the program that an Operate speaks to; null where it speaks to a device or a place. */
 export function operatedRole(device: unknown): string | null {
@@ -29,8 +29,8 @@ export function givenToRole(step: Step | undefined, role: string): { name: strin
 
 /** Methods that a person may choose for an Operate. */
 export function operable(device: Pick<SiteDevice, "kind" | "methods">): readonly Method[] {
-  const others = isRobot(device) ? STEPS : HANDING;
-  return device.methods.filter((method) => !others.has(method.name));
+  const others = isRobot(device) ? ROBOT_STEPS : HANDING;
+  return device.methods.filter((method) => !others.includes(method.name));
 }
 
 /** The devices that may carry out an Operate: the one that is named, or all robots that may take the role. */

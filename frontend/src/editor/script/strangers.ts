@@ -1,4 +1,5 @@
 /** Devices of another site in pasted script: who they are, and the script with others in their stead. Pure. */
+import { ROBOT_STEPS } from "@/program/operation";
 import type { Chosen, Stranger } from "../edits/holes";
 
 const GET = /self\.(\p{ID_Continue}+)\s*=\s*ctx\.get\(\s*["']([^"']+)["']\s*\)/gu;
@@ -17,7 +18,7 @@ function needsOf(script: string, name: string): Stranger["needs"] {
   const members = [...script.matchAll(new RegExp(`self\\.${name}\\.(\\p{ID_Continue}+)(\\(?)`, "gu"))];
   const called = unique(members.filter(([, , open]) => open !== "").map(([, member = ""]) => member));
   const read = unique(members.filter(([, , open]) => open === "").map(([, member = ""]) => member));
-  const robot = ["move", "pick", "drop"].some((each) => called.includes(each));
+  const robot = ROBOT_STEPS.some((each) => called.includes(each));
   return {
     robot,
     methods: called.filter((each) => each !== "operate"),

@@ -4,6 +4,7 @@ import { Check, Trash2, X } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { IconButton } from "@/design/IconButton";
 import { NumberField } from "@/design/NumberField";
+import { ROBOT_STEPS } from "@/program/operation";
 import type { Choice, Startable } from "@/shell/start/startable";
 import { objectsOf, ReadingValue } from "./GivenLine";
 import { COMPARISONS, isWhole, type ThenRow } from "./testRows";
@@ -220,7 +221,7 @@ function Commands({ row, set, about }: FieldsProps) {
         className={classes.long}
         aria-label={t("tests.form.commands")}
         placeholder={t("tests.form.commands")}
-        data={[...new Set(["move", "pick", "drop", ...known])]}
+        data={[...new Set([...ROBOT_STEPS, ...known])]}
         value={Array.isArray(row.says.value) ? [...(row.says.value as string[])] : []}
         allowDuplicates
         onChange={(value) => set({ value })}
