@@ -12,6 +12,8 @@ from execution.trials.trial import Expectation
 
 BESIDE_M = 1.0
 """Robots that are nearer to a place than this are in it, unless a test says otherwise."""
+STOPPED = frozenset({"too_long", "too_much", "too_slow"})
+"""Codes of the errors that say of a rehearsal that it was stopped, since it had not ended."""
 Result = Mapping[str, Any]
 Point = tuple[float, float]
 
@@ -86,9 +88,12 @@ def _fails(says: str, seen: Seen) -> _Answer:
 
 
 def _within(says: float, seen: Seen) -> _Answer:
-    took_s = seen.result["duration_s"]
+    expected, made_of, took_s = f"ends within {says:g} s", {"most_s": says}, seen.result["duration_s"]
+    stopped = next((error for error in seen.result["errors"] if error.get("code") in STOPPED), None)
+    if stopped is not None:
+        return expected, made_of, False, _error(stopped, seen)
     saw = Saw(f"it took {took_s:g} s", "took", {"t_s": took_s}, figure=took_s)
-    return f"ends within {says:g} s", {"most_s": says}, took_s <= says, saw
+    return expected, made_of, took_s <= says, saw
 
 
 def _item(says: Mapping[str, Any], seen: Seen) -> _Answer:

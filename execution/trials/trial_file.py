@@ -70,7 +70,7 @@ class _Reader:
         body = self.table(path, test)
         self.known(path, body, {"name", "given", "when", "then"})
         name = self.text((*path, "name"), body.get("name"))
-        if not name:
+        if _is_blank(name):
             raise self.bad(path, "Give the test a name: “name: One box, all goes well”.")
         given, when = (self.table((*path, word), body.get(word) or {}) for word in ("given", "when"))
         self.known((*path, "given"), given, {"stock", "carrying", "readings"})
@@ -108,12 +108,14 @@ class _Reader:
     def says(self, path: Path, kind: str, value: object) -> Any:
         if kind in _WORDS:
             return self.words(path, kind, value)
-        if kind == "ends" and value != "well":
+        if (kind == "ends" and value != "well") or (kind == "fails" and _is_blank(value)):
             raise self.bad(path, "Write “ends: well”, or “fails:” and a word of the reason.")
         if kind == "within_s":
             return self.number(path, value, 0.0, LONGEST_S)
         if kind == "commands":
             listed = value if isinstance(value, list) else [value]
+            if not listed or any(map(_is_blank, listed)):
+                raise self.bad(path, "Write at least one command behind “commands:”, such as “drop”.")
             return [self.text(path, command, MOST_TEXT) for command in listed]
         return self.text(path, value)
 
@@ -207,3 +209,7 @@ class _Reader:
     def line(self, path: Path) -> int:
         """Return the line of a value, or of the nearest one around it that stands in the file."""
         return next((self.lines[path[:end]] for end in range(len(path), -1, -1) if path[:end] in self.lines), 1)
+
+
+def _is_blank(value: object) -> bool:
+    return isinstance(value, str) and not value.strip()

@@ -6,6 +6,8 @@ from typing import Any, Final
 
 import yaml
 
+from vipo_device.protocol.texts import find_unfit
+
 MOST_BYTES: Final = 1_000_000
 MOST_NODES: Final = 50_000
 DEEPEST: Final = 20
@@ -72,9 +74,17 @@ def _plain(loader: _Loader, node: yaml.Node, path: Path, lines: dict[Path, int])
         return _mapping(loader, node, path, lines)
     if isinstance(node, yaml.SequenceNode):
         return [_plain(loader, item, (*path, index), lines) for index, item in enumerate(node.value)]
+    _refuse_unfit(node)
     if node.tag not in _PLAIN:
         return str(node.value)  # a date, and whatever else YAML would make of a text
     return loader.construct_object(node)
+
+
+def _refuse_unfit(node: yaml.Node) -> None:
+    """Refuse what no text may hold: an escape in quotes can name such characters, too."""
+    if character := find_unfit(str(node.value)):
+        why = f"A text holds U+{ord(character):04X}, which is no text. Take that character out."
+        raise BadTrialFile(node.start_mark.line + 1, why)
 
 
 def _mapping(loader: _Loader, node: yaml.MappingNode, path: Path, lines: dict[Path, int]) -> dict[str, Any]:
@@ -83,6 +93,7 @@ def _mapping(loader: _Loader, node: yaml.MappingNode, path: Path, lines: dict[Pa
         line = key_node.start_mark.line + 1
         if not isinstance(key_node, yaml.ScalarNode):
             raise BadTrialFile(line, "A word before a colon must be plain text.")
+        _refuse_unfit(key_node)
         key = str(key_node.value)
         if key in found:
             raise BadTrialFile(line, f"“{key}” stands here twice; keep one of the two.")

@@ -50,6 +50,8 @@ def test_of_two_who_write_one_test_the_second_is_told(program):
         ("name: A\nthen: [", 2, "It is no YAML"),
         ("a: &x 1\nb: *x\n", 1, "anchor"),
         ("- 1\n", 1, "Here stand words"),
+        ('name: "A\\uD800"\nthen:\n  - ends: well\n', 1, "A text holds U+D800"),
+        ('name: "A\\0"\nthen:\n  - ends: well\n', 1, "A text holds U+0000"),
         ("", 1, "Here stand words"),
         ("name: A\nthen:\n  - ends: well\n" + "#" * 20_000, 0, "at most 20000 characters"),
     ],

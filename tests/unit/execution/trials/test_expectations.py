@@ -76,6 +76,15 @@ def test_a_failure_is_told_with_its_time_and_step(kind, says, holds):
     assert verdict.saw == "at 30 s, step 7b: The Oven does not answer."
 
 
+@pytest.mark.parametrize("code", ["too_long", "too_much", "too_slow"])
+def test_a_rehearsal_that_was_stopped_has_not_ended_within_any_time(code):
+    stopped = {"t": 90.0, "step": "s1", "kind": "timed_out", "message": "The program was stopped.", "code": code}
+    verdict = judge(Expectation("within_s", 1, 1800.0), seen(ok=False, errors=[stopped]))
+    assert (verdict.ok, verdict.saw) == (False, "at 90 s, step 7b: The program was stopped.")
+    failed = {**stopped, "message": "The Oven does not answer.", "code": "step_timed_out"}
+    assert judge(Expectation("within_s", 1, 1800.0), seen(ok=False, errors=[failed])).ok
+
+
 def test_a_rehearsal_in_which_robots_touch_does_not_end_well():
     verdict = judge(Expectation("ends", 1, "well"), seen(ok=False, collisions=[{"t": 4.0, "a": "r1", "b": "wall"}]))
     assert (verdict.ok, verdict.saw) == (False, "r1 touched wall at 4 s")
