@@ -60,6 +60,7 @@ class SimulatedWorld:
         self._asked_s = 0.0
         self._ticks = 0
         self._slow_ticks = 0
+        self._begin_faults()
 
     @property
     def time_s(self) -> float:
@@ -141,6 +142,12 @@ class SimulatedWorld:
     def close(self) -> None:
         """Give back what the driver holds."""
         self._driver.close()
+
+    def _begin_faults(self) -> None:
+        """Let the faults begin that are there from the first moment on, before anybody looks."""
+        self._things.pass_time(0.0)
+        for actor in self._actors.values():
+            actor.notice_faults(0.0)
 
     def _tick(self, t_s: float) -> None:
         dt_s = self._driver.tick_s

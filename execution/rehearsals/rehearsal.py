@@ -126,6 +126,8 @@ class _Rehearsal:
     def run(self) -> dict[str, Any]:
         facts: Facts = {(d, n): v for d, values in self.world.readings().items() for n, v in values.items()}
         facts |= self._stations() | self._surroundings()
+        for event in self.world.advance(0.0):  # faults that are there from the first moment on
+            self.recorder.note_world(event)
         self._report_poses()
         self.state, actions = machine.start(self.plan, self.parameters, facts, watch=self.watch)
         self._do_run(actions)

@@ -137,12 +137,20 @@ class Actor(ABC):
 
     def _recover(self, t_s: float, fault: Fault) -> None:
         """Say after a fault what was not said in it."""
-        if fault.kind == "wrong_value" and self.troubles.find("wrong_value", fault.name) is None:
-            self._show(t_s, fault.name, self._true_readings.pop(fault.name, self.readings.get(fault.name, "")))
+        if fault.kind == "wrong_value":
+            self._show_again(t_s, fault.name)
         if not self.is_silent:
             untold, self._untold = list(self._untold), {}
             for name in untold:
                 self._emit(PropertyChanged(t_s, self.description.id, name, self.readings[name]))
+
+    def _show_again(self, t_s: float, name: str) -> None:
+        """Show a property after a wrong value of it is over: what another fault says of it, or what is true."""
+        other = self.troubles.find("wrong_value", name)
+        if other is not None:
+            self._show(t_s, name, other.value)
+        elif name in self._true_readings:
+            self._show(t_s, name, self._true_readings.pop(name))
 
     def read(self, t_s: float, name: str, value: Scalar) -> None:
         """Set a reading that the device offers; a change is emitted."""

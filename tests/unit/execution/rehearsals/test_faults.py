@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from editor.language.expressions.nodes import Constant, PlaceRef
+from editor.language.expressions.nodes import Constant, Operation, PlaceRef, Reading
 from editor.language.plan.instructions import (
+    Branch,
     Call,
     Drop,
     End,
@@ -127,6 +128,27 @@ def test_a_wrong_reading_is_shown_for_as_long_as_asked_and_the_true_one_after():
     assert (5.0, -40.0) in [(round(t), v) for t, v in shown]
     assert [v for t, v in shown if 5.5 < t < 14.5] == []
     assert min(v for t, v in shown if t > 15.5) > 0
+
+
+def test_of_two_wrong_readings_the_one_that_lasts_longer_is_shown_again():
+    wrong = {"kind": "wrong_value", "name": "temperature"}
+    faults = (
+        Fault("paintMixer02", value=90.0, **wrong),
+        Fault("paintMixer02", at_s=5.0, value=-40.0, for_s=5.0, **wrong),
+    )
+    shown = mixed(*faults)["properties"]["paintMixer02"]
+    assert [(round(t), v) for t, name, v in shown if name == "temperature" and t > 0] == [(5, -40.0), (10, 90.0)]
+
+
+def test_a_fault_from_the_first_moment_on_is_there_when_the_program_first_looks():
+    hot = Operation(">", (Reading(Constant("paintMixer02"), "temperature"), Constant(60)))
+    plan = Plan(
+        (Instruction(Branch(hot, 3), "if"), Instruction(Wait(ONE), "wait"), Instruction(End()), MIX, Instruction(End()))
+    )
+    fault = Fault("paintMixer02", "wrong_value", name="temperature", value=90.0)
+    result = rehearse(plan, demo_floor.scene(faults=(fault,)), conditions=KINEMATIC)
+    assert [step["step"] for step in result["steps"]] == ["wait"]
+    assert (said(result), result["log"][0]["code"]) == ([(0.0, "wrong_value")], "fault_wrong_value")
 
 
 def test_chance_strikes_as_the_seed_says_and_evenly_without_one():
