@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from simulation.actors.actor import Actor, Emit, InitialState
-from simulation.actors.readings import MachineReadings
+from simulation.actors.readings import MachineReadings, told_in_units_of_readings
 from simulation.behaviour import Behaviour
 from vipo_device.kit.arguments import counted_object
 from vipo_device.protocol.description import Description, Scalar
@@ -16,12 +16,12 @@ from vipo_device.protocol.messages import AckMessage
 
 @dataclass(slots=True)
 class Job:
-    """What a machine is doing."""
+    """What a machine is doing; `told` are the arguments, in the units of the readings of their names."""
 
     command: str
     method: str
     lasts_s: float
-    arguments: Mapping[str, object] = field(default_factory=dict)
+    told: Mapping[str, object] = field(default_factory=dict)
     spent_s: float = 0.0
 
 
@@ -57,7 +57,7 @@ class Machine(Actor):
         if self._job is not None and not self.frozen:
             self._work(t_s, dt_s, self._job)
         work = self._work_under_way
-        changed = self._readings.advance(dt_s, self.readings, None if work is None else work.arguments)
+        changed = self._readings.advance(dt_s, self.readings, None if work is None else work.told)
         self._read_all(t_s, changed)
 
     def refusal_to_give(self, name: str, count: int) -> str:
@@ -120,7 +120,8 @@ class Machine(Actor):
         self._say(t_s, AckMessage(command, "ACCEPTED"))
         self._say(t_s, AckMessage(command, "RUNNING"))
         lasts_s = self._lasts_s(method, self.description.method(method), arguments)
-        self._job = Job(command, method, lasts_s, dict(arguments))
+        told = told_in_units_of_readings(self.description, method, arguments)
+        self._job = Job(command, method, lasts_s, told)
         self._read_door(t_s, method, is_done=False)
         self._read_all(t_s, self._readings.progress(0))
         self._read_switched(t_s)
@@ -172,7 +173,7 @@ class Machine(Actor):
             if self.stock.get(name):
                 self.change_stock(t_s, name, -count)
         if job.method not in self.behaviour.hands_over:
-            self._read_all(t_s, self._readings.after(job.arguments, self.readings))
+            self._read_all(t_s, self._readings.after(job.told, self.readings))
         drawn = self._readings.drawn(job.method, self._chance)
         self._read_all(t_s, drawn)
         return drawn

@@ -31,6 +31,20 @@ def converted(value: float, unit: str, shown_in: str) -> float:
     return convert(value, unit, shown_in) if same_dimension(unit, shown_in) else value
 
 
+def told_in_units_of_readings(
+    description: Description, method: str, arguments: Mapping[str, object]
+) -> dict[str, object]:
+    """Return a call's arguments, each in the unit in which the reading of its name shows it."""
+    spec = description.method(method)
+    units = {} if spec is None else {parameter.name: parameter.unit for parameter in spec.parameters}
+    told = dict(arguments)
+    for reading in description.properties:
+        value = arguments.get(reading.name)
+        if is_number(value):
+            told[reading.name] = converted(value, units.get(reading.name, ""), reading.unit)
+    return told
+
+
 class Approach:
     """A reading that follows first order: value' = (target - value) / time constant."""
 
@@ -76,6 +90,7 @@ class MachineReadings:
             for spec in description.properties
             if (law := self._laws.get(spec.name)) is not None and law.law == "approach"
         ]
+        self._known = known
         self._worked = 0
 
     @property
@@ -85,7 +100,8 @@ class MachineReadings:
 
     def at_start(self) -> dict[str, Scalar]:
         """Return what the readings show before anybody listens."""
-        return {approach.spec.name: approach.shown for approach in self._approaches}
+        resting = {name: value for name, value in self.switched(works=False).items() if name not in self._known}
+        return {**resting, **{approach.spec.name: approach.shown for approach in self._approaches}}
 
     def advance(self, dt_s: float, shown: Mapping[str, Scalar], job: Mapping[str, object] | None) -> dict[str, Scalar]:
         """Let time pass; `job` are the arguments of the work under way. Returns what changed."""

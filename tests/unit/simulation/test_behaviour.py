@@ -140,6 +140,37 @@ def test_a_set_point_is_what_a_machine_warms_to() -> None:
     assert world.readings()["oven"]["temperature"] == pytest.approx(180, abs=0.6)
 
 
+def test_a_set_point_and_what_is_left_of_a_job_are_in_the_units_of_the_readings() -> None:
+    asked = (ParameterSpec("temperature", "number", "DEG_F"), ParameterSpec("force", "number", "N"), TIME)
+    lehr = replace(
+        OVEN, methods=(method("heat", *asked),), properties=(*OVEN.properties, PropertySpec("force", "number", "N"))
+    )
+    world = make_world(scene=Scene(hall(), (lehr,)), driver="kinematic")
+    world.command("oven", "heat", {"temperature": 356, "force": 7, "time": 60}, "c")
+    world.advance(3500.0)
+    assert world.readings()["oven"]["temperature"] == pytest.approx(180, abs=0.6)
+
+    saw = replace(
+        PRESS,
+        properties=(PropertySpec("cut", "number", "MilliM", 0, 600),),
+        methods=(method("saw", ParameterSpec("cut", "number", "CentiM"), ParameterSpec("time", "number", "SEC")),),
+    )
+    assert readings_after(saw, ("saw", {"cut": 12, "time": 1}))["cut"] == 120
+
+
+def test_what_shows_whether_a_machine_works_shows_before_the_first_job_that_it_rests() -> None:
+    lines = (
+        'version = 1\n[[kinds]]\nname = "pressing"\nwhen = { methods = ["pressPart"] }\n'
+        '[kinds.readings]\npressure = { law = "while_working", unit = "BAR", resting = 1.0, working = 2.5 }\n'
+    )
+    world = make_world(scene=Scene(hall(), (PRESS,), kinds=(*default_kinds(), *read_kinds(lines))), driver="kinematic")
+    assert world.readings()["press01"]["pressure"] == 100.0, "1 bar"
+    kept = Scene(
+        hall(), (PRESS,), kinds=(*default_kinds(), *read_kinds(lines)), readings={"press01": {"pressure": 250.0}}
+    )
+    assert make_world(scene=kept, driver="kinematic").readings()["press01"]["pressure"] == 250.0
+
+
 def test_the_same_seed_is_the_same_course_and_another_one_is_another() -> None:
     def qualities(seed: int) -> list[object]:
         return [e.result["quality"] for e in story(OVEN, *[CURE] * 10, seed=seed) if isinstance(e, Ack) and e.result]
