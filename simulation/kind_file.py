@@ -12,6 +12,7 @@ from typing import Any, Final, get_args
 
 from simulation.behaviour import Behaviour, Condition, Kind, Law, ReadingLaw
 from vipo_device.protocol.errors import VipoError
+from vipo_device.protocol.units import UNITS
 
 VERSION: Final = 1
 LADDER: Final[Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]]] = {}
@@ -26,6 +27,8 @@ _TABLES = {"readings", "uses", "needs", "fails"}
 _SAYS = {f.name for f in fields(Behaviour)}
 _ASKS = {f.name for f in fields(Condition)}
 _LAW_WORDS = {f.name for f in fields(ReadingLaw)}
+_LAW_NEEDS: Final[Mapping[str, tuple[str, ...]]] = {"drawn": ("after", "usual")}
+"""Words without which a law says nothing."""
 
 
 class BadKinds(VipoError):
@@ -67,6 +70,7 @@ def read_kinds(text: str) -> tuple[Kind, ...]:
     except tomllib.TOMLDecodeError as error:
         raise BadKinds(f"The kinds are no TOML: {error}.") from error
     data = _lift(data)
+    _refuse_unknown("The file", "", data, {"version", "kinds"})
     kinds = data.get("kinds", [])
     if not isinstance(kinds, list) or len(kinds) > MOST_KINDS:
         raise BadKinds(f"Write at most {MOST_KINDS} kinds, each under [[kinds]].")
@@ -129,6 +133,9 @@ def _law(name: str, key: str, value: object) -> ReadingLaw:
     _refuse_unknown(name, f"readings.{key}", table, _LAW_WORDS)
     if table.get("law") not in get_args(Law):
         raise BadKinds(f"{name}: the law of {key} is one of {', '.join(get_args(Law))}, not {table.get('law')!r}.")
+    for word in _LAW_NEEDS.get(table["law"], ()):
+        if not table.get(word):
+            raise BadKinds(f"{name}: {key} is {table['law']} and needs {word}.")
     return ReadingLaw(**{word: _law_word(name, word, held) for word, held in table.items()})
 
 
@@ -139,6 +146,8 @@ def _law_word(name: str, word: str, value: object) -> Any:
         return _number(name, word, value)
     if not isinstance(value, str):
         raise BadKinds(f"{name}: {word} must be a text, not {value!r}.")
+    if word == "unit" and value and value not in UNITS:
+        raise BadKinds(f"{name}: the unit {value[:40]!r} is not known. Known are: {', '.join(UNITS)}.")
     return value
 
 

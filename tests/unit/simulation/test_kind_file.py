@@ -53,13 +53,24 @@ def test_the_kinds_that_vipo_comes_with_are_told_by_what_devices_can_do() -> Non
             HEAD + 'readings = { heat = { law = "approach", rising_s = 0 } }',
             "saw: rising_s must be at least 0.001, not 0.",
         ),
-        (HEAD + 'readings = { heat = { law = "drawn", usual = 3 } }', "saw: usual must be a text, not 3."),
+        (
+            HEAD + 'readings = { grade = { law = "drawn", after = ["cut"], usual = 3 } }',
+            "saw: usual must be a text, not 3.",
+        ),
+        (HEAD + 'readings = { grade = { law = "drawn", after = ["cut"] } }', "saw: grade is drawn and needs usual."),
+        (HEAD + 'readings = { grade = { law = "drawn", usual = "A" } }', "saw: grade is drawn and needs after."),
+        ('version = 1\n[[kind]]\nname = "saw"', "The file: kind is not known. Known are: kinds, version."),
     ],
 )
 def test_what_cannot_be_understood_is_refused_with_a_sentence(text: str, why: str) -> None:
     with pytest.raises(BadKinds) as refused:
         read_kinds(text)
     assert refused.value.detail == why
+
+
+def test_a_unit_that_is_not_known_is_refused_and_named() -> None:
+    with pytest.raises(BadKinds, match=r"^saw: the unit 'DEGC' is not known\. Known are: SEC, .*DEG_C"):
+        read_kinds(HEAD + 'readings = { heat = { law = "approach", unit = "DEGC" } }')
 
 
 def test_what_is_no_toml_is_refused_with_the_line() -> None:
