@@ -181,10 +181,10 @@ def _insert_rows(batch: database.Batch, turn: Turn, lease: Lease, *, is_floor: b
 
 
 def _mark_simulated(turn: Turn, written: Sequence[RunWork | ByHand]) -> None:
-    """Say in the journal where a stand-in was told, or has answered."""
+    """Say in the journal where a stand-in was told, has answered, or sets out."""
     for work in written if turn.site.simulated else ():
         for line in work.lines:
-            if line.device in turn.site.simulated and line.kind in {"command", "answer"}:
+            if line.device in turn.site.simulated and line.kind in {"command", "answer", "way"}:
                 line.args = {**line.args, "simulated": True}
 
 

@@ -14,7 +14,7 @@ from execution.stand_ins.switching import simulate_device
 from registry import services as registry
 from registry.models import AuditLine, Device
 from tests.integration.execution.test_calls import CURE
-from tests.kit.programs import SITE
+from tests.kit.programs import CARRY, SITE
 from tests.kit.sign_in import EVERYBODY, ROLES, from_role, sign_in_member
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -85,6 +85,18 @@ def test_commands_are_for_the_one_that_counts_when_they_are_written(factory):
     marked = {(e.kind, e.device) for e in events if e.args.get("simulated")}
     assert marked == {("command", MIXER), ("answer", MIXER)}
     assert not any(e.args.get("simulated") for e in services.list_events(run_id=first))
+
+
+def test_the_journal_says_of_each_line_about_a_simulated_robot_that_it_is(factory):
+    finish(factory, factory.start(CURE))  # the site's owner knows all by now
+    for number in (1, 2, 3):
+        switch(f"robot0{number}")
+    Device.objects.update(online=True)  # their stand-ins are there
+    run = factory.start(CARRY)
+    finish(factory, run)
+    marked = {(e.kind, e.device) for e in services.list_events(run_id=run) if e.args.get("simulated")}
+    assert {kind for kind, _ in marked} == {"way", "command", "answer"}
+    assert all(device.startswith("robot") for _, device in marked)
 
 
 def test_a_stand_in_is_told_on_its_own_topic_and_never_on_a_legacy_one(factory):
