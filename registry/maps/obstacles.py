@@ -50,15 +50,19 @@ def add_obstacle(*, site: str, x: float, y: float, size_m: float) -> ObstacleVie
     return ObstacleView(made.pk, made.x, made.y, made.size_m)
 
 
-def move_obstacle(*, site: str, obstacle: int, x: float, y: float, size_m: float) -> ObstacleView:
-    """Put an obstacle somewhere else. Raises NoSuchObstacle, BadObstacle, NoMap, NotAMember."""
-    found = _checked(site, x, y, size_m)
+def move_obstacle(*, site: str, obstacle: int, x: float, y: float, size_m: float | None = None) -> ObstacleView:
+    """Put an obstacle somewhere else; without a width it keeps its own.
+
+    Raises NoSuchObstacle, BadObstacle, NoMap, NotAMember.
+    """
     with transaction.atomic():
-        rows = SimulatedObstacle.objects.filter(site=find_site(site), pk=obstacle)
-        if not rows.update(x=found[0], y=found[1], size_m=found[2]):
+        row = SimulatedObstacle.objects.select_for_update().filter(site=find_site(site), pk=obstacle).first()
+        if row is None:
             raise _missing(obstacle)
+        row.x, row.y, row.size_m = _checked(site, x, y, row.size_m if size_m is None else size_m)
+        row.save(update_fields=["x", "y", "size_m"])
         _tell(site)
-    return ObstacleView(obstacle, *found)
+    return ObstacleView(row.pk, row.x, row.y, row.size_m)
 
 
 def remove_obstacle(*, site: str, obstacle: int) -> None:

@@ -5515,6 +5515,12 @@ export interface components {
             x: number;
             y: number;
         };
+        /** @description Where the middle of an obstacle is from now on, metres; without a width it keeps the one that it has. */
+        ObstacleMove: {
+            size_m?: number | null;
+            x: number;
+            y: number;
+        };
         /** @description A round thing that people put in the way of simulated robots: its middle and how wide it is, metres. */
         ObstacleShape: {
             id: number;
@@ -15922,7 +15928,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["ObstacleFields"];
+                "application/json": components["schemas"]["ObstacleMove"];
             };
         };
         responses: {

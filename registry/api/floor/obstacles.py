@@ -16,6 +16,7 @@ from registry.shapes import ObstacleShape
 
 router = Router(tags=["registry"])
 Coordinate = Annotated[Number, Field(ge=-1e6, le=1e6)]
+Width = Annotated[Number, Field(gt=0, le=1000)]
 
 
 class ObstacleFields(Asked):
@@ -23,7 +24,15 @@ class ObstacleFields(Asked):
 
     x: Coordinate
     y: Coordinate
-    size_m: Annotated[Number, Field(gt=0, le=1000)] = 0.5
+    size_m: Width = 0.5
+
+
+class ObstacleMove(Asked):
+    """Where the middle of an obstacle is from now on, metres; without a width it keeps the one that it has."""
+
+    x: Coordinate
+    y: Coordinate
+    size_m: Width | None = None
 
 
 @router.post("/sites/{slug}/obstacles", response={201: ObstacleShape})
@@ -34,7 +43,7 @@ def add_obstacle(request: HttpRequest, slug: str, body: ObstacleFields) -> dict[
 
 
 @router.put("/sites/{slug}/obstacles/{int:obstacle}", response=ObstacleShape)
-def move_obstacle(request: HttpRequest, slug: str, obstacle: int, body: ObstacleFields) -> dict[str, Any]:
+def move_obstacle(request: HttpRequest, slug: str, obstacle: int, body: ObstacleMove) -> dict[str, Any]:
     """Put an obstacle somewhere else, or make it another width."""
     require(signed_in(request), slug, "operator", "run")
     return asdict(obstacles.move_obstacle(site=slug, obstacle=obstacle, **body.dict()))

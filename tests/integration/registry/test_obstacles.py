@@ -35,7 +35,9 @@ def test_who_may_run_programs_puts_moves_and_takes_away(
     assert [message for site, message in heard if site == "hall"] == [{"type": "obstacles"}]
     assert read_obstacles("hall") == (Obstacle(1.5, 1.25, 0.4),)
     moved = put(client, made["id"], {"x": 0.5, "y": 0.5})
-    assert moved.json() == {"id": made["id"], "x": 0.5, "y": 0.5, "size_m": 0.5}
+    assert moved.json() == {"id": made["id"], "x": 0.5, "y": 0.5, "size_m": BOX["size_m"]}, "it stays as wide as it was"
+    moved = put(client, made["id"], {"x": 0.5, "y": 0.5, "size_m": 0.6})
+    assert moved.json()["size_m"] == 0.6
     assert shown(client) == [moved.json()]
     assert client.delete(f"{OBSTACLES}/{made['id']}").status_code == 204
     assert shown(client) == []
