@@ -33,7 +33,7 @@ def digests_of(site: str) -> dict[str, Any]:
 
 def _works(device: registry.DeviceView, paces: Mapping[str, float] | None) -> dict[str, Any]:
     """Return a device as a rehearsal meets it: what it is called makes no difference there, its measured paces do."""
-    told = {name: value for name, value in description_to_json(device.canonical).items() if name != "name"}
+    told = {name: value for name, value in description_to_json(device.at_home).items() if name != "name"}
     return told | {"paces": paces} if paces else told
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol, assert_never
 
 from editor.language.expressions.nodes import AnswerSpec
@@ -90,7 +90,8 @@ def rehearse(
     conditions = conditions or Conditions()
     world = make_world(scene=scene, driver=conditions.driver)
     try:
-        layout = make_layout(scene.grid, scene.devices, places, m.site_zones(zones))
+        standing = [replace(d, pose=scene.poses.get(d.id, d.pose)) for d in scene.devices]
+        layout = make_layout(scene.grid, standing, places, m.site_zones(zones))
         return _Rehearsal(plan, layout, world, conditions, follow).run()
     finally:
         world.close()

@@ -124,7 +124,7 @@ def _scene(prepared: Prepared, seed: int, faults: Mapping[str, Any] | None) -> d
     robots = {d.id: d for d in devices if d.kind == "robot"}
     scene = Scene(
         grid=registry.get_map(site=site).grid,
-        devices=[d.canonical for d in devices],
+        devices=[d.at_home for d in devices],
         seed=seed,
         faults=() if faults is None else read_faults(faults),
         poses={name: robot.pose for name, robot in robots.items()},

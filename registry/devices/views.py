@@ -28,7 +28,8 @@ class DeviceView:
     `has_key` tells whether it can come in with a key of its own, `dropped` how many of its messages were not taken,
     `only_done_flag` that it describes itself by the paper's message and so may answer no command but by `done`;
     `stand_in` tells that it is simulated in place of the real one, and `stands_at` where a real robot is meanwhile;
-    `asks` are the methods that nobody may call before an admin has confirmed their topics.
+    `asks` are the methods that nobody may call before an admin has confirmed their topics. `home` is where a robot
+    belongs, by its description or where people put it.
     """
 
     id: str
@@ -50,6 +51,7 @@ class DeviceView:
     stand_in: bool = False
     stands_at: Pose | None = None
     asks: tuple[MethodSpec, ...] = ()
+    home: Pose | None = None
 
     @property
     def whole(self) -> Description:
@@ -60,6 +62,11 @@ class DeviceView:
     def played(self) -> Description:
         """What the device says of itself, told as simulated while a stand-in speaks for it."""
         return replace(self.canonical, simulated=True) if self.stand_in else self.canonical
+
+    @property
+    def at_home(self) -> Description:
+        """What the device says of itself, a robot where it belongs, wherever it stands at the moment."""
+        return self.canonical if self.home is None else replace(self.canonical, pose=self.home)
 
     @property
     def name(self) -> str:
@@ -101,6 +108,7 @@ def view_of(device: Device, site: str) -> DeviceView:
         stand_in=device.stand_in,
         stands_at=place_of_real(canonical.kind, device.aside),
         asks=asks,
+        home=_home_of(device) if canonical.kind == "robot" else None,
     )
     return replace(view, status=status_of(view), activity=_activity(view))
 
@@ -110,6 +118,11 @@ def effective_description(device: Device) -> Description:
     said = _read_description(device)
     pose = pose_that_holds(said.kind, device.pose, device.pose_override)
     return replace(said, name=device.name_override or said.name, pose=Pose(**pose) if pose else said.pose)
+
+
+def _home_of(device: Device) -> Pose:
+    """Return where a robot belongs."""
+    return Pose(**device.pose_override) if device.pose_override else _read_description(device).pose
 
 
 def place_of_real(kind: str, aside: Mapping[str, Any] | None) -> Pose | None:

@@ -9,10 +9,11 @@ import pytest
 from django.test import Client
 
 from editor import services as editor
-from execution.models import MeantChange, TrialRun
+from execution.models import MeantChange, Rehearsal, TrialRun
 from execution.program_tests.site_digests import MOST_NAMED, what_changed
 from execution.rehearsals import worker
 from registry import services as registry
+from registry.models import Device
 from tests.integration.execution.program_tests.conftest import FAILS, PASSES, UNUSABLE, add, put
 from tests.kit.programs import SITE, document, step
 from tests.kit.sign_in import add_person, post_json, sign_in_member, signed_in
@@ -109,6 +110,17 @@ def test_a_result_is_stale_once_the_site_has_changed(client: Client, program: An
     result = shown(client, program)["tests"][0]["result"]
     assert (result["stale"], result["site_change"]["what"]) == ("site", "map")
     assert carry_out(client, program)["tests"][0]["result"]["stale"] is None
+
+
+def test_where_robots_stand_at_the_moment_changes_nothing_for_tests(client: Client, program: Any) -> None:
+    add(client, program, PASSES)
+    assert carry_out(client, program)["tests"][0]["result"]["stale"] is None
+    post_json(client, f"/api/programs/{program}/test-runs", {})
+    Device.objects.filter(pk="robot01").update(pose={"x": 5.0, "y": -8.0, "z": 0.0, "theta": 1.0})
+    assert shown(client, program)["tests"][0]["result"]["stale"] is None
+    post_json(client, f"/api/programs/{program}/test-runs", {})
+    before, after = (row.job["scene"] for row in Rehearsal.objects.filter(status="queued"))
+    assert before == after
 
 
 def test_what_nobody_knows_of_a_site_is_no_change() -> None:

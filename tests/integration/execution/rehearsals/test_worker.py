@@ -5,21 +5,27 @@ from __future__ import annotations
 import os
 import signal
 import time
+from dataclasses import asdict
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
 
+from editor.language.expressions.nodes import Constant
+from editor.language.plan.instructions import End, Instruction, Plan, Wait
 from execution import services
 from execution.errors import NotFound, NotPossibleNow
 from execution.models import Rehearsal
 from execution.reasons import cause_of
 from execution.rehearsals import worker
+from registry.models import Device
 from tests.integration.execution.rehearsals.conftest import ENDLESS, SHORT, queue, row, wait_until
-from tests.kit.programs import SITE
+from tests.kit.programs import SITE, describe_anew
 from tests.kit.waiting import wait_for
+from vipo_device.protocol.description import PropertySpec
 
 pytestmark = pytest.mark.django_db(transaction=True)
+BATTERY = PropertySpec("battery", "number", "PERCENT", 0, 100)
 LONG_AGO = timedelta(minutes=5)
 
 
@@ -36,6 +42,21 @@ def test_a_rehearsal_is_carried_out_and_says_how_far_it_came(factory):
     assert view.result["ok"] is True
     assert view.began_at <= view.ended_at
     assert worker.carry_out_waiting() == 0
+
+
+def test_a_robot_that_stands_elsewhere_charges_at_its_home_once_it_is_there(factory):
+    away = {"x": 5.0, "y": -8.0, "z": 0.0, "theta": 1.0}
+    for robot, pose in (("robot01", None), ("robot02", away)):
+        said = Device.objects.get(pk=robot).description
+        describe_anew(robot, said | {"properties": [*said["properties"], asdict(BATTERY)]})
+        Device.objects.filter(pk=robot).update(pose=pose or said["pose"], properties={"battery": 50})
+    queue(Plan((Instruction(Wait(Constant(600)), "w"), Instruction(End()))), driver="kinematic")
+    assert worker.carry_out_waiting() == 1
+    result = Rehearsal.objects.get().result
+    assert result["frames"]["robots"]["robot02"][0] == [5.0, -8.0, 1.0]
+    assert result["robots"]["robot01"]["battery"] > 80
+    assert result["robots"]["robot02"]["distance_m"] > 10, "it is sent to its dock"
+    assert result["robots"]["robot02"]["battery"] > 80
 
 
 def test_a_program_that_never_ends_says_so_within_the_limit_and_where_it_was(factory, settings):
