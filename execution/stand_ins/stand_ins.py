@@ -227,7 +227,7 @@ class StandIns(Listener):
         view = each.device
         machines = tuple(self._machines[view.site].values()) if view.kind == "robot" else ()
         begins = max(each.boot + 1, int(time.time()))
-        return StandInFacts(view.site, view.canonical, machines, view.readings, each.boot, begins)
+        return StandInFacts(view.site, view.at_home, machines, view.readings, each.boot, begins, view.pose)
 
 
 def _machines_of(site: str) -> Mapping[str, Description]:

@@ -30,9 +30,10 @@ MakeWorld = Callable[[Scene], World]
 
 @dataclass(frozen=True, slots=True)
 class StandInFacts:
-    """A device as its stand-in begins: where it is, what it shows, and the machines that a robot may serve.
+    """A device as its stand-in begins: what it shows, and the machines that a robot may serve.
 
-    `boot` is the highest start that VIPO knows of the stand-in, -1 for none; the new one has the number `begins`.
+    `description` says where a robot is at home, `stands` where it is (None: at home). `boot` is the highest start that
+    VIPO knows of the stand-in, -1 for none; the new one has the number `begins`.
     """
 
     site: str
@@ -41,6 +42,7 @@ class StandInFacts:
     readings: Mapping[str, Scalar] = field(default_factory=dict)
     boot: int = -1
     begins: int = 0
+    stands: Pose | None = None
 
     def is_like(self, other: StandInFacts) -> bool:
         """Tell whether both are the same device among the same machines, wherever a robot is by now."""
@@ -163,11 +165,11 @@ class StandIn:
 
     def _scene(self) -> Scene:
         own = self.facts.description
-        is_robot = own.kind == "robot"
+        is_robot, here = own.kind == "robot", self.facts.stands or own.pose
         return Scene(
-            grid=open_floor(own.pose),
+            grid=open_floor(here),
             devices=[own, *(self.facts.machines if is_robot else ())],
-            poses={own.id: own.pose} if is_robot else {},
+            poses={own.id: here} if is_robot else {},
             readings={own.id: self.facts.readings},
             carrying={own.id: read_load(self.facts.readings.get("load"))} if is_robot else {},
             bodiless=frozenset(machine.id for machine in self.facts.machines),

@@ -127,6 +127,20 @@ def test_a_simulated_robot_fetches_what_the_machine_has_and_no_more(tmp_path: Pa
     stage.stand_in.see_stock("nowhere", {"box": 1})  # a machine of which it knows nothing changes nothing
 
 
+@pytest.mark.parametrize(("stands", "charges"), [(None, True), (Pose(6.0, 4.0), False)])
+def test_a_simulated_robot_charges_at_its_home_and_not_where_it_began(
+    tmp_path: Path, stands: Pose | None, charges: bool
+) -> None:
+    stage = Stage(ROBOT, tmp_path, readings={"battery": 50})
+    facts = replace(stage.facts, stands=stands)
+    stand_in = StandIn(facts, stage.line, kinematic, tmp_path / "other.json", 60.0)
+    stand_in.connect(0.0)
+    for second in range(1, 4):
+        stand_in.advance(float(second))
+    battery = stage.broker.state()["props"]["battery"]
+    assert (battery > 51) is charges, battery
+
+
 def test_a_simulated_machine_learns_what_robots_take_and_bring(tmp_path: Path) -> None:
     stage = Stage(STORE, tmp_path, readings={"stock": 3})
     stage.stand_in.take_over(HandOver(STORE, "box", -2))
