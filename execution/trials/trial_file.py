@@ -115,7 +115,7 @@ class _Reader:
         if kind == "commands":
             listed = value if isinstance(value, list) else [value]
             if not listed or any(map(_is_blank, listed)):
-                raise self.bad(path, "Write at least one command behind “commands:”, such as “drop”.")
+                raise self.bad(path, "commands needs “device.method”.")
             return [self.text(path, command, MOST_TEXT) for command in listed]
         return self.text(path, value)
 

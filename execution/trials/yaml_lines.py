@@ -83,8 +83,7 @@ def _plain(loader: _Loader, node: yaml.Node, path: Path, lines: dict[Path, int])
 def _refuse_unfit(node: yaml.Node) -> None:
     """Refuse what no text may hold: an escape in quotes can name such characters, too."""
     if character := find_unfit(str(node.value)):
-        why = f"A text holds U+{ord(character):04X}, which is no text. Take that character out."
-        raise BadTrialFile(node.start_mark.line + 1, why)
+        raise BadTrialFile(node.start_mark.line + 1, f"It is no YAML: U+{ord(character):04X} is no text; take it out.")
 
 
 def _mapping(loader: _Loader, node: yaml.MappingNode, path: Path, lines: dict[Path, int]) -> dict[str, Any]:
