@@ -114,7 +114,7 @@ function Compared({ item, versions }: { item: LibraryFunction; versions: readonl
       {compared.isPending ? <TableSkeleton /> : null}
       {compared.isError ? <LoadProblem error={compared.error} again={() => void compared.refetch()} /> : null}
       {compared.data ? <Difference compared={compared.data} /> : null}
-      <Link className={styles.picture} to={`/sites/${slug}/library/${item.id}/compare?old=${old}&new=${next}`}>
+      <Link className={styles.toPicture} to={`/sites/${slug}/library/${item.id}/compare?old=${old}&new=${next}`}>
         {t("compare.function.picture")}
       </Link>
     </section>
