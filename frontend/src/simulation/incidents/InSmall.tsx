@@ -16,6 +16,33 @@ export function onScreen(zoom: number): number {
   return Math.min(Math.max(AS_MEANT / zoom, 1), MOST);
 }
 
+/** A name's line, in drawing pixels. */
+const LINE = 15;
+
+interface Name {
+  readonly x: number;
+  readonly y: number;
+  readonly width: number;
+}
+
+/** How many lines each name stands lower, so that those of robots close together do not lie over each other. */
+export function linesOf(names: readonly Name[], height: number): number[] {
+  const lines: number[] = [];
+  for (const name of names) {
+    const isTaken = (line: number) =>
+      lines.some((other, index) => {
+        const before = names[index];
+        if (!before) return false;
+        const across = Math.abs(before.x - name.x) < (before.width + name.width) / 2;
+        return across && Math.abs(before.y + other * height - name.y - line * height) < height;
+      });
+    let line = 0;
+    while (line < names.length && isTaken(line)) line += 1;
+    lines.push(line);
+  }
+  return lines;
+}
+
 interface InSmallProps {
   robots: readonly Device[];
   frames: Frames;
@@ -35,19 +62,22 @@ export function InSmall(props: InSmallProps) {
   }, [scale]);
   useEffect(() => {
     const loop = new FrameLoop(() => {
+      const shown = [...(layer.current?.querySelectorAll<HTMLElement>("[data-robot]") ?? [])].flatMap((element) => {
+        const pose = poseAt(frames, element.dataset.robot ?? "", moment.t_s);
+        return pose ? [{ element, ...toPixels([pose[0], pose[1]]), width: element.offsetWidth * scale }] : [];
+      });
+      const lines = linesOf(shown, LINE * scale);
       let moved = false;
-      for (const each of layer.current?.querySelectorAll<HTMLElement>("[data-robot]") ?? []) {
-        const pose = poseAt(frames, each.dataset.robot ?? "", moment.t_s);
-        const at = pose && toPixels([pose[0], pose[1]]);
-        const to = at ? `${at.x.toFixed(1)}px ${at.y.toFixed(1)}px` : "";
-        if (each.style.translate === to) continue;
-        each.style.translate = to;
+      shown.forEach(({ element, x, y }, index) => {
+        const to = `${x.toFixed(1)}px ${(y + (lines[index] ?? 0) * LINE * scale).toFixed(1)}px`;
+        if (element.style.translate === to) return;
+        element.style.translate = to;
         moved = true;
-      }
+      });
       return moved;
     });
     return () => loop.stop();
-  }, [frames, moment, robots]);
+  }, [frames, moment, robots, scale]);
   return (
     <div ref={layer} className={styles.names} aria-hidden="true">
       {robots.map(({ id, name }) => (
