@@ -1,10 +1,11 @@
 import { Pause, Play, RotateCcw, SkipBack, SkipForward, StepForward } from "lucide-react";
-import { type PointerEvent as ReactPointerEvent, useRef } from "react";
+import type { PointerEvent as ReactPointerEvent } from "react";
 import { useTranslation } from "react-i18next";
 import styles from "./Transport.module.css";
 import { clock, tickEvery } from "@/design/clock";
+import { useSize } from "@/map/plane/useSize";
 import { SPEEDS } from "./speeds";
-import type { Segment } from "./timeline";
+import { markerPlaces, type Segment } from "./timeline";
 
 export interface Marker {
   number: number;
@@ -126,7 +127,9 @@ function Ticks({ duration_s }: { duration_s: number }) {
 function Track(props: TransportProps) {
   const { t_s, duration_s, markers, onSeek } = props;
   const { t } = useTranslation();
-  const track = useRef<HTMLDivElement>(null);
+  const [track, { width }] = useSize<HTMLDivElement>();
+  const inTime = [...markers].sort((one, other) => one.t_s - other.t_s);
+  const places = markerPlaces(inTime.map(({ t_s }) => (t_s / Math.max(duration_s, 0.001)) * width));
   const seek = (event: ReactPointerEvent) => {
     const box = track.current?.getBoundingClientRect();
     if (!box) return;
@@ -144,13 +147,13 @@ function Track(props: TransportProps) {
         if (event.buttons === 1) seek(event);
       }}
     >
-      {markers.map((marker) => (
+      {inTime.map((marker, index) => (
         <span
           key={marker.number}
           data-kind={marker.kind}
           className={styles.marker}
           title={marker.label}
-          style={{ left: `${(marker.t_s / Math.max(duration_s, 0.001)) * 100}%` }}
+          style={{ left: places[index] }}
         >
           {marker.number}
         </span>

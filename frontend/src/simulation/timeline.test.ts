@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { clock, tickEvery } from "@/design/clock";
-import { neighbour, segmentsOf, statusesAt, stepStarts, type StepSpan } from "./timeline";
+import { markerPlaces, neighbour, segmentsOf, statusesAt, stepStarts, type StepSpan } from "./timeline";
 
 const span = (step: string, started_s: number, ended_s: number | null, status = "done"): StepSpan => ({
   step,
@@ -51,4 +51,14 @@ describe("statusesAt", () => {
 describe("clock and ticks", () => {
   it("writes times", () => expect([clock(0), clock(66.9), clock(3700)]).toEqual(["0:00", "1:06", "1:01:40"]));
   it("keeps ticks apart", () => expect([tickEvery(60), tickEvery(1668)]).toEqual([10, 300]));
+});
+
+describe("the marks above the track", () => {
+  it("stand at their moments, and beside each other where they would lie over each other", () => {
+    expect(markerPlaces([40, 300, 305, 500])).toEqual([40, 300, 320, 500]);
+  });
+
+  it("are moved only so far: many at one moment do not end up elsewhere", () => {
+    expect(markerPlaces([100, 100, 100, 100])).toEqual([100, 120, 140, 140]);
+  });
 });

@@ -68,3 +68,17 @@ export function statusesAt(
 function endedAs({ status }: StepSpan): "done" | "failed" | "skipped" {
   return status === "failed" || status === "skipped" ? status : "done";
 }
+
+/** How wide a mark above the track is, with room beside it. */
+const MARK = 20;
+/** A mark is moved at most so many places from its moment. */
+const FARTHEST = 2 * MARK;
+
+/** Where marks stand above a track (pixels), in the order of time: at their moments, but not over each other. */
+export function markerPlaces(wanted: readonly number[]): number[] {
+  let before = -Infinity;
+  return wanted.map((at) => {
+    before = Math.min(Math.max(at, before + MARK), at + FARTHEST);
+    return before;
+  });
+}
