@@ -1,9 +1,11 @@
 /** The findings of a floor check on the map: their numbers where they are, and how wide the chosen one's way is. */
 import type { Device, FloorFinding, FloorRemedy, SiteMap } from "@/api/types";
 import { footprint } from "@/map/devices/device";
+import type { PixelPoint } from "@/map/plane/paths";
 import { toPixels, type Point } from "@/map/plane/projection";
 import styles from "./check.module.css";
 import { isError, keyOf, metres } from "./findingWords";
+import { markPlaces } from "./markPlaces";
 import type { FloorCheckView } from "./useFloorCheckView";
 
 const RADIUS = 11;
@@ -18,21 +20,35 @@ interface FloorCheckMarksProps {
 export function FloorCheckMarks({ map, devices, view }: FloorCheckMarksProps) {
   const { check, chosen, ghost } = view;
   if (!check) return null;
+  const wanted = check.findings.map(({ x, y }) => toPixels([x, y]));
+  const places = markPlaces(wanted, RADIUS * 2 + 2);
   return (
     <g aria-hidden="true" className={styles.marks}>
       {chosen ? <Width finding={chosen} /> : null}
       {ghost ? <Ghost map={map} devices={devices} remedy={ghost} /> : null}
       {check.findings.map((finding, index) => (
-        <Mark key={keyOf(finding)} finding={finding} number={index + 1} isChosen={finding === chosen} />
+        <Mark
+          key={keyOf(finding)}
+          at={places[index] ?? toPixels([finding.x, finding.y])}
+          isGrave={isError(finding)}
+          number={index + 1}
+          isChosen={finding === chosen}
+        />
       ))}
     </g>
   );
 }
 
-function Mark({ finding, number, isChosen }: { finding: FloorFinding; number: number; isChosen: boolean }) {
-  const { x, y } = toPixels([finding.x, finding.y]);
+interface MarkProps {
+  at: PixelPoint;
+  isGrave: boolean;
+  number: number;
+  isChosen: boolean;
+}
+
+function Mark({ at, isGrave, number, isChosen }: MarkProps) {
   return (
-    <g transform={`translate(${x} ${y})`} data-grave={isError(finding)} className={styles.mark}>
+    <g transform={`translate(${at.x} ${at.y})`} data-grave={isGrave} className={styles.mark}>
       {isChosen ? <circle r={RADIUS + 6} className={styles.ring} /> : null}
       <circle r={RADIUS} />
       <text textAnchor="middle" dominantBaseline="central">
