@@ -175,6 +175,9 @@ function paintText(canvas: Canvas, palette: Palette, text: string, at: { x: numb
   canvas.font = roomLabel(zoom);
   canvas.textAlign = "left";
   canvas.textBaseline = "alphabetic";
+  canvas.strokeStyle = palette.casing;
+  canvas.lineWidth = 4 / zoom;
+  canvas.strokeText(text, at.x, at.y);
   canvas.fillStyle = palette["text-3"];
   canvas.fillText(text, at.x, at.y);
 }
