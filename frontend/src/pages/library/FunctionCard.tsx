@@ -58,7 +58,7 @@ export function FunctionCard({ slug, item, chosen }: { slug: string; item: Libra
         <FitLine item={item} />
         <div className={styles.cardFoot}>
           <Avatar name={author || "VIPO"} size={20} />
-          <span>{item.site === slug ? author : [author, item.site].filter(Boolean).join(", ")}</span>
+          <span>{item.site === slug ? author || "VIPO" : [author, item.site].filter(Boolean).join(", ")}</span>
           <span className={styles.used}>
             <Workflow size={14} aria-hidden="true" />
             {t("library.programs", { count: item.used_in })}
