@@ -20,7 +20,8 @@ export function useStepWords(
     const titleOf = (id: string): string => {
       const step = document.steps[id];
       if (!step) return "";
-      const text = plainText(chipText(step, speaker));
+      // On the map a choice is a diamond with a sign in it; in a list its word is read.
+      const text = step.kind === "if" ? t("kind.if") : plainText(chipText(step, speaker));
       if (step.kind === "pick_and_drop") {
         const target = placeName(step.params.target as Parameters<typeof placeName>[0], speaker);
         return `${text} → ${target ?? "?"}`;
