@@ -57,8 +57,8 @@ export function FunctionCard({ slug, item, chosen }: { slug: string; item: Libra
         <p>{item.description}</p>
         <FitLine item={item} />
         <div className={styles.cardFoot}>
-          <Avatar name={author || "VIPO"} size={20} />
-          <span>{item.site === slug ? author || "VIPO" : [author, item.site].filter(Boolean).join(", ")}</span>
+          {author ? <Avatar name={author} size={20} /> : null}
+          <span>{[author, item.site === slug ? "" : item.site].filter(Boolean).join(", ")}</span>
           <span className={styles.used}>
             <Workflow size={14} aria-hidden="true" />
             {t("library.programs", { count: item.used_in })}
