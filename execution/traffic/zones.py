@@ -72,7 +72,7 @@ def kept_out(turn: Turn, robot: Robot) -> frozenset[int]:
     return shut_cells(turn.layout, _zones(turn, robot, "keep_out"))
 
 
-def zones_with_admission(zones: Iterable[FloorZone], now: float = 0.0) -> list[FloorZone]:
+def zones_with_admission(zones: Iterable[FloorZone], now: float) -> list[FloorZone]:
     """Return those of the zones that a person lets robots into one by one, and has not opened to all at this time."""
     return [zone for zone in zones if zone.rule == "release" and not zone.is_open(now)]
 
@@ -85,11 +85,11 @@ def closed_cells(turn: Turn, robot: Robot) -> frozenset[int]:
 
 
 def waiting_cells(layout: Layout, zones: Iterable[FloorZone], start: Node) -> frozenset[int]:
-    """Return the cells of those of the zones that people let robots into, but for zones where one is already."""
+    """Return the cells of those of the zones that people let robots into, opened or not, but for that of the start."""
     return frozenset(
         cell
-        for zone in zones_with_admission(zones)
-        if not is_in(layout, start, zone)
+        for zone in zones
+        if zone.rule == "release" and not is_in(layout, start, zone)
         for cell in cells_of(layout, zone)
     )
 

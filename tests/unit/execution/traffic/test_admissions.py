@@ -117,6 +117,18 @@ def test_a_robot_goes_round_a_zone_where_it_can_and_waits_for_nobody() -> None:
     assert not any(beside)
 
 
+def test_a_robot_goes_round_a_zone_whose_opening_is_over() -> None:
+    bench = ((8.0, -8.4), (9.0, -8.4), (9.0, -7.6), (8.0, -7.6))
+    floor = floor_with(replace(zone("release", bench), open_until=1.0), poses={"robot01": WEST})
+    wait(floor, 2)
+    go(floor, "r", EAST, "robot01")
+    beside: list[bool] = []
+    drive(floor, ("r", 1), look=lambda: beside.append(near(floor, "robot01", bench)))
+    assert floor.over["r", 1] == ("", "")
+    assert reasons(floor) == []
+    assert not any(beside)
+
+
 def test_who_does_not_come_in_for_a_minute_has_to_be_let_in_anew() -> None:
     floor = floor_with(CLOSED, poses=POSES)
     go(floor, "r", EAST, "robot01")
