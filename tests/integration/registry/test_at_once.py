@@ -405,3 +405,17 @@ def test_of_two_who_publish_one_name_at_once_one_is_told_to_take_another(url: st
     assert sorted(told(answers), key=str) == [(409, "name_taken"), 201]
     function = LibraryFunction.objects.get()
     assert (function.author, function.last_version) == (find_person(winner), 1)
+
+
+def test_a_zone_is_opened_while_an_admin_draws_it_anew_and_both_are_done(url: str) -> None:
+    zone = services.ZoneChange(name="Gate", rule="release", points=[(0.5, 0.5), (2.5, 0.5), (2.5, 1.5)])
+    services.add_zone(site="hall", zone=zone)
+    operator, admin = signed_in("operator"), signed_in("admin")
+    opened, drawn = press_together(
+        url,
+        "SELECT 1 FROM registry_sitezone FOR UPDATE",
+        lambda: operator.put(f"{SITE}/zones/gate/opening", {"minutes": 5}, content_type="application/json"),
+        lambda: admin.patch(f"{SITE}/zones/gate", {"name": "The gate"}, content_type="application/json"),
+    )
+    assert told([opened, drawn]) == [200, 200]
+    assert (drawn.json()["name"], drawn.json()["open_until"]) == ("The gate", opened.json()["open_until"])
