@@ -52,6 +52,7 @@ SENTENCES = {
     "no_text": "It is not text in UTF-8.",
     "no_yaml": "It is no YAML: {words}.",
     "plain_word": "A word before a colon must be plain text.",
+    "long_number": "A number has at most {most} characters. Write it shorter.",
     "twice": "“{word}” stands here twice; keep one of the two.",
     "faults_form": "Write the faults as {form}.",
     "faults_version": "The faults have the version {value}; this VIPO reads up to {version}.",

@@ -11,8 +11,11 @@ from vipo_device.protocol.texts import find_unfit
 MOST_BYTES: Final = 1_000_000
 MOST_NODES: Final = 50_000
 DEEPEST: Final = 20
+LONGEST_NUMBER: Final = 40
+"""Characters of a number; YAML knows forms that longer ones would take minutes in."""
 Path = tuple[str | int, ...]
 _PLAIN: Final = frozenset(f"tag:yaml.org,2002:{kind}" for kind in ("str", "int", "float", "bool", "null"))
+_NUMBERS: Final = frozenset(("tag:yaml.org,2002:int", "tag:yaml.org,2002:float"))
 
 
 class BadTrialFile(Exception):
@@ -77,6 +80,9 @@ def _plain(loader: _Loader, node: yaml.Node, path: Path, lines: dict[Path, int])
     _refuse_unfit(node)
     if node.tag not in _PLAIN:
         return str(node.value)  # a date, and whatever else YAML would make of a text
+    if node.tag in _NUMBERS and len(node.value) > LONGEST_NUMBER:
+        line = node.start_mark.line + 1
+        raise BadTrialFile(line, f"A number has at most {LONGEST_NUMBER} characters. Write it shorter.")
     return loader.construct_object(node)
 
 
