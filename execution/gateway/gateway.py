@@ -148,7 +148,8 @@ class Gateway:
         """Count a message that was not taken; the worker writes it into the device's history."""
         note_complaint(device, reason, facts)
         _count("mqtt_messages_refused", reason.partition(":")[0], REASONS)
-        others = self.complaints.count(device, reason, time.monotonic())
+        kind = tuple((each["code"], each.get("path")) for each in facts.get("faults", ()))
+        others = self.complaints.count(device, reason, time.monotonic(), kind)
         if others is not None:
             line = with_others(reason, others)
             log.warning("Device %s: %s", device, line)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import Counter, OrderedDict, deque
+from collections.abc import Hashable
 from dataclasses import dataclass, field
 from time import monotonic
 
@@ -126,13 +127,16 @@ class Complaints:
         others = self.count(device, reason, now)
         return None if others is None else with_others(reason, others)
 
-    def count(self, device: str, reason: str, now: float) -> int | None:
-        """Count one more; where a line is due, return how many others it stands for. The same is due once a minute."""
+    def count(self, device: str, reason: str, now: float, kind: Hashable = None) -> int | None:
+        """Count one more; where a line is due, return how many others it stands for. The same is due once a minute.
+
+        Reasons that differ in figures alone are the same if they have the same `kind`.
+        """
         self.counts[reason.split(":", 1)[0]] += 1
         self.waiting[device] += 1
         with self._guard:
             self._dropped[device] += 1
-        said = (device, hash(reason))
+        said = (device, hash(kind or reason))
         if now - self._written_at.get(said, -COMPLAINT_EVERY_S) < COMPLAINT_EVERY_S:
             return None
         if not self._lines_of(device, now).take(now):
@@ -141,7 +145,7 @@ class Complaints:
         self._written_at.move_to_end(said)
         if len(self._written_at) > KNOWN_DEVICES:
             self._written_at.popitem(last=False)
-        return self.waiting.pop(device) - 1
+        return self.waiting.pop(device, 1) - 1  # another thread may write a line just now, too
 
     def _lines_of(self, device: str, now: float) -> TokenBucket:
         """Return what keeps a device from filling its history."""

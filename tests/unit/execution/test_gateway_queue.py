@@ -69,6 +69,14 @@ def test_each_other_complaint_is_written_too_but_does_not_fill_the_history() -> 
     assert [complaints.add("a", f"x: {number}", 64.0) for number in range(3)] == [None] * 3
 
 
+def test_complaints_of_one_kind_that_differ_in_figures_alone_are_one_complaint() -> None:
+    complaints = Complaints()
+    said = [complaints.count("a", f"state {number} is old", float(number), ("old_state",)) for number in range(20)]
+    assert [others is not None for others in said] == [True] + [False] * 19
+    assert complaints.count("a", "no description", 20.0, ("markup",)) == 19
+    assert complaints.count("a", "state 60 is old", 60.0, ("old_state",)) == 0
+
+
 def test_complaints_are_counted_and_written_once_a_minute() -> None:
     complaints = Complaints()
     assert complaints.add("a", "ack: not JSON", 0.0) == "ack: not JSON"
