@@ -73,8 +73,11 @@ class FloorCheck:
     zones: tuple[ZoneWidth, ...]
 
 
-def check_floor(grid: Grid, layout: Layout, places: Iterable[PlaceFacts]) -> FloorCheck:
-    """Check a floor as it is laid out for its widest robot. The places are those of the layout; rooms do not count."""
+def check_floor(grid: Grid, layout: Layout, places: Iterable[PlaceFacts], *, with_widths: bool = True) -> FloorCheck:
+    """Check a floor as it is laid out for its widest robot. The places are those of the layout; rooms do not count.
+
+    Without `with_widths` nothing is said of how wide zones are.
+    """
     stops = {place.id: place for place in places if place.kind != "room"}
     machines = {device.id: device for device in layout.devices.values() if device.kind == "machine"}
     spots = {**layout.stations, **{name: spot for name, spot in layout.places.items() if name in stops}}
@@ -90,7 +93,7 @@ def check_floor(grid: Grid, layout: Layout, places: Iterable[PlaceFacts]) -> Flo
         (len(set(machines) - kept_out), len(machines)),
         (len(set(stops) - kept_out), len(stops)),
         tuple(sorted(findings, key=lambda found: _ORDER.index(found.code))),
-        tuple(_widths(grid, layout)),
+        tuple(_widths(grid, layout)) if with_widths else (),
     )
 
 

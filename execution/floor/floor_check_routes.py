@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, replace
 from time import thread_time
 from typing import Any, NamedTuple
+from weakref import ref
 
 from django.http import HttpRequest
 from ninja import Query, Router, Schema
@@ -19,7 +20,7 @@ from execution.floor.remedies import CheckedFloor, find_remedies
 from execution.traffic.layout import DEFAULT_RADIUS_M, Layout, make_layout
 from registry import services as registry
 from registry.floorplan.plan import Grid
-from registry.requests import signed_in
+from registry.requests import refuses, signed_in
 from vipo_device.protocol.description import Description, Pose, Size
 
 router = Router(tags=["execution"])
@@ -27,14 +28,14 @@ LEAST_WIDTH_M, MOST_WIDTH_M = 0.1, 3.0
 PATIENCE_S = 5.0
 KEPT = 64
 """So many checks are kept, of all sites."""
-check_places = registry.Places(in_all=2, of_site=2, of_person=1, most_waiting=1)
-"""Floors that are checked at once."""
+check_places = registry.Places(in_all=3, of_site=2, of_person=2, most_waiting=1)
+"""Floors that are checked at once: a screen asks for the site's width and for another one."""
 remedy_places = registry.Places(in_all=1, of_site=1, of_person=1, most_waiting=1)
 """Searches for remedies at once: one takes the time of many checks, and keeps nobody from those."""
 MOST_SEARCHED_S = 4.0
 """So much of a processor's time a search may take before its last trial."""
-_kept: dict[tuple[str, float | None], tuple[Layout, FloorCheck]] = {}
-"""Checks of sites by width, with the site's own layout at that time; not that of the width, which may be large."""
+_kept: dict[tuple[str, float | None], tuple[ref[Layout], FloorCheck]] = {}
+"""Checks of sites by width, with the site's own layout at that time, which may be large and so is not kept by this."""
 
 
 class _Floor(NamedTuple):
@@ -147,7 +148,7 @@ def get_floor_check(request: HttpRequest, site: str, asked: Query[AskFloorCheck]
     return _to_json(check, registry.get_map(site=site).version, robot)
 
 
-@router.get("/sites/{slug:site}/floor-check/remedies", response=list[RemedyShape])
+@router.get("/sites/{slug:site}/floor-check/remedies", response=list[RemedyShape], openapi_extra=refuses(409))
 def list_remedies(request: HttpRequest, site: str, asked: Query[AskRemedies]) -> list[dict[str, Any]]:
     """Return moves of a place or machine that would mend a finding, the smallest first.
 
@@ -177,16 +178,16 @@ def _key(finding: Finding) -> tuple[str, str, str | None]:
 def _check(site: str, floor: _Floor, width_m: float | None) -> FloorCheck:
     """Return what is found on a site's floor for robots so wide."""
     kept = _kept.get((site, width_m))
-    if kept is None or kept[0] is not floor.layout:
+    if kept is None or kept[0]() is not floor.layout:
         found = check_floor(floor.grid, _for_width(floor, width_m), floor.places)
         kept = _keep(site, width_m, floor.layout, found)
     return kept[1]
 
 
-def _keep(site: str, width_m: float | None, layout: Layout, found: FloorCheck) -> tuple[Layout, FloorCheck]:
+def _keep(site: str, width_m: float | None, layout: Layout, found: FloorCheck) -> tuple[ref[Layout], FloorCheck]:
     if len(_kept) >= KEPT:
         _kept.clear()
-    kept = _kept[site, width_m] = (layout, found)
+    kept = _kept[site, width_m] = (ref(layout), found)
     return kept
 
 

@@ -176,7 +176,7 @@ def _leads_straight(ground: Ground, start: Point, end: Point) -> bool:
 
 def _check_with_place(moved: PlaceFacts, floor: CheckedFloor) -> FloorCheck:
     places = tuple(moved if each.id == moved.id else each for each in floor.places)
-    return check_floor(floor.grid, floor.layout.with_place(moved), places)
+    return check_floor(floor.grid, floor.layout.with_place(moved), places, with_widths=False)
 
 
 def _movable_machines(floor: CheckedFloor, finding: Finding) -> Iterator[tuple[Description, tuple[Point, ...]]]:
@@ -224,7 +224,7 @@ def _put(search: _Search, machine: Description, directions: tuple[Point, ...]) -
 def _check_with_machine(moved: Description, floor: CheckedFloor) -> FloorCheck:
     devices = [moved if device.id == moved.id else device for device in floor.layout.devices.values()]
     layout = make_layout(floor.grid, devices, floor.places, floor.layout.zones)
-    return check_floor(floor.grid, replace(layout, bodies=floor.layout.bodies), floor.places)
+    return check_floor(floor.grid, replace(layout, bodies=floor.layout.bodies), floor.places, with_widths=False)
 
 
 class _Room:

@@ -173,18 +173,28 @@ def width_through(grid: Grid, ground: Ground, outline: Outline) -> float | None:
 
     None where it has no two openings, or no way through that a robot of the ground's radius fits on. Metres.
     """
-    inside = cells_touched(grid, outline)
-    fits = inside & (ground.clearance_m >= ground.radius_m)
-    beyond = ~inside & (ground.clearance_m >= ground.radius_m)
+    touched = cells_touched(grid, outline)
+    box = _box_around(touched)
+    inside, clearance_m = touched[box], ground.clearance_m[box]
+    fits = inside & (clearance_m >= ground.radius_m)
+    beyond = ~inside & (clearance_m >= ground.radius_m)
     openings, count = ndimage.label(fits & ndimage.binary_dilation(beyond))
     rims = [np.nonzero(openings == number) for number in range(1, min(count, MOST_OPENINGS) + 1)]
     if len(rims) < 2 or not _joins_all(fits, rims):
         return None
-    low, high = ground.radius_m, float(ground.clearance_m[fits].max())
+    low, high = ground.radius_m, float(clearance_m[fits].max())
     while high - low > grid.resolution_m / 8:
         middle = (low + high) / 2
-        low, high = (middle, high) if _joins_all(fits & (ground.clearance_m >= middle), rims) else (low, middle)
+        low, high = (middle, high) if _joins_all(fits & (clearance_m >= middle), rims) else (low, middle)
     return round(2 * low, 3)
+
+
+def _box_around(cells: Cells) -> tuple[slice, slice]:
+    """Return the box of the cells that hold, with one more on each side."""
+    rows, columns = np.flatnonzero(cells.any(axis=1)), np.flatnonzero(cells.any(axis=0))
+    if not rows.size:
+        return slice(0), slice(0)
+    return slice(max(0, rows[0] - 1), rows[-1] + 2), slice(max(0, columns[0] - 1), columns[-1] + 2)
 
 
 def _joins_all(cells: Cells, rims: Sequence[tuple[NDArray[np.int64], ...]]) -> bool:

@@ -37,7 +37,8 @@ export function ZonesPanel({ slug, map, editing }: ZonesPanelProps) {
     if (!isThere) setRemoving(null); // whoever has removed it
   }, [isThere]);
   const costs = useZoneCosts(slug, map.zones).data ?? [];
-  const widths = useFloorCheck(slug, map, useDevices(slug).data ?? [], { enabled: costs.length > 0 }).data?.zones ?? [];
+  const widths =
+    useFloorCheck(slug, map, useDevices(slug).data ?? [], { enabled: costs.length > 0 && !editing }).data?.zones ?? [];
   const uses = useFloorUse(slug, { enabled: costs.length > 0 }).data?.zones ?? [];
   return (
     <section aria-labelledby="zones">
