@@ -35,7 +35,7 @@ export interface SeenMap {
   readonly isNearer: boolean;
   readonly report: (fitted: Fitted) => void;
   readonly surface: RefObject<SVGSVGElement | null>;
-  readonly pointer: SVGProps<SVGSVGElement>;
+  readonly handlers: SVGProps<SVGSVGElement>;
 }
 
 export interface StaticMapProps {
@@ -86,7 +86,7 @@ export function StaticMap(props: StaticMapProps) {
         ref={seen?.surface}
         className={classes.still}
         data-nearer={seen?.isNearer || undefined}
-        {...seen?.pointer}
+        {...seen?.handlers}
         aria-hidden={props.onSelect || props.children ? undefined : true}
       >
         <g transform={`translate(${view.x} ${view.y}) scale(${view.zoom})`}>

@@ -77,3 +77,30 @@ def test_a_length_is_the_same_from_nearer(sign_in: SignIn) -> None:
     oven_m = 2.7
     assert metres == pytest.approx(100 * oven_m / near, abs=0.35)
     assert near > 1.5 * width
+
+
+def test_what_is_seen_from_nearer_is_moved_by_keys_and_what_has_the_focus_is_seen(sign_in: SignIn) -> None:
+    page = sign_in("author", MAP)
+    nearer = page.get_by_role("button", name="Nearer")
+    nearer.focus()
+    for _ in range(6):
+        page.keyboard.press("Enter")
+    floor = page.get_by_role("group", name="Map, moved by arrow keys")
+    expect(floor).to_be_visible()
+    assert violations(page) == []
+    x, y, _ = box_of(page)
+    floor.focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowUp")
+    moved_x, moved_y, _ = box_of(page)
+    assert (moved_x - x, moved_y - y) == pytest.approx((-60, 60), abs=2)
+    for name in (OVEN, "Item Inventory"):
+        page.get_by_role("button", name=name, exact=True).focus()
+        pane = floor.bounding_box()
+        box = page.get_by_role("button", name=name, exact=True).bounding_box()
+        assert pane is not None
+        assert box is not None
+        assert pane["x"] <= box["x"] + box["width"] / 2 <= pane["x"] + pane["width"]
+        assert pane["y"] <= box["y"] + box["height"] / 2 <= pane["y"] + pane["height"]
+    page.get_by_role("button", name="The whole map").press("Enter")
+    expect(floor).to_have_count(0)

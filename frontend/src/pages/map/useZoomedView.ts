@@ -1,17 +1,27 @@
-/** The view of a map that fits its pane until somebody zooms: by wheel, buttons or, once nearer, by dragging it. */
-import { type PointerEvent, useRef, useState } from "react";
+/** The view of a map that fits its pane until somebody zooms, by wheel or buttons; once nearer, drags and keys move it. */
+import { type FocusEvent, type KeyboardEvent, type PointerEvent, useRef, useState } from "react";
+import { useTranslation } from "react-i18next";
 import type { Viewport } from "@/map/plane/projection";
 import { useWheelZoom } from "@/map/plane/useWheelZoom";
 import type { Fitted } from "@/map/StaticMap";
 import { kept, zoomedAt } from "./zoomed";
 
 const STEP = 1.4;
+/** How far (pixels) an arrow key moves a map that is seen from nearer. */
+const BY_KEY = 60;
+const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowLeft: [1, 0],
+  ArrowRight: [-1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
 /** Until it is known how the map fits. */
 const WHOLE: Viewport = { x: 0, y: 0, zoom: 1 };
 
 export type ZoomedView = ReturnType<typeof useZoomedView>;
 
 export function useZoomedView() {
+  const { t } = useTranslation();
   const surface = useRef<SVGSVGElement>(null);
   const [fitted, report] = useState<Fitted | null>(null);
   const [own, setOwn] = useState<{ view: Viewport; fit: Viewport } | null>(null);
@@ -28,7 +38,7 @@ export function useZoomedView() {
     return true;
   });
 
-  const held = useRef<{ pointer: number; x: number; y: number } | null>(null);
+  const held = useRef<{ pointer: number; x: number; y: number; from: Viewport } | null>(null);
   const isNearer = view !== fit;
   /** The floor itself is taken by the main button, everything by the middle one. */
   const grab = (event: PointerEvent<SVGSVGElement>) => {
@@ -37,16 +47,31 @@ export function useZoomedView() {
     event.preventDefault();
     event.stopPropagation();
     event.currentTarget.setPointerCapture(event.pointerId);
-    held.current = { pointer: event.pointerId, x: event.clientX, y: event.clientY };
+    held.current = { pointer: event.pointerId, x: event.clientX, y: event.clientY, from: view };
   };
   const drag = (event: PointerEvent<SVGSVGElement>) => {
     const { current } = held;
     if (current?.pointer !== event.pointerId) return;
-    put({ ...view, x: view.x + event.clientX - current.x, y: view.y + event.clientY - current.y });
-    held.current = { pointer: event.pointerId, x: event.clientX, y: event.clientY };
+    const { from, x, y } = current;
+    put({ ...from, x: from.x + event.clientX - x, y: from.y + event.clientY - y });
   };
   const drop = () => {
     held.current = null;
+  };
+  const pan = (event: KeyboardEvent<SVGSVGElement>) => {
+    const way = ARROWS[event.key];
+    if (!isNearer || !way || event.target !== event.currentTarget) return;
+    event.preventDefault();
+    put({ ...view, x: view.x + way[0] * BY_KEY, y: view.y + way[1] * BY_KEY });
+  };
+  /** What has the focus is seen. */
+  const follow = (event: FocusEvent<SVGSVGElement>) => {
+    if (!isNearer || event.target === event.currentTarget) return;
+    const pane = event.currentTarget.getBoundingClientRect();
+    const box = event.target.getBoundingClientRect();
+    const [x, y] = [box.x + box.width / 2 - pane.x, box.y + box.height / 2 - pane.y];
+    const isSeen = x >= 0 && y >= 0 && x <= pane.width && y <= pane.height;
+    if (!isSeen) put({ ...view, x: view.x + pane.width / 2 - x, y: view.y + pane.height / 2 - y });
   };
   return {
     surface,
@@ -57,7 +82,11 @@ export function useZoomedView() {
     zoomIn: () => zoomAt(STEP),
     zoomOut: () => zoomAt(1 / STEP),
     fit: () => setOwn(null),
-    pointer: {
+    /** What the map’s drawing hears and is called. */
+    handlers: {
+      ...(isNearer && { tabIndex: 0, role: "group", "aria-label": t("pages.map.zoom.moved") }),
+      onKeyDown: pan,
+      onFocus: follow,
       onPointerDownCapture: grab,
       onPointerMove: drag,
       onPointerUp: drop,
