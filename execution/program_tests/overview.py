@@ -17,7 +17,7 @@ from execution.program_tests.site_digests import Digests, digests_of, what_chang
 from execution.program_tests.stored_tests import MOST_TESTS, tag_of
 from execution.reasons import cause_of
 from execution.rehearsals.rehearsals import HEAVY
-from execution.trials.coverage import Way, coverage_to_json
+from execution.trials.coverage import ProgramPath, coverage_to_json
 from execution.trials.refusals import cause_of_refusal
 
 MOST_RUNS = 500
@@ -185,7 +185,7 @@ def _coverage(program: UUID, results: Sequence[Key], digest: str) -> dict[str, A
     chosen = _newest(each for each in results if each[2] == run.digest).values()
     found = list(TrialResult.objects.filter(pk__in=list(chosen)).values_list("taken", flat=True))
     taken = Counter((step, name) for each in found for step, name in each)
-    ways = [Way(each["step"], each["line"], each["name"]) for each in run.ways]
+    ways = [ProgramPath(each["step"], each["line"], each["name"]) for each in run.ways]
     constructs = [{key: each[key] for key in ("step", "line", "ways")} for each in coverage_to_json(ways, taken, {})]
     return {"stale": run.digest != digest, "tests": len(found), "constructs": constructs}
 

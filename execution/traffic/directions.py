@@ -13,8 +13,8 @@ from registry.floorplan.lattice import Lattice, Point
 ACROSS = 0.1
 """A way whose angle to a zone's direction has a cosine nearer to 0 than this leads across it, not against it: up to
 5 degrees from a right angle."""
-Way = tuple[int, int]
-"""From a cell to its neighbour."""
+Edge = tuple[int, int]
+"""Of the lattice: from a cell to its neighbour."""
 
 
 def _is_against(zone: FloorZone, start: Point, end: Point) -> bool:
@@ -26,8 +26,8 @@ def _is_against(zone: FloorZone, start: Point, end: Point) -> bool:
     return along < -ACROSS * hypot(x, y) and touches_way(zone.points, start, end, 0.0)
 
 
-def ways_against(lattice: Lattice, zones: Iterable[FloorZone]) -> frozenset[Way]:
-    """Return the ways to neighbouring cells that one-way zones shut."""
+def edges_against(lattice: Lattice, zones: Iterable[FloorZone]) -> frozenset[Edge]:
+    """Return the edges, from cells to their neighbours, that one-way zones shut."""
     return frozenset(
         (cell, neighbour)
         for zone in zones

@@ -12,7 +12,7 @@ from math import sqrt
 
 from editor.language.site.surroundings import PlaceFacts
 from execution.machine.floor_task import Target
-from execution.traffic.directions import Way, preferred_cells, ways_against
+from execution.traffic.directions import Edge, edges_against, preferred_cells
 from execution.traffic.messages import FloorZone
 from registry.floorplan.lattice import SIDE_M, STANDING_MARGIN_M, Ground, Lattice, Point, attach, make_lattice
 from registry.floorplan.plan import FloorPlan, Grid, stations
@@ -86,13 +86,13 @@ class Layout:
         return "" if is_usual else lattice.mark
 
     @cached_property
-    def against(self) -> frozenset[Way]:
-        """The ways from cell to cell that no robot drives, since they lead against a one-way zone of the floor."""
-        return ways_against(self.lattice, self.zones)
+    def against(self) -> frozenset[Edge]:
+        """The edges from cell to cell that no robot drives, since they lead against a one-way zone of the floor."""
+        return edges_against(self.lattice, self.zones)
 
     @cached_property
-    def against_backwards(self) -> frozenset[Way]:
-        """The same ways from their ends: for who looks from a goal for those who can come to it."""
+    def against_backwards(self) -> frozenset[Edge]:
+        """The same edges from their ends: for who looks from a goal for those who can come to it."""
         return frozenset((end, start) for start, end in self.against)
 
     @cached_property
@@ -101,7 +101,7 @@ class Layout:
         return preferred_cells(self.lattice, self.zones)
 
     def is_against(self, start: Node, end: Node) -> bool:
-        """Tell whether a way leads against a one-way zone; the last step between a cell and a spot is not judged."""
+        """Tell whether an edge leads against a one-way zone; the last step between a cell and a spot is not judged."""
         return isinstance(start, int) and isinstance(end, int) and (start, end) in self.against
 
     def name(self, thing: str) -> str:

@@ -61,7 +61,7 @@ def run_tests(job: Mapping[str, Any]) -> dict[str, Any]:
         told, outcome = _run(test["text"], subject, follower, seeds)
         found.append({"test": test["id"], "revision": test["revision"], **told})
         outcomes += [outcome] if outcome else []
-    answer: dict[str, Any] = {"tests": found, "ways": [asdict(way) for way in Coverage(plan).ways]}
+    answer: dict[str, Any] = {"tests": found, "ways": [asdict(path) for path in Coverage(plan).paths]}
     if most:
         all_pass = len(outcomes) == len(found) and all(outcome.ok for outcome in outcomes)
         tried = _try(chosen, subject, outcomes, follower) if all_pass else []

@@ -1,4 +1,4 @@
-"""Which ways through a program were taken: branches, catches, time limits, loops; as data for each construct; pure."""
+"""Which paths through a program were taken: branches, catches, time limits, loops; as data for each construct; pure."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ REACHED = "reached"
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
-    """A way through a construct: `step` is its id, `line` that of the script, `name` says which way.
+class ProgramPath:
+    """A path through a construct: `step` is its id, `line` that of the script, `name` says which path.
 
     Names: `reached`, `true` and `false` of a condition, `none`, `one` and `many` of a loop's rounds, `catch` with the
     kinds that it takes, `limit` of a time limit, `time out` of a wait or question, `fires` of an event.
@@ -28,10 +28,10 @@ class Way:
 
 
 class Coverage:
-    """Counts for one plan how often each way was taken; an observer of rehearsals (`Observer`)."""
+    """Counts for one plan how often each path was taken; an observer of rehearsals (`Observer`)."""
 
     def __init__(self, plan: p.Plan) -> None:
-        self.ways = _each_once(_ways(plan))
+        self.paths = _each_once(_paths(plan))
         self.taken: Counter[tuple[str, str]] = Counter()
         self._plan = plan
         self._loops = {i for i in range(len(plan.instructions)) if _is_loop(plan, i)}
@@ -44,7 +44,7 @@ class Coverage:
     def carried(self, thread: int, at: int, to: int) -> None:
         """Take in an instruction and where its thread goes on."""
         instruction = self._plan.instructions[at]
-        came_by_itself = self._goes_to.get(thread) == at  # an empty catch begins where the way without it goes on
+        came_by_itself = self._goes_to.get(thread) == at  # an empty catch begins where the path without it goes on
         self._goes_to[thread] = to
         for step, name in () if came_by_itself else self._catches.get(at, ()):
             self.taken[step, name] += 1
@@ -77,51 +77,53 @@ class Coverage:
         self.taken[self._plan.instructions[at].step, ROUNDS[min(rounds, 2)]] += 1
 
 
-def missed(ways: Iterable[Way], taken: Mapping[tuple[str, str], int]) -> list[Way]:
-    """Return the ways that were never taken; of a step that was never reached, that alone."""
-    ways = list(ways)
-    unreached = {w.step for w in ways if w.name == REACHED and not taken.get((w.step, REACHED))}
+def missed(paths: Iterable[ProgramPath], taken: Mapping[tuple[str, str], int]) -> list[ProgramPath]:
+    """Return the paths that were never taken; of a step that was never reached, that alone."""
+    paths = list(paths)
+    unreached = {each.step for each in paths if each.name == REACHED and not taken.get((each.step, REACHED))}
     return [
-        w for w in ways if not taken.get((w.step, w.name)) and (w.step not in unreached or w.name == REACHED)
-    ]  # fmt: skip
+        each
+        for each in paths
+        if not taken.get((each.step, each.name)) and (each.step not in unreached or each.name == REACHED)
+    ]
 
 
 def coverage_to_json(
-    ways: Iterable[Way], taken: Mapping[tuple[str, str], int], numbers: Mapping[str, str]
+    paths: Iterable[ProgramPath], taken: Mapping[tuple[str, str], int], numbers: Mapping[str, str]
 ) -> list[dict[str, Any]]:
-    """Return for each construct its number, line and how often each of its ways was taken."""
+    """Return for each construct its number, line and how often each of its paths was taken."""
     found: dict[str, dict[str, Any]] = {}
-    for way in ways:
-        number = numbers.get(way.step, "")
-        entry = found.setdefault(way.step, {"step": way.step, "number": number, "line": way.line, "ways": {}})
-        entry["ways"][way.name] = taken.get((way.step, way.name), 0)
+    for path in paths:
+        number = numbers.get(path.step, "")
+        entry = found.setdefault(path.step, {"step": path.step, "number": number, "line": path.line, "ways": {}})
+        entry["ways"][path.name] = taken.get((path.step, path.name), 0)
     return list(found.values())
 
 
-def _each_once(ways: Iterable[Way]) -> tuple[Way, ...]:
-    """Return each way with the first line on which it stands: a step may have several."""
-    found: dict[tuple[str, str], Way] = {}
-    for way in ways:
-        found.setdefault((way.step, way.name), way)
+def _each_once(paths: Iterable[ProgramPath]) -> tuple[ProgramPath, ...]:
+    """Return each path with the first line on which it stands: a step may have several."""
+    found: dict[tuple[str, str], ProgramPath] = {}
+    for path in paths:
+        found.setdefault((path.step, path.name), path)
     return tuple(found.values())
 
 
-def _ways(plan: p.Plan) -> Iterable[Way]:
+def _paths(plan: p.Plan) -> Iterable[ProgramPath]:
     catches = _catches(plan)
     names = {step: [n for found in catches.values() for s, n in found if s == step] for step in _steps_of(plan)}
     for index, instruction in enumerate(plan.instructions):
         step, line = instruction.step, instruction.line
         for entered in (*instruction.enters, *((step,) if step else ())):
-            yield Way(entered, line, REACHED)
+            yield ProgramPath(entered, line, REACHED)
         if isinstance(instruction.do, p.Branch) and step:
             rounds = _possible_rounds(plan, index) if _is_loop(plan, index) else ("true", "false")
-            yield from (Way(step, line, name) for name in rounds)
+            yield from (ProgramPath(step, line, name) for name in rounds)
         elif isinstance(instruction.do, p.TryBegin) and step:
-            yield from (Way(step, line, name) for name in names[step])
-        elif (name := _time_way(instruction.do)) and step:
-            yield Way(step, line, name)
+            yield from (ProgramPath(step, line, name) for name in names[step])
+        elif (name := _time_path(instruction.do)) and step:
+            yield ProgramPath(step, line, name)
     for event in plan.events:
-        yield Way(event.step, plan.instructions[event.entry].line, "fires")
+        yield ProgramPath(event.step, plan.instructions[event.entry].line, "fires")
 
 
 def _steps_of(plan: p.Plan) -> set[str]:
@@ -170,7 +172,7 @@ def _assigned(plan: p.Plan, at: int, name: str) -> Expression | None:
 
 
 def _catches(plan: p.Plan) -> dict[int, list[tuple[str, str]]]:
-    """Return for each address where a catch begins its step and the name of the way."""
+    """Return for each address where a catch begins its step and the name of the path."""
     found: dict[int, list[tuple[str, str]]] = {}
     for instruction in plan.instructions:
         do = instruction.do
@@ -181,10 +183,10 @@ def _catches(plan: p.Plan) -> dict[int, list[tuple[str, str]]]:
 
 
 def _timed(plan: p.Plan) -> dict[str, str]:
-    return {i.step: name for i in plan.instructions if i.step and (name := _time_way(i.do))}
+    return {i.step: name for i in plan.instructions if i.step and (name := _time_path(i.do))}
 
 
-def _time_way(do: p.Action) -> str:
+def _time_path(do: p.Action) -> str:
     if isinstance(do, p.LimitBegin):
         return "limit"
     return "time out" if isinstance(do, p.WaitUntil | p.AskPerson) and do.timeout_s is not None else ""

@@ -85,8 +85,8 @@ def _leave_out(ground: Ground, point: Point) -> None:
     ground.frontier[rows[near], columns[near]] = False
 
 
-class Ways:
-    """The cheapest ways from one place to all others: metres, a metre close to walls counting more."""
+class Paths:
+    """The cheapest paths from one place to all others: metres, a metre close to walls counting more."""
 
     def __init__(self, ground: Ground, start: Point) -> None:
         self.ground = ground
@@ -146,9 +146,9 @@ class Ways:
         return self.path_to(row, column) if np.isfinite(self.cost[row, column]) else ()
 
 
-def choose_goal(ways: Ways, radius_m: float) -> Goal | None:
+def choose_goal(paths: Paths, radius_m: float) -> Goal | None:
     """Return the frontier that is worth its way most, long ones counting for less way; None when all are seen."""
-    ground = ways.ground
+    ground = paths.ground
     labels, count = ndimage.label(ground.frontier, _EVERYWHERE)
     if not count:
         return None
@@ -159,15 +159,15 @@ def choose_goal(ways: Ways, radius_m: float) -> Goal | None:
     if not seen.any():
         return None
     away, (rows, columns) = ndimage.distance_transform_edt(~seen, return_indices=True)
-    stands = np.isfinite(ways.cost) & (away * ground.side_m <= radius_m + LOOK_M)
+    stands = np.isfinite(paths.cost) & (away * ground.side_m <= radius_m + LOOK_M)
     at_rows, at_columns = np.nonzero(stands)
     if not at_rows.size:
         return None
     label = labels[rows[stands], columns[stands]]
     gain = np.minimum(sizes[label] * ground.side_m, 3.0)
-    price = ways.cost[stands] + away[stands] * ground.side_m - 0.5 * gain
+    price = paths.cost[stands] + away[stands] * ground.side_m - 0.5 * gain
     best = int(np.argmin(price))
-    path = ways.path_to(int(at_rows[best]), int(at_columns[best]))
+    path = paths.path_to(int(at_rows[best]), int(at_columns[best]))
     frontier = ground.centres(*np.nonzero(labels == label[best]))
     near = np.hypot(frontier[:, 0] - path[-1][0], frontier[:, 1] - path[-1][1]) < radius_m + LOOK_M + 1.0
     return Goal(path, frontier[near])

@@ -10,7 +10,7 @@ import numpy as np
 
 from registry.floorplan.plan import Grid
 from simulation.actors.follower import wrapped
-from simulation.mapping.exploration import Goal, Point, Ways, choose_goal, is_near, survey_ground
+from simulation.mapping.exploration import Goal, Paths, Point, choose_goal, is_near, survey_ground
 from simulation.mapping.occupancy import SURE_FREE, SURE_WALL, Floats, OccupancyMap, read_scan
 from simulation.mapping.odometry import moved
 from simulation.mapping.scan_matching import Trust, match
@@ -151,11 +151,11 @@ class MapMaker:
     def _plan(self) -> _Course | None:
         """Return the way to the next frontier, then home; None when all is over."""
         ground = survey_ground(self.occupancy, self.robot.radius_m, self.given_up)
-        ways = Ways(ground, (self.pose.x, self.pose.y))
-        goal = choose_goal(ways, self.robot.radius_m) if self.state == "exploring" else None
+        paths = Paths(ground, (self.pose.x, self.pose.y))
+        goal = choose_goal(paths, self.robot.radius_m) if self.state == "exploring" else None
         if goal is not None:
             return _Course(list(goal.path), goal)
-        path = () if self.state == "done" else ways.path_home((self.start.x, self.start.y))
+        path = () if self.state == "done" else paths.path_home((self.start.x, self.start.y))
         if not path or is_near(self.pose, (self.start.x, self.start.y), THERE_M):
             self.state = "done"
             return None

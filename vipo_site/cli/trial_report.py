@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from execution.trials.coverage import REACHED, Way, coverage_to_json
+from execution.trials.coverage import REACHED, ProgramPath, coverage_to_json
 from execution.trials.junit import is_passed
 from execution.trials.mutation import Mutation
 from execution.trials.odds import Odds
@@ -27,9 +27,9 @@ class Tested:
     program: str
     subject: Subject
     files: tuple[tuple[str, tuple[Outcome, ...]], ...]
-    ways: tuple[Way, ...]
+    ways: tuple[ProgramPath, ...]
     taken: Mapping[tuple[str, str], int]
-    missed: tuple[Way, ...]
+    missed: tuple[ProgramPath, ...]
     odds: Mapping[tuple[str, str], Odds]
     mutations: Sequence[Mutation] | None
     mutants: int

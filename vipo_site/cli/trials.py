@@ -124,7 +124,7 @@ def _tested(group: Sequence[_Of], options: argparse.Namespace) -> Tested:
     for outcome in outcomes:
         for way in {way for way, count in outcome.coverage.taken.items() if count}:
             taken[way] = taken.get(way, 0) + 1
-    ways = outcomes[0].coverage.ways
+    ways = outcomes[0].coverage.paths
     files = tuple((str(suite.path), tuple(of_suite)) for suite, of_suite in group)
     found, there_are = _mutations(subject, outcomes, options)
     odds = _odds(group, options.seeds)

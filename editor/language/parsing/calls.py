@@ -67,8 +67,8 @@ _UNWRITTEN: Mapping[FieldType, object] = {"place": e.NOWHERE, "route": (), "valu
 
 
 @dataclass(frozen=True, slots=True)
-class _Way:
-    """One way to write a call, with the class of its node and what is read for each of its attributes."""
+class _CallForm:
+    """One form in which a call is written, with the class of its node and what is read for each of its attributes."""
 
     call: ScriptCall
     node: type[Any]
@@ -110,35 +110,35 @@ class _Way:
         return None
 
 
-def _way(name: str, call: ScriptCall) -> _Way:
+def _call_form(name: str, call: ScriptCall) -> _CallForm:
     form = FORMS[name][1]
     keywords = {key: field.name for key, field in call.keywords}
     needed = frozenset(field.name for _, field in call.keywords if not field.optional and field.type != "choice")
-    return _Way(call, n.NODES[name], form.fields, keywords, needed, form.example)
+    return _CallForm(call, n.NODES[name], form.fields, keywords, needed, form.example)
 
 
-def _parser_of(ways: tuple[_Way, ...]) -> CallParser:
-    """Return what reads the calls of a method, which may be written in several ways."""
+def _parser_of(forms: tuple[_CallForm, ...]) -> CallParser:
+    """Return what reads the calls of a method, which may be written in several forms."""
 
     def parse(scope: Scope, call: ast.Call, name: str) -> n.Node:
-        for way in ways:
-            given = way.given(call)
+        for form in forms:
+            given = form.given(call)
             if given is not None:
                 try:
-                    node: n.Node = way.node(*[_field(scope, field, call, given, name) for field in way.fields])
+                    node: n.Node = form.node(*[_field(scope, field, call, given, name) for field in form.fields])
                 except _Misshapen:
                     break
                 return node
-        raise Refused(call, quoted(call), _example(ways[0], name))
+        raise Refused(call, quoted(call), _example(forms[0], name))
 
     return parse
 
 
-def _example(way: _Way, name: str) -> str:
+def _example(form: _CallForm, name: str) -> str:
     """Return how a call is written; one of a robot by the role that is meant."""
-    if way.call.role is None or not name:
-        return way.example
-    return way.example.replace("self.robot.pick(", f"self.{name}.{way.call.method}(").replace(
+    if form.call.role is None or not name:
+        return form.example
+    return form.example.replace("self.robot.pick(", f"self.{name}.{form.call.method}(").replace(
         "self.robot.", f"self.{name}."
     )
 
@@ -183,9 +183,11 @@ def _answer(call: ast.Call, named: Given) -> AnswerSpec:
 
 def _parsers(*, of_robots: bool) -> dict[str, CallParser]:
     """Return what reads the calls of the task itself, or of its robots, by the method."""
-    ways = [(call.method, _way(name, call)) for name, call in CALLS.items() if (call.role is not None) == of_robots]
-    grouped = groupby(ways, key=lambda pair: pair[0])
-    return {method: _parser_of(tuple(way for _, way in group)) for method, group in grouped}
+    forms = [
+        (call.method, _call_form(name, call)) for name, call in CALLS.items() if (call.role is not None) == of_robots
+    ]
+    grouped = groupby(forms, key=lambda pair: pair[0])
+    return {method: _parser_of(tuple(form for _, form in group)) for method, group in grouped}
 
 
 OWN_CALLS: Final = _parsers(of_robots=False)

@@ -20,15 +20,15 @@ from execution.traffic.zones import is_in, is_shut_spot, path_outside, shut_cell
 _Ends = tuple[str, str]
 
 
-class _Way(NamedTuple):
-    """A straight way from one node to another: the zones on it, and whether it leads against one that is one-way."""
+class _Edge(NamedTuple):
+    """A straight edge from one node to another: the zones on it, and whether it leads against one that is one-way."""
 
     zones: frozenset[FloorZone]
     is_shut: bool
 
 
-_Links = dict[Node, dict[Node, _Way]]
-"""What each node is joined to, and the way there."""
+_Links = dict[Node, dict[Node, _Edge]]
+"""What each node is joined to, and the edge there."""
 NEAREST = 3
 """So many neighbours of a place are joined to it directly."""
 
@@ -77,7 +77,7 @@ def make_road_map(layout: Layout) -> RoadMap:
         for ends in (*pairs, *back):
             for a, b in pairwise(path_outside(layout, layout.zones, ends) or ()):
                 zones = _zones_at(layout, a) | _zones_at(layout, b)
-                _join(links, a, b, _Way(zones, layout.is_against(a, b)), _Way(zones, layout.is_against(b, a)))
+                _join(links, a, b, _Edge(zones, layout.is_against(a, b)), _Edge(zones, layout.is_against(b, a)))
     for node in [node for node in links if isinstance(node, int)]:
         _straighten(layout, links, node)
     nodes = sorted(links, key=_order)
@@ -130,7 +130,7 @@ def _zones_at(layout: Layout, node: Node) -> frozenset[FloorZone]:
     )
 
 
-def _join(links: _Links, a: Node, b: Node, there: _Way, back: _Way) -> None:
+def _join(links: _Links, a: Node, b: Node, there: _Edge, back: _Edge) -> None:
     links.setdefault(a, {})[b] = there
     links.setdefault(b, {})[a] = back
 

@@ -7,7 +7,7 @@ from math import cos, hypot, radians, sin
 import pytest
 
 from execution.machine.places import lies_in
-from execution.traffic.directions import ways_against
+from execution.traffic.directions import edges_against
 from execution.traffic.outlines import touches
 from execution.traffic.routes import ELSEWHERE_COST, drawn, length_m
 from execution.traffic.zones import path_outside
@@ -70,14 +70,14 @@ def backwards(zones, before, after):
     ],
 )
 def test_against_is_who_drives_the_other_way_and_not_who_drives_across(heading_deg, end, against):
-    assert (way_between((7.25, -8.15), end) in ways_against(LATTICE, [one_way(heading_deg)])) is against
+    assert (way_between((7.25, -8.15), end) in edges_against(LATTICE, [one_way(heading_deg)])) is against
 
 
 def test_a_way_beside_a_zone_and_a_zone_of_another_rule_are_open():
-    shut = ways_against(LATTICE, [one_way(180)])
+    shut = edges_against(LATTICE, [one_way(180)])
     assert way_between((4.75, -8.15), (5.25, -8.15)) not in shut
     assert way_between((5.75, -8.15), (6.25, -8.15)) in shut
-    assert ways_against(LATTICE, [zone("slow", STRIP, heading_deg=180.0)]) == frozenset()
+    assert edges_against(LATTICE, [zone("slow", STRIP, heading_deg=180.0)]) == frozenset()
 
 
 def test_a_robot_drives_with_a_one_way_zone_and_is_told_that_there_is_no_way_against_it():

@@ -27,7 +27,7 @@ def taken(outcome):
 
 def test_ways_that_were_not_taken_are_named():
     outcome = run_trial(WELL, SUBJECT)
-    never = missed(outcome.coverage.ways, outcome.coverage.taken)
+    never = missed(outcome.coverage.paths, outcome.coverage.taken)
     assert outcome.ok
     assert {(way.step, way.name) for way in never} == {
         ("try", "catch failed"), ("cool", "none"), ("cool", "one"), ("if", "false"), ("limit", "limit"),
@@ -40,13 +40,13 @@ def test_a_fault_takes_the_way_of_the_catch():
 
 
 def test_a_loop_of_a_fixed_number_of_rounds_has_one_way():
-    ways = [way.name for way in run_trial(WELL, SUBJECT).coverage.ways if way.step == "repeat"]
+    ways = [way.name for way in run_trial(WELL, SUBJECT).coverage.paths if way.step == "repeat"]
     assert ways == ["reached", "many"]
 
 
 def test_coverage_is_data_for_each_construct():
     outcome = run_trial(WELL, SUBJECT)
-    told = {e["step"]: e for e in coverage_to_json(outcome.coverage.ways, outcome.coverage.taken, NUMBERS)}
+    told = {e["step"]: e for e in coverage_to_json(outcome.coverage.paths, outcome.coverage.taken, NUMBERS)}
     assert told["if"] == {"step": "if", "number": "3", "line": 5, "ways": {"reached": 1, "true": 1, "false": 0}}
     assert json.loads(json.dumps(told)) == told
 
@@ -135,7 +135,7 @@ def test_a_for_each_over_a_list_that_is_written_down_is_asked_for_its_own_rounds
         }
     )
     plan = compile_document(drawn, factory()).plan
-    assert {way.name for way in Coverage(plan).ways if way.step == "a"} == {"reached", rounds}
+    assert {path.name for path in Coverage(plan).paths if path.step == "a"} == {"reached", rounds}
 
 
 @pytest.mark.parametrize(
