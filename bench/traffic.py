@@ -15,7 +15,7 @@ from execution.rehearsals import rehearsal
 from execution.rehearsals.rehearsal import Conditions, rehearse
 from execution.traffic import floor
 from execution.traffic.layout import Layout, NoSuchSpot, make_layout
-from execution.traffic.routes import plan_path
+from execution.traffic.path_planner import plan_path
 from simulation.world import Scene
 from tests.kit import demo_floor
 from vipo_device.protocol.description import Description, Pose

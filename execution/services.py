@@ -24,8 +24,8 @@ from execution.errors import (
     NotPossibleNow,
     NotReady,
 )
+from execution.floor.drawing_paths import plan_routes
 from execution.floor.map_change import change_map
-from execution.floor.routes_for_drawing import plan_routes
 from execution.floor.stop_publisher import close_publisher, open_publisher
 from execution.floor.stops import StopView, follow_stops, get_stop, is_stopped, list_stops, press_stop, reset_stop
 from execution.operations.findings import find_trouble_of_sites

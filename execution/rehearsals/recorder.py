@@ -12,7 +12,7 @@ from execution.rehearsals.footprint_monitor import FootprintMonitor
 from execution.rehearsals.zone_waits import LIMITED, mark_of
 from execution.traffic import messages as m
 from execution.traffic.layout import Layout
-from execution.traffic.routes import length_m
+from execution.traffic.path_planner import length_m
 from simulation.fault_form import faults_to_json
 from simulation.world import Ack, Contact, FaultBegan, PropertyChanged, RobotSnapshot, WorldEvent
 from vipo_device.protocol.description import Scalar

@@ -14,9 +14,9 @@ from execution.traffic.floor_state import FloorTask, Robot
 from execution.traffic.lanes import drop, lanes_over, passed_lanes, put_off
 from execution.traffic.layout import DEFAULT_RADIUS_M, Node, NoSuchSpot
 from execution.traffic.messages import FloorZone, PathPlanned, Reason, TaskTold
+from execution.traffic.path_planner import drawn
 from execution.traffic.path_release import cut_path, set_path
 from execution.traffic.route_points import HORIZON, leads_along, points_ahead, set_points
-from execution.traffic.routes import drawn
 from execution.traffic.turn import Turn
 from execution.traffic.zones import cells_of, is_shut_way, kept_out, path_for, speed_limit
 from registry.floorplan.coverage import STEP_M, CannotCover, Lane, covered_share, in_order

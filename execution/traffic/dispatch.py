@@ -20,10 +20,10 @@ from execution.traffic.doors import is_kept_open
 from execution.traffic.floor_state import FloorTask, Robot, Sent
 from execution.traffic.layout import NoSuchSpot, Spot
 from execution.traffic.messages import RoleBound, RoleReleased
+from execution.traffic.path_planner import plan_path
 from execution.traffic.path_release import cut_path, set_path
 from execution.traffic.precedence import Waiting, in_groups, note_behind
 from execution.traffic.route_points import leads_along, path_along, points_ahead, set_points
-from execution.traffic.routes import plan_path
 from execution.traffic.turn import Turn
 from execution.traffic.zones import path_outside
 from vipo_device.protocol.description import Description

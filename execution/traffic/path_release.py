@@ -11,8 +11,8 @@ from execution.traffic.doors import shut_door
 from execution.traffic.floor_state import Robot, Sent
 from execution.traffic.layout import Node
 from execution.traffic.messages import FloorZone, PathPlanned
+from execution.traffic.path_planner import drawn
 from execution.traffic.route_points import pass_points
-from execution.traffic.routes import drawn
 from execution.traffic.turn import Turn
 from execution.traffic.zones import enters_at, in_the_way, leads_through, speed_limit, take_zones
 from registry.floorplan.lattice import Point, attach

@@ -17,7 +17,7 @@ from execution.traffic.floor_state import Robot
 from execution.traffic.layout import Layout, Node
 from execution.traffic.messages import FloorZone
 from execution.traffic.outlines import touches, touches_way
-from execution.traffic.routes import plan_path
+from execution.traffic.path_planner import plan_path
 from execution.traffic.turn import Turn
 from registry.floorplan.lattice import Point
 

@@ -12,7 +12,7 @@ from ninja.types import DictStrAny
 
 from editor.api import router as editor_router
 from execution.api import router as execution_router
-from execution.dead_letters_api import router as dead_letters_router
+from execution.dead_letters_routes import router as dead_letters_router
 from registry.api.alerts import router as alerts_router
 from registry.api.audit import router as audit_router
 from registry.api.authentication import token_or_session

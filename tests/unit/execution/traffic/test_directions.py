@@ -9,7 +9,7 @@ import pytest
 from execution.machine.places import lies_in
 from execution.traffic.directions import edges_against
 from execution.traffic.outlines import touches
-from execution.traffic.routes import ELSEWHERE_COST, drawn, length_m
+from execution.traffic.path_planner import ELSEWHERE_COST, drawn, length_m
 from execution.traffic.zones import path_outside
 from tests.kit import demo_floor
 from tests.unit.execution.traffic.test_site_zones import (

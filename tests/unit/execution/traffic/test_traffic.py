@@ -9,7 +9,7 @@ from execution.machine.floor_task import Target, TaskOrder
 from execution.traffic import floor
 from execution.traffic import messages as m
 from execution.traffic.layout import NoSuchSpot, make_layout
-from execution.traffic.routes import drawn, length_m, plan_path
+from execution.traffic.path_planner import drawn, length_m, plan_path
 from tests.kit import demo_floor
 from tests.unit.execution.traffic.simulated_floor import PretendFloor
 

@@ -8,7 +8,7 @@ from typing import Any
 from execution.floor.layouts import get_layout
 from execution.machine.floor_task import Target
 from execution.traffic.layout import Layout, NoSuchSpot
-from execution.traffic.routes import drawn, length_m
+from execution.traffic.path_planner import drawn, length_m
 from execution.traffic.zones import path_round, waiting_cells
 from execution.views import RouteView
 
