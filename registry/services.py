@@ -18,7 +18,7 @@ from registry.audit.acting import VIPO, acting
 from registry.audit.reading import list_server_audit
 from registry.audit.record import note_act, prune_audit
 from registry.bounds.parts import FIRST, Listed, Part, take_part
-from registry.bounds.places import Claim, Places
+from registry.bounds.slots import Claim, Slots
 from registry.broker.accounts import wait_account_change
 from registry.broker.mosquitto_file import account_file
 from registry.dashboards.accounts import broker_of, create_token, end_readers, revoke_token
@@ -203,7 +203,6 @@ __all__ = [
     "PersonView",
     "PlaceChange",
     "PlaceView",
-    "Places",
     "PointView",
     "PositionView",
     "Principal",
@@ -219,6 +218,7 @@ __all__ = [
     "SeriesView",
     "Session",
     "SiteView",
+    "Slots",
     "StandInView",
     "Standing",
     "StateMessage",

@@ -36,7 +36,7 @@ from editor.rooms.runner import OpenRoom, Shared
 from editor.rooms.stream import Note, RoomStream, StreamLost, make_stream
 from editor.rooms.threads import in_database
 from registry import services as registry
-from registry.services import Claim, Places, Standing, find_access
+from registry.services import Claim, Slots, Standing, find_access
 
 log = logging.getLogger(__name__)
 CLOSE_EMPTY_AFTER_S = 5.0
@@ -67,24 +67,24 @@ class Hub:
         self._is_closed = False
         self._allowances: dict[int, Allowance] = {}
         registry.watch_amount(name="rooms", read=lambda: len(self._open))
-        registry.watch_amount(name="program_sockets", read=lambda: self._places.taken)
+        registry.watch_amount(name="program_sockets", read=lambda: self._slots.taken)
         self._turns = asyncio.Lock()
         self._hold_offs = hold_offs
-        self._places = Places(in_all=MOST_CONNECTIONS, of_site=MOST_CONNECTIONS, of_person=MOST_OF_PERSON)
+        self._slots = Slots(in_all=MOST_CONNECTIONS, of_site=MOST_CONNECTIONS, of_person=MOST_OF_PERSON)
 
     async def enter(self, program_id: str, member: Member) -> Room:
         """Let a connection into a program's room, opening it if it is not open. Raises Close."""
         if self._is_closed:
             raise Close(Close.COME_AGAIN, INTERRUPTED)
         await self._hold_off(member)
-        if not self._places.take(Claim(member.person.id)):
+        if not self._slots.take(Claim(member.person.id)):
             raise Close(Close.ABUSE, f"You have {MOST_OF_PERSON} programs open. Close other copies of the page.")
         member.allowance.connections += 1
         try:
             return await self._let_in(program_id, member)
         except BaseException:
             member.allowance.connections -= 1
-            self._places.give_back(Claim(member.person.id))
+            self._slots.give_back(Claim(member.person.id))
             raise
 
     async def _hold_off(self, member: Member) -> None:
@@ -155,7 +155,7 @@ class Hub:
         """Let a connection go; a room that stays empty is closed."""
         room.leave(member)
         member.allowance.connections -= 1
-        self._places.give_back(Claim(member.person.id))
+        self._slots.give_back(Claim(member.person.id))
         if not room.members:
             self.loop.call_later(CLOSE_EMPTY_AFTER_S, self._start, self._close_if_empty, room)
 

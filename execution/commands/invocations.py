@@ -14,7 +14,7 @@ from registry import services as registry
 
 MOST_WAIT_S = 20.0
 LOOK_EVERY_S = 0.2
-_places = registry.Places(in_all=40, of_site=20, of_person=5)
+_slots = registry.Slots(in_all=40, of_site=20, of_person=5)
 _PROGRESS = {"pending": "pending", "sent": "pending", "accepted": "pending", "running": "running", "done": "completed"}
 
 
@@ -26,7 +26,7 @@ def invoke_action(
     Raises TooManyWaiting before anything is done, what `call_method` raises, and ActionFailed.
     """
     refusal = TooManyWaiting("Too many wait for devices at once, so nothing was done. Wait until one is over.")
-    with _places.held(registry.Claim(person, site), refusal):
+    with _slots.held(registry.Claim(person, site), refusal):
         call = call_method(site=site, device_id=device_id, method=action, arguments=given, by=by)
         until = time.monotonic() + MOST_WAIT_S
         while not call.is_over and time.monotonic() < until:

@@ -28,9 +28,9 @@ LEAST_WIDTH_M, MOST_WIDTH_M = 0.1, 3.0
 PATIENCE_S = 5.0
 KEPT = 64
 """So many checks are kept, of all sites."""
-check_places = registry.Places(in_all=3, of_site=2, of_person=2, most_waiting=1)
+check_slots = registry.Slots(in_all=3, of_site=2, of_person=2, most_waiting=1)
 """Floors that are checked at once: a screen asks for the site's width and for another one."""
-remedy_places = registry.Places(in_all=1, of_site=1, of_person=1, most_waiting=1)
+remedy_slots = registry.Slots(in_all=1, of_site=1, of_person=1, most_waiting=1)
 """Searches for remedies at once: one takes the time of many checks, and keeps nobody from those."""
 MOST_SEARCHED_S = 4.0
 """So much of a processor's time a search may take before its last trial."""
@@ -141,7 +141,7 @@ def get_floor_check(request: HttpRequest, site: str, asked: Query[AskFloorCheck]
     user = signed_in(request)
     registry.require(user, site, "viewer")
     refusal = TooManyChecks("Other floors are being checked, by you or others. Try again in a moment.")
-    with check_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
+    with check_slots.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
         floor = _Floor(*get_floor(site))
         check = _check(site, floor, asked.width_m)
     robot = None if asked.width_m else _widest(floor.layout.devices.values())
@@ -158,7 +158,7 @@ def list_remedies(request: HttpRequest, site: str, asked: Query[AskRemedies]) ->
     user = signed_in(request)
     registry.require(user, site, "admin")
     refusal = TooManyChecks("Remedies are being looked for, for you or others. Try again in a moment.")
-    with remedy_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
+    with remedy_slots.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
         now = _Floor(*get_floor(site))
         floor = _checked_floor(site, now, asked.width_m)
         wanted = (asked.code, asked.target, asked.other)

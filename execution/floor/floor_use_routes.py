@@ -43,7 +43,7 @@ _TOLD = Q(kind__in=("way", "wait")) | Q(kind="step", code__startswith="step_") &
     code__in=("step_entered", "step_done")
 )
 """The lines of a journal that tell of drives and of waits, and of steps that ended while they waited."""
-count_places = registry.Places(in_all=2, of_site=2, of_person=1, most_waiting=1)
+count_slots = registry.Slots(in_all=2, of_site=2, of_person=1, most_waiting=1)
 """Floors whose use is counted at once."""
 
 
@@ -118,7 +118,7 @@ def get_floor_use(request: HttpRequest, site: str, asked: Query[AskFloorUse]) ->
     counted = _known(site, asked.days)
     if counted is None:
         refusal = TooManyCounts("How floors were used is being counted, for you or others. Try again in a moment.")
-        with count_places.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
+        with count_slots.held(registry.Claim(user.pk), refusal, patience_s=PATIENCE_S):
             counted = _known(site, asked.days) or _keep(site, asked.days)
     return {"days": asked.days, "utc_offset_min": asked.utc_offset_min, **_to_json(site, counted, asked.utc_offset_min)}
 

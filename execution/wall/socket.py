@@ -18,9 +18,9 @@ from execution.wall.picture import device_to_wall, is_anew
 from registry import services as registry
 
 NOT_OPEN, TOO_MANY, COME_AGAIN = 4401, 4429, 4503
-_places = registry.Places(in_all=500, of_site=50, of_person=10)
+_slots = registry.Slots(in_all=500, of_site=50, of_person=10)
 """Sockets of this process; a wall screen counts as a person of its own."""
-registry.watch_amount(name="wall_sockets", read=lambda: _places.taken)
+registry.watch_amount(name="wall_sockets", read=lambda: _slots.taken)
 ANEW = frozenset({"run", "question", "alert", "alerts", "stop", "device_removed", "hello"})
 """Messages of the site upon which the picture is made anew."""
 REDRAWN = frozenset({"map", "hello"})
@@ -68,18 +68,18 @@ class WallSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
             await self.close(NOT_OPEN)
             return
         claim = registry.Claim(wall.id, wall.site)
-        if not _places.take(claim):
+        if not _slots.take(claim):
             await self.close(TOO_MANY)
             return
         self._claim, self._wall = claim, wall
         self._tasks = (asyncio.create_task(self._read()), asyncio.create_task(self._write()))
 
     async def disconnect(self, code: int) -> None:
-        """Leave the watch, give the place back and end both tasks."""
+        """Leave the watch, give the slot back and end both tasks."""
         if self._seat:
             registry.watch_of_this_loop().leave(self._seat)
         if self._claim:
-            _places.give_back(self._claim)
+            _slots.give_back(self._claim)
             self._claim = None
         for task in self._tasks:
             if task is not asyncio.current_task():

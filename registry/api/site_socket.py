@@ -11,16 +11,16 @@ from typing import Any
 from channels.generic.websocket import AsyncWebsocketConsumer
 from django.db import Error
 
-from registry.bounds.places import Claim, Places
+from registry.bounds.slots import Claim, Slots
 from registry.live.fanout import Message, subscribe
 from registry.people.sessions import session_of_socket
 from registry.people.watch import Seat, watch_of_this_loop
 from registry.processes.counters import watch_amount
 
 SIGNED_OUT, NOT_ALLOWED, NOT_FOUND, TOO_MANY, COME_AGAIN = 4401, 4403, 4404, 4429, 4503
-_places = Places(in_all=5_000, of_site=500, of_person=30)
+_slots = Slots(in_all=5_000, of_site=500, of_person=30)
 """Sockets of this process."""
-watch_amount(name="site_sockets", read=lambda: _places.taken)
+watch_amount(name="site_sockets", read=lambda: _slots.taken)
 BREATH_S = 0.1
 BEAT_S = 5.0
 BEAT = json.dumps({"type": "beat"})
@@ -60,7 +60,7 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
             await self.close(code)
             return
         claim = Claim(self.scope["user"].pk, self.site)
-        if not _places.take(claim):
+        if not _slots.take(claim):
             await self.close(TOO_MANY)
             return
         self._claim = claim
@@ -69,11 +69,11 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         self._writer = asyncio.create_task(self._write())
 
     async def disconnect(self, code: int) -> None:
-        """Leave the watch, give the place back and end both tasks."""
+        """Leave the watch, give the slot back and end both tasks."""
         if self._seat:
             watch_of_this_loop().leave(self._seat)
         if self._claim:
-            _places.give_back(self._claim)
+            _slots.give_back(self._claim)
             self._claim = None
         for task in (self._reader, self._writer):
             if task and task is not asyncio.current_task():

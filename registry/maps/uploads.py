@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from django.core.files.uploadedfile import UploadedFile
 from django.db import transaction
 
-from registry.bounds.places import Claim, Places
+from registry.bounds.slots import Claim, Slots
 from registry.errors import RegistryError
 from registry.floorplan.comparison import MapDifference
 from registry.floorplan.map_archive import open_archive
@@ -22,7 +22,7 @@ from registry.sites.sites import checked_name, create_site, get_site
 from registry.sites.views import SiteView
 
 READING_PATIENCE_S = 5.0
-reading_places = Places(in_all=2, of_site=2, of_person=1, most_waiting=1)
+reading_slots = Slots(in_all=2, of_site=2, of_person=1, most_waiting=1)
 """Maps that are read at once."""
 Made = TypeVar("Made")
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def look_at_upload(*, site: str, files: MapFiles, by: User) -> tuple[Grid, int, 
 def in_turn(by: User, work: Callable[[], Made]) -> Made:
     """Do what costs much, two at once in this process and one of a person. Raises TooManyUploads."""
     refusal = TooManyUploads("Other maps are being read, yours or others'. Try again in a moment.")
-    with reading_places.held(Claim(by.pk), refusal, patience_s=READING_PATIENCE_S):
+    with reading_slots.held(Claim(by.pk), refusal, patience_s=READING_PATIENCE_S):
         return work()
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from django.conf import settings
 
-from registry.bounds.places import Claim, Places
+from registry.bounds.slots import Claim, Slots
 from registry.devices.queries import list_devices
 from registry.devices.views import DeviceView
 from registry.errors import RegistryError
@@ -26,8 +26,8 @@ MOST_QUERY_CHARACTERS = 16_384
 PATIENCE_S = 10.0
 ANSWERED, REFUSED, TOO_LARGE = 0, 3, 4
 """The exit codes of registry/sparql/engine.py, which is never imported here: rdflib stays out of the server."""
-_places = Places(in_all=2, of_site=1, of_person=1, most_waiting=2)
-"""So a site with many questions leaves one of the two places to the others."""
+_slots = Slots(in_all=2, of_site=1, of_person=1, most_waiting=2)
+"""So a site with many questions leaves one of the two slots to the others."""
 
 
 class BadQuery(RegistryError):
@@ -74,7 +74,7 @@ def run_query(*, site: str, query: str, forms: Sequence[str] = (), person: int =
     devices = [_device(view) for view in list_devices(site=site)]
     job = {"query": query, "forms": list(forms), "devices": devices, "cpu_s": CPU_S, "memory_bytes": MEMORY_BYTES}
     refusal = TooManyQueries("Other queries are still being answered. Try again in a moment.")
-    with _places.held(Claim(person, site), refusal, patience_s=PATIENCE_S):
+    with _slots.held(Claim(person, site), refusal, patience_s=PATIENCE_S):
         code, output = _run(json.dumps(job).encode())
     return _read(code, output)
 

@@ -23,7 +23,7 @@ from registry.services import require
 router = Router(tags=["execution"])
 LIF, BUILDING = "application/json", "application/yaml"
 PATIENCE_S = 5.0
-export_places = registry.Places(in_all=2, of_site=2, of_person=1, most_waiting=1)
+export_slots = registry.Slots(in_all=2, of_site=2, of_person=1, most_waiting=1)
 """Floors whose roads are worked out at once."""
 _roads: dict[str, tuple[Layout, RoadMap]] = {}
 Made = TypeVar("Made")
@@ -64,7 +64,7 @@ def download_building(request: HttpRequest, site: str) -> HttpResponse:
 
 def _in_turn(request: HttpRequest, work: Callable[[], Made]) -> Made:
     refusal = TooManyExports("Other floors are being exported, by you or others. Try again in a moment.")
-    with export_places.held(registry.Claim(signed_in(request).pk), refusal, patience_s=PATIENCE_S):
+    with export_slots.held(registry.Claim(signed_in(request).pk), refusal, patience_s=PATIENCE_S):
         return work()
 
 

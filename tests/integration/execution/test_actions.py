@@ -169,7 +169,7 @@ def test_an_action_with_a_key_is_done_once(factory):
 
 
 def test_who_finds_no_place_to_wait_has_moved_nothing(factory, monkeypatch):
-    monkeypatch.setattr(invocations, "_places", registry.Places(in_all=0, of_site=0, of_person=0))
+    monkeypatch.setattr(invocations, "_slots", registry.Slots(in_all=0, of_site=0, of_person=0))
     answer = post_json(program("operate"), MIX, {"time": 2})
     assert (answer.status_code, answer.json()["code"], answer["Retry-After"]) == (429, "too_many_waiting", "5")
     assert Command.objects.count() == 0

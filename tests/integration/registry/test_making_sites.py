@@ -13,7 +13,7 @@ from django.core.files.uploadedfile import SimpleUploadedFile
 from django.test import Client
 
 from registry import services
-from registry.bounds.places import Claim
+from registry.bounds.slots import Claim
 from registry.maps import uploads
 from registry.models import Site, User
 from tests.kit.command_line import run_vipo
@@ -126,9 +126,9 @@ def test_one_map_of_a_person_is_read_at_a_time(hall: str, monkeypatch: pytest.Mo
     for name in ("stranger", "author"):
         services.set_site_quota(email=f"{name}@vipo.example", sites=1)
     claim = Claim(find_person("stranger").pk)
-    assert uploads.reading_places.take(claim)
+    assert uploads.reading_slots.take(claim)
     refused, other = upload(signed_in("stranger")), upload(signed_in("author"))
-    uploads.reading_places.give_back(claim)
+    uploads.reading_slots.give_back(claim)
     assert (refused.status_code, refused.json()["code"], refused["Retry-After"]) == (429, "too_many_uploads", "5")
     assert (other.status_code, upload(signed_in("stranger")).status_code) == (201, 201)
 

@@ -18,7 +18,7 @@ from django.urls import path
 from registry import services
 from registry.api import site_socket
 from registry.api.site_socket import SiteSocket
-from registry.bounds.places import Places
+from registry.bounds.slots import Slots
 from registry.live import fanout
 from registry.models import Membership, User
 from tests.kit.sign_in import ROLES, signed_in
@@ -197,7 +197,7 @@ async def test_a_quiet_site_still_sends_a_beat(person: Callable[[str], User], mo
 async def test_the_sockets_of_one_person_are_bounded_and_leave_room_for_others(
     person: Callable[[str], User], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(site_socket, "_places", Places(in_all=9, of_site=3, of_person=2))
+    monkeypatch.setattr(site_socket, "_slots", Slots(in_all=9, of_site=3, of_person=2))
     viewer, admin = await database_sync_to_async(person)("viewer"), await database_sync_to_async(person)("admin")
     async with opened(viewer) as first, opened(viewer), opened(viewer) as third:
         assert await close_code(third) == 4429
@@ -207,4 +207,4 @@ async def test_the_sockets_of_one_person_are_bounded_and_leave_room_for_others(
         await first.disconnect(timeout=PATIENCE_S)
         async with opened(viewer) as again:
             assert (await again.receive_json_from(PATIENCE_S))["type"] == "hello"
-    assert site_socket._places.taken == 0
+    assert site_socket._slots.taken == 0

@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 import pytest
 from django.test import Client
 
-from registry.bounds.places import Claim
+from registry.bounds.slots import Claim
 from registry.sparql import queries
 from registry.sparql.engine import Refused, answer, check_query, graph_of_devices
 from tests.kit.sign_in import ROLES, find_person, signed_in
@@ -228,10 +228,10 @@ def test_the_server_answers_others_while_a_hostile_query_runs(asked: Client, mon
 def test_only_two_are_answered_at_once(asked: Client, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(queries, "PATIENCE_S", 0.0)
     for other in (Claim(1000, "x"), Claim(1001, "y")):
-        assert queries._places.take(other)
+        assert queries._slots.take(other)
     answer = asked.get(ADDRESS, {"query": NAMES})
     for other in (Claim(1000, "x"), Claim(1001, "y")):
-        queries._places.give_back(other)
+        queries._slots.give_back(other)
     assert (answer.status_code, answer.json()["code"], answer["Retry-After"]) == (429, "too_many_queries", "5")
     assert json.loads(asked.get(ADDRESS, {"query": NAMES}).content)["head"]["vars"] == ["id", "name"]
 
@@ -243,7 +243,7 @@ def test_a_site_and_a_person_have_one_question_answered_at_a_time_and_leave_room
     monkeypatch.setattr(queries, "PATIENCE_S", 0.0)
     asker = find_person("viewer").pk
     other = Claim(1000 if busy == "hall" else asker, busy)
-    assert queries._places.take(other)
+    assert queries._slots.take(other)
     told = [signed_in(name).get(ADDRESS, {"query": NAMES}).status_code for name in ("viewer", "author")]
-    queries._places.give_back(other)
+    queries._slots.give_back(other)
     assert told == ([429, 429] if busy == "hall" else [429, 200])

@@ -73,10 +73,10 @@ def test_a_map_without_places_and_devices_is_exported_as_it_is(factory: Any) -> 
 def test_one_person_has_one_export_worked_out_at_a_time(viewer: Client, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(routes, "PATIENCE_S", 0.0)
     claim = registry.Claim(find_person("viewer").pk)
-    assert routes.export_places.take(claim)
+    assert routes.export_slots.take(claim)
     try:
         answer = viewer.get(f"{AT}.lif.json")
     finally:
-        routes.export_places.give_back(claim)
+        routes.export_slots.give_back(claim)
     assert (answer.status_code, json.loads(answer.content)["code"]) == (429, "too_many_exports")
     assert viewer.get(f"{AT}.lif.json").status_code == 200

@@ -94,13 +94,13 @@ def test_a_site_without_a_map_says_so(db):
 def test_who_has_two_checks_under_way_waits_for_a_moment_and_is_told(viewer, monkeypatch):
     monkeypatch.setattr(routes, "PATIENCE_S", 0.05)
     person = registry.Claim(int(viewer.session["_auth_user_id"]))
-    assert all(routes.check_places.take(person) for _ in range(2))
+    assert all(routes.check_slots.take(person) for _ in range(2))
     try:
         answer = viewer.get(CHECK)
         assert (answer.status_code, answer.json()["code"]) == (429, "too_many_floor_checks")
     finally:
         for _ in range(2):
-            routes.check_places.give_back(person)
+            routes.check_slots.give_back(person)
     assert viewer.get(CHECK).status_code == 200
 
 

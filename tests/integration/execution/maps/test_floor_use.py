@@ -202,13 +202,13 @@ def test_what_is_known_is_told_also_while_others_are_counted_and_at_every_offset
     assert viewer.get(USE).status_code == 200
     monkeypatch.setattr(routes, "PATIENCE_S", 0.01)
     others = [registry.Claim(-1), registry.Claim(-2)]
-    assert all(routes.count_places.take(other) for other in others)
+    assert all(routes.count_slots.take(other) for other in others)
     try:
         assert [viewer.get(f"{USE}?utc_offset_min={offset}").json()["heat"] for offset in (0, 60, -45)] == [SQUARES] * 3
         assert viewer.get(f"{USE}?days=3").status_code == 429
     finally:
         for other in others:
-            routes.count_places.give_back(other)
+            routes.count_slots.give_back(other)
 
 
 def test_what_was_driven_before_the_map_lay_as_it_does_is_not_drawn_on_it(viewer: Client) -> None:
@@ -268,10 +268,10 @@ def test_who_has_a_count_under_way_waits_for_a_moment_and_is_told(
 ) -> None:
     monkeypatch.setattr(routes, "PATIENCE_S", 0.05)
     person = registry.Claim(int(viewer.session["_auth_user_id"]))
-    assert routes.count_places.take(person)
+    assert routes.count_slots.take(person)
     try:
         answer = viewer.get(USE)
         assert (answer.status_code, answer.json()["code"]) == (429, "too_many_floor_counts")
     finally:
-        routes.count_places.give_back(person)
+        routes.count_slots.give_back(person)
     assert viewer.get(USE).status_code == 200

@@ -1,4 +1,4 @@
-"""Places for what costs much: nobody keeps others from theirs."""
+"""Slots for what costs much: nobody keeps others from theirs."""
 
 from __future__ import annotations
 
@@ -6,42 +6,42 @@ import threading
 
 import pytest
 
-from registry.bounds.places import Claim, Places
+from registry.bounds.slots import Claim, Slots
 from registry.maps.kept_work import KeptWork
 from tests.kit.waiting import wait_for
 
 
 def test_a_person_a_site_and_all_have_so_many_places() -> None:
-    places = Places(in_all=4, of_site=3, of_person=2)
+    slots = Slots(in_all=4, of_site=3, of_person=2)
     wanted = [(1, "a"), (1, "a"), (1, "b"), (2, "a"), (3, "a"), (3, "b"), (4, "c")]
-    assert [places.take(Claim(*each)) for each in wanted] == [True, True, False, True, False, True, False]
-    places.give_back(Claim(1, "a"))
-    assert (places.take(Claim(4, "a")), places.take(Claim(1, "a")), places.taken) == (True, False, 4)
+    assert [slots.take(Claim(*each)) for each in wanted] == [True, True, False, True, False, True, False]
+    slots.give_back(Claim(1, "a"))
+    assert (slots.take(Claim(4, "a")), slots.take(Claim(1, "a")), slots.taken) == (True, False, 4)
 
 
 def test_a_place_is_held_while_something_is_done_and_given_back_whatever_becomes_of_it() -> None:
-    places = Places(in_all=1, of_site=1, of_person=1)
+    slots = Slots(in_all=1, of_site=1, of_person=1)
 
     def fail() -> None:
-        with places.held(Claim(1), LookupError("full")):
-            assert places.taken == 1
+        with slots.held(Claim(1), LookupError("full")):
+            assert slots.taken == 1
             with pytest.raises(LookupError, match="full"):
-                places.held(Claim(2), LookupError("full")).__enter__()
+                slots.held(Claim(2), LookupError("full")).__enter__()
             raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):
         fail()
-    assert places.taken == 0
+    assert slots.taken == 0
 
 
 def test_whoever_waits_comes_in_turn_past_those_whose_own_site_is_full() -> None:
-    places = Places(in_all=2, of_site=1, of_person=1, most_waiting=2)
+    slots = Slots(in_all=2, of_site=1, of_person=1, most_waiting=2)
     order: list[str] = []
-    assert places.take(Claim(1, "a"))
-    assert places.take(Claim(9, "z"))
+    assert slots.take(Claim(1, "a"))
+    assert slots.take(Claim(9, "z"))
 
     def wait(person: int, site: str) -> None:
-        if places.take(Claim(person, site), patience_s=60):
+        if slots.take(Claim(person, site), patience_s=60):
             order.append(f"{person} {site}")
 
     waiting = []
@@ -49,24 +49,24 @@ def test_whoever_waits_comes_in_turn_past_those_whose_own_site_is_full() -> None
         thread = threading.Thread(target=wait, args=claim)
         thread.start()
         waiting.append(thread)
-        wait_for("its turn", lambda: len(places._waiting) == len(waiting))
-    places.give_back(Claim(9, "z"))
+        wait_for("its turn", lambda: len(slots._waiting) == len(waiting))
+    slots.give_back(Claim(9, "z"))
     wait_for("the other site", lambda: order == ["3 b"])
-    places.give_back(Claim(1, "a"))
+    slots.give_back(Claim(1, "a"))
     wait_for("the first", lambda: order == ["3 b", "2 a"])
-    assert not places.take(Claim(5, "d"))
-    places.give_back(Claim(3, "b"))
+    assert not slots.take(Claim(5, "d"))
+    slots.give_back(Claim(3, "b"))
     wait_for("the last", lambda: order == ["3 b", "2 a", "4 c"])
     for thread in waiting:
         thread.join()
 
 
 def test_one_who_is_not_served_in_time_leaves_no_trace() -> None:
-    places = Places(in_all=1, of_site=1, of_person=1, most_waiting=1)
-    assert places.take(Claim(1))
-    assert not places.take(Claim(2), patience_s=0.01)
-    places.give_back(Claim(1))
-    assert places.take(Claim(3))
+    slots = Slots(in_all=1, of_site=1, of_person=1, most_waiting=1)
+    assert slots.take(Claim(1))
+    assert not slots.take(Claim(2), patience_s=0.01)
+    slots.give_back(Claim(1))
+    assert slots.take(Claim(3))
 
 
 def test_a_large_map_pushes_out_what_was_kept_before() -> None:

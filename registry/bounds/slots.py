@@ -1,4 +1,4 @@
-"""Places for what costs much: so many in this process in all, so many at a site, so many of a person.
+"""Slots for what costs much: so many in this process in all, so many at a site, so many of a person.
 
 Several web processes have so many each: what they guard is the memory and the processors of one process.
 """
@@ -16,7 +16,7 @@ from typing import TypeVar
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """Who wants a place, and at which site (empty: at none)."""
+    """Who wants a slot, and at which site (empty: at none)."""
 
     person: int
     site: str = ""
@@ -25,8 +25,8 @@ class Claim:
 Name = TypeVar("Name", bound=Hashable)
 
 
-class Places:
-    """Places that are taken and given back. Whoever waits comes in turn, past those whose own site or person is full.
+class Slots:
+    """Slots that are taken and given back. Whoever waits comes in turn, past those whose own site or person is full.
 
     So a site or a person that takes all that it may never keeps others from theirs for longer than one of theirs lasts.
     """
@@ -42,11 +42,11 @@ class Places:
 
     @property
     def taken(self) -> int:
-        """How many places are taken."""
+        """How many slots are taken."""
         return self._people.total()
 
     def take(self, claim: Claim, *, patience_s: float = 0.0) -> bool:
-        """Take a place, waiting for it so long at most; False when there is none. Without patience it never blocks."""
+        """Take a slot, waiting for it so long at most; False when there is none. Without patience it never blocks."""
         with self._changed:
             if not patience_s or self._waits(claim.person) >= self._most_waiting:
                 return self._first_that_fits() is None and self._enter(claim)
@@ -61,7 +61,7 @@ class Places:
 
     @contextmanager
     def held(self, claim: Claim, refusal: Exception, *, patience_s: float = 0.0) -> Iterator[None]:
-        """Hold a place while something is done, waiting for it so long at most; raises `refusal` when there is none."""
+        """Hold a slot while something is done, waiting for it so long at most; raises `refusal` when there is none."""
         if not self.take(claim, patience_s=patience_s):
             raise refusal
         try:
@@ -70,7 +70,7 @@ class Places:
             self.give_back(claim)
 
     def give_back(self, claim: Claim) -> None:
-        """Give a place back that was taken."""
+        """Give a slot back that was taken."""
         with self._changed:
             _count_down(self._sites, claim.site)
             _count_down(self._people, claim.person)
