@@ -36,7 +36,7 @@ from registry.api.tokens import router as tokens_router
 from registry.api.wall_screens import router as wall_screens_router
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import BadMessage, parse_plain_json
-from vipo_site.http.making import name_place, note_place
+from vipo_site.http.location_header import name_address, note_address
 from vipo_site.http.openapi import DescribedAPI
 
 _SEND_JSON = "Send JSON, or what docs/openapi.json names."
@@ -114,10 +114,10 @@ def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
     return response
 
 
-api.add_decorator(note_place, mode="operation")
+api.add_decorator(note_address, mode="operation")
 api.add_decorator(begin_once, mode="operation")
 api.add_decorator(api.refuse_unknown_names, mode="operation")
-api.add_decorator(name_place, mode="view")
+api.add_decorator(name_address, mode="view")
 api.add_decorator(watch_request, mode="view")
 api.add_router("", people_router)
 api.add_router("", second_factor_router)

@@ -15,7 +15,7 @@ from ninja.errors import ValidationError
 from ninja.openapi.schema import OpenAPISchema
 from ninja.operation import Operation
 
-from vipo_site.http.making import describe_place
+from vipo_site.http.location_header import describe_address
 
 
 class FieldProblem(Schema):
@@ -146,7 +146,7 @@ class DescribedAPI(NinjaAPI):
         }
         for path, methods in schema["paths"].items():
             for method, call in methods.items():
-                describe_place(call)
+                describe_address(call)
                 call["responses"].update(_refusals_of(path, method, call, refusal), default=refusal)
                 if method != "get" and "security" in call:
                     call["parameters"] = [*call.get("parameters", []), _KEY]

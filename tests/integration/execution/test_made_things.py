@@ -18,7 +18,7 @@ from tests.kit.api_rights import OPERATIONS
 from tests.kit.programs import SITE, TASK, document
 from tests.kit.sign_in import PASSWORD, find_person, post_json, sign_in_member
 from tests.unit.robot_agent.agent import RobotGrid, write_grid
-from vipo_site.http.making import MADE
+from vipo_site.http.location_header import MADE
 
 pytestmark = pytest.mark.django_db(transaction=True)
 AT_SITE = f"/api/sites/{SITE}"
