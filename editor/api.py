@@ -99,7 +99,7 @@ def list_programs(
 ) -> list[ProgramView]:
     """List a site's programs, the last edited first; the header `Link` names the next part."""
     require(request.user, slug, "viewer")
-    return tell_rest(request, response, services.list_programs(site=slug, part=asked.part(), words=asked.q))
+    return tell_rest(request, response, services.list_programs(site=slug, page=asked.page(), words=asked.q))
 
 
 @router.post("/sites/{slug}/programs", response={201: ProgramShape})

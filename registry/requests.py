@@ -11,7 +11,7 @@ from ninja.schema import DjangoGetter
 from pydantic import AfterValidator, ConfigDict, GetCoreSchemaHandler, Strict, ValidationError, model_validator
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError, core_schema
 
-from registry.bounds.parts import MOST_AT_ONCE, Listed, Part
+from registry.bounds.pagination import MOST_AT_ONCE, Listed, Page
 from registry.models import User
 from vipo_device.protocol.texts import cleaned_json, normal, normal_json, refusal_of, unfit_texts
 
@@ -50,7 +50,7 @@ def origin_of(request: HttpRequest) -> str:
 
 
 def link_to_next(request: HttpRequest, **changed: object) -> str:
-    """Return the header Link that names the next part of a list: the same address with another place to go on from."""
+    """Return the header Link that names the next page of a list: the same address with another place to go on from."""
     query = request.GET.copy()
     for name, value in changed.items():
         query[name] = str(value)
@@ -140,13 +140,13 @@ class PartAsked(Asked):
     limit: int = Field(MOST_AT_ONCE, ge=1, le=MOST_AT_ONCE)
     before: str = Field("", max_length=500)
 
-    def part(self) -> Part:
-        """Return the part that is meant."""
-        return Part(self.limit, self.before)
+    def page(self) -> Page:
+        """Return the page that is meant."""
+        return Page(self.limit, self.before)
 
 
 def tell_rest(request: HttpRequest, response: HttpResponse, listed: Listed[Any]) -> list[Any]:
-    """Return a part of a list for its answer, whose header `Link` names the next one, if there is one."""
+    """Return a page of a list for its answer, whose header `Link` names the next one, if there is one."""
     if listed.rest:
         response["Link"] = link_to_next(request, before=listed.rest)
     return list(listed)

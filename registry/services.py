@@ -17,7 +17,7 @@ from registry.alerts.watch import watch_devices
 from registry.audit.acting import VIPO, acting
 from registry.audit.reading import list_server_audit
 from registry.audit.record import note_act, prune_audit
-from registry.bounds.parts import FIRST, Listed, Part, take_part
+from registry.bounds.pagination import FIRST, Listed, Page, take_page
 from registry.bounds.slots import Claim, Slots
 from registry.broker.accounts import wait_account_change
 from registry.broker.mosquitto_file import account_file
@@ -199,7 +199,7 @@ __all__ = [
     "NotRetired",
     "OpenedWall",
     "Outage",
-    "Part",
+    "Page",
     "PersonView",
     "PlaceChange",
     "PlaceView",
@@ -386,7 +386,7 @@ __all__ = [
     "site_to_json",
     "subscribe",
     "switch_stand_in",
-    "take_part",
+    "take_page",
     "time_spent",
     "update_device",
     "use_robot_map",

@@ -23,7 +23,7 @@ from editor.models import LibraryFunction, LibraryUse, LibraryVersion
 from editor.programs.checking import find_devices
 from editor.programs.views import AuthorView, view_author
 from registry import services as registry
-from registry.services import FIRST, Listed, Part
+from registry.services import FIRST, Listed, Page
 
 GONE = "The library has no such function."
 MOST_VERSIONS = 200
@@ -88,7 +88,7 @@ class VersionsCompared:
 
 
 def search_library(
-    *, user: Any, site: str = "", query: str = "", fits: str = "", only_fitting: bool = False, part: Part = FIRST
+    *, user: Any, site: str = "", query: str = "", fits: str = "", only_fitting: bool = False, page: Page = FIRST
 ) -> Listed[LibraryView]:
     """Return the functions that somebody sees, of one site or all, that have every word of the query, by name.
 
@@ -109,7 +109,7 @@ def search_library(
         known = rows.order_by().values_list("demands", flat=True).distinct()
         rows = rows.filter(demands__in=[demands for demands in known if are_met(demands, devices)])
     rows = rows.prefetch_related(Prefetch("versions", queryset=newest, to_attr="newest"))
-    found = registry.take_part(rows=rows, by="name", part=part, view=lambda row: row)
+    found = registry.take_page(rows=rows, by="name", page=page, view=lambda row: row)
     reader = _Reader(user, devices, found)
     shown: Listed[LibraryView] = Listed(reader.view(row, vars(row)["newest"][0]) for row in found)
     shown.rest = found.rest

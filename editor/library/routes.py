@@ -48,7 +48,7 @@ def search_library(request: HttpRequest, response: HttpResponse, asked: Query[Li
         query=asked.q,
         fits=asked.fits,
         only_fitting=asked.only_fitting,
-        part=asked.part(),
+        page=asked.page(),
     )
     shown: Listed[dict[str, Any]] = Listed(function_to_json(view) for view in found)
     shown.rest = found.rest

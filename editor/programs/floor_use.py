@@ -11,7 +11,7 @@ from editor.documents.store import get_document
 from editor.language.expressions.nodes import Point
 from editor.language.expressions.values import read_point
 from editor.programs.programs import list_programs
-from registry.services import Part
+from registry.services import Page
 from vipo_device.protocol.errors import VipoError
 
 Where = Literal["floor", "wall", "outside"]
@@ -31,7 +31,7 @@ class ProgramTrouble:
 def list_program_troubles(*, site: str, where: Callable[[Point], Where]) -> tuple[ProgramTrouble, ...]:
     """Return the programs that a map troubles; `where` says what is at a point of it. Programs come by name."""
     found = []
-    for program in list_programs(site=site, part=Part(limit=MOST_PROGRAMS)):
+    for program in list_programs(site=site, page=Page(limit=MOST_PROGRAMS)):
         with suppress(VipoError):  # what cannot be read, or has just been deleted, can have no steps named
             document = get_document(program_id=program.id)
             outside = sum(1 for point in step_points(document) if where(point) == "outside")

@@ -26,7 +26,7 @@ from editor.programs.checking import build_surroundings, fingerprint_of, new_rev
 from editor.programs.compilations import Compilation, compile_program
 from editor.programs.views import ProgramView, view_author
 from registry import services as registry
-from registry.services import FIRST, Listed, Part, publish
+from registry.services import FIRST, Listed, Page, publish
 from vipo_device.protocol.texts import find_unfit, normal
 
 MOST_NAME = 120
@@ -34,7 +34,7 @@ MOST_CHECKED_AT_ONCE = 100
 GONE = "There is no such program. It may have been deleted."
 
 
-def list_programs(*, site: str, part: Part = FIRST, words: str = "") -> Listed[ProgramView]:
+def list_programs(*, site: str, page: Page = FIRST, words: str = "") -> Listed[ProgramView]:
     """Return a site's programs whose names have these words, the last edited first.
 
     Counts that the site's devices have outdated are renewed, but for programs that cannot be read. Raises BadMark.
@@ -47,7 +47,7 @@ def list_programs(*, site: str, part: Part = FIRST, words: str = "") -> Listed[P
     for program in stale.values_list("pk", flat=True)[:MOST_CHECKED_AT_ONCE]:
         with suppress(DocumentHole, NoSuchProgram):  # then its counts stay as they were
             get_compiled(program_id=program)
-    return registry.take_part(rows=rows, by="-edited_at", part=part, view=_view)
+    return registry.take_page(rows=rows, by="-edited_at", page=page, view=_view)
 
 
 def get_program(*, program_id: UUID | str) -> ProgramView:

@@ -21,17 +21,17 @@ from editor.programs.packing import Content, UnknownPacking, pack, pack_differen
 from editor.programs.programs import GONE, create_program, find_program
 from editor.programs.views import AuthorView, ProgramView, VersionView, WholeVersionView, view_author
 from registry import services as registry
-from registry.services import FIRST, Listed, Part
+from registry.services import FIRST, Listed, Page
 from vipo_device.protocol.texts import find_unfit, normal
 
 MOST_NAME, MOST_MESSAGE = 80, 300
 
 
-def list_versions(*, program_id: UUID | str, part: Part = FIRST) -> Listed[VersionView]:
+def list_versions(*, program_id: UUID | str, page: Page = FIRST) -> Listed[VersionView]:
     """Return a program's versions without what is in them, the newest first. Raises NoSuchProgram, BadMark."""
     program = find_program(program_id)
     rows = program.versions.select_related("author").defer("content")
-    found = registry.take_part(rows=rows, by="-number", part=part, view=lambda row: row)
+    found = registry.take_page(rows=rows, by="-number", page=page, view=lambda row: row)
     people = _people(found)
     listed = Listed(_view(row, program.site.slug, people) for row in found)
     listed.rest = found.rest

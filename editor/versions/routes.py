@@ -50,7 +50,7 @@ def list_versions(
 ) -> list[VersionView]:
     """List a program's versions, the newest first; the header `Link` names the next part."""
     program_for(request.user, program, "viewer")
-    return tell_rest(request, response, services.list_versions(program_id=program, part=asked.part()))
+    return tell_rest(request, response, services.list_versions(program_id=program, page=asked.page()))
 
 
 @router.post("/programs/{program}/versions", response={200: PinnedVersionShape, 201: PinnedVersionShape})

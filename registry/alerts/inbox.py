@@ -9,14 +9,14 @@ from django.db import transaction
 
 from registry.alerts.causes import AlertCode
 from registry.alerts.views import AlertState, AlertView, publish_alerts, readable, view_of
-from registry.bounds.parts import Listed, Part, take_part
+from registry.bounds.pagination import Listed, Page, take_page
 from registry.errors import RegistryError
 from registry.models import DeviceAlert, Site, User
 from registry.sites.sites import find_site
 
 KEPT_FOR = timedelta(days=30)
 KEPT_AT_MOST = 1000
-ALL = Part(limit=1000)
+ALL = Page(limit=1000)
 
 
 class NoSuchAlert(RegistryError):
@@ -35,7 +35,7 @@ def list_open_alerts(*, codes: Collection[AlertCode]) -> tuple[AlertView, ...]:
 
 
 def list_alerts(
-    *, site: str, state: AlertState | None = None, role: str = "admin", device: str = "", part: Part = ALL
+    *, site: str, state: AlertState | None = None, role: str = "admin", device: str = "", page: Page = ALL
 ) -> Listed[AlertView]:
     """Return the site's alerts that concern this role, the latest first; those that are not over unless `state` says.
 
@@ -53,7 +53,7 @@ def list_alerts(
             rows = rows.filter(over_at=None, seen_at=None)
         case _:
             rows = rows.filter(over_at=None)
-    return take_part(rows=rows, by="-last_at", part=part, view=view_of)
+    return take_page(rows=rows, by="-last_at", page=page, view=view_of)
 
 
 def count_open_alerts(*, site: str, role: str) -> int:

@@ -53,7 +53,7 @@ def list_alerts(
 ) -> list[dict[str, Any]]:
     """List a site's alerts, the latest first; the header `Link` names the next part."""
     access = require(signed_in(request), slug, "viewer")
-    found = services.list_alerts(site=slug, state=asked.state, role=access.role, device=asked.device, part=asked.part())
+    found = services.list_alerts(site=slug, state=asked.state, role=access.role, device=asked.device, page=asked.page())
     return [services.alert_to_json(alert) for alert in tell_rest(request, response, found)]
 
 

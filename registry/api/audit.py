@@ -59,7 +59,7 @@ def list_audit(
     require(signed_in(request), slug, "admin")
     response["X-Total-Count"] = str(reading.count_audit(site=slug, kind=asked.kind))
     response["X-Kept-Days"] = str(settings.VIPO_AUDIT_DAYS)
-    listed = reading.list_audit(site=slug, kind=asked.kind, part=asked.part())
+    listed = reading.list_audit(site=slug, kind=asked.kind, page=asked.page())
     return [_to_json(view) for view in tell_rest(request, response, listed)]
 
 

@@ -189,7 +189,7 @@ class OwnSession(Schema):
 @router.get("/me/sessions", response=list[OwnSession], auth=session_only)
 def list_my_sessions(request: HttpRequest, response: HttpResponse, asked: Query[PartAsked]) -> list[dict[str, Any]]:
     """List the asker's own sessions, the one that began last first; the header `Link` names the next part."""
-    found = list_open_sessions(user=signed_in(request), part=asked.part())
+    found = list_open_sessions(user=signed_in(request), page=asked.page())
     here = request.session.session_key
     return [{**asdict(view), "here": view.key == here} for view in tell_rest(request, response, found)]
 

@@ -13,7 +13,7 @@ from typing import Any
 from django.db.models import QuerySet
 
 from registry.audit.codes import Kind
-from registry.bounds.parts import FIRST, Listed, Part, take_part
+from registry.bounds.pagination import FIRST, Listed, Page, take_page
 from registry.models import AuditLine
 
 COLUMNS = ("at", "kind", "code", "actor_kind", "actor", "address", "agent", "facts")
@@ -35,9 +35,9 @@ class AuditView:
     facts: dict[str, Any]
 
 
-def list_audit(*, site: str, kind: Kind | None = None, part: Part = FIRST) -> Listed[AuditView]:
-    """Return a part of what was done at a site, the newest first. Raises BadMark."""
-    return take_part(rows=_rows(site, kind), by="-at", part=part, view=_view)
+def list_audit(*, site: str, kind: Kind | None = None, page: Page = FIRST) -> Listed[AuditView]:
+    """Return a page of what was done at a site, the newest first. Raises BadMark."""
+    return take_page(rows=_rows(site, kind), by="-at", page=page, view=_view)
 
 
 def list_server_audit(*, last: int) -> tuple[AuditView, ...]:

@@ -12,7 +12,7 @@ from datetime import datetime, timedelta
 from django.contrib.sessions.models import Session as KeptSession
 from django.db import transaction
 
-from registry.bounds.parts import FIRST, Listed, Part, take_part
+from registry.bounds.pagination import FIRST, Listed, Page, take_page
 from registry.errors import RegistryError
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import OpenSession, User
@@ -75,9 +75,9 @@ def note_session(*, key: str, user: User, agent: str, now: datetime) -> None:
     _noted[key] = now
 
 
-def list_open_sessions(*, user: User, part: Part = FIRST) -> Listed[OpenSessionView]:
-    """Return a person's sessions that stand, the one that began last first; a part may have fewer. Raises BadMark."""
-    found = take_part(rows=OpenSession.objects.filter(user=user), by="-begun_at", part=part, view=_view)
+def list_open_sessions(*, user: User, page: Page = FIRST) -> Listed[OpenSessionView]:
+    """Return a person's sessions that stand, the one that began last first; a page may have fewer. Raises BadMark."""
+    found = take_page(rows=OpenSession.objects.filter(user=user), by="-begun_at", page=page, view=_view)
     standing = read_standings([Session(view.key, user.pk) for view in found])
     listed = Listed(view for view in found if Session(view.key, user.pk) in standing)
     listed.rest = found.rest

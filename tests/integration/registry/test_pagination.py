@@ -1,4 +1,4 @@
-"""Long lists over HTTP are given in parts, which `Link` joins: nothing is missed, nothing comes twice."""
+"""Long lists over HTTP are given in pages, which `Link` joins: nothing is missed, nothing comes twice."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ def next_of(answer: Any) -> str:
     return found[1] if found else ""
 
 
-def read_parts(client: Client, address: str, meanwhile: Callable[[], object] = lambda: None) -> list[list[Any]]:
-    parts = []
+def read_pages(client: Client, address: str, meanwhile: Callable[[], object] = lambda: None) -> list[list[Any]]:
+    pages = []
     while address:
         answer = client.get(address)
         assert answer.status_code == 200, answer.content
-        parts.append(answer.json())
+        pages.append(answer.json())
         address = next_of(answer)
         meanwhile()
-    return parts
+    return pages
 
 
 def make_programs(site: str) -> None:
@@ -71,12 +71,12 @@ def make_alerts() -> None:
 def test_programs_come_in_parts_and_one_that_is_made_meanwhile_moves_nothing(hall: str) -> None:
     make_programs("hall")
     client = signed_in("viewer")
-    parts = read_parts(
+    pages = read_pages(
         client,
         "/api/sites/hall/programs?limit=3&q=program",
         lambda: editor.create_program(site="hall", name="New program"),
     )
-    assert [[each["name"] for each in part] for part in parts] == [
+    assert [[each["name"] for each in page] for page in pages] == [
         ["Program 6", "Program 5", "Program 4"],
         ["Program 3", "Program 2", "Program 1"],
         ["Program 0"],
@@ -86,22 +86,22 @@ def test_programs_come_in_parts_and_one_that_is_made_meanwhile_moves_nothing(hal
 
 def test_versions_of_a_program_come_in_parts(hall: str) -> None:
     program = make_versions("hall")
-    parts = read_parts(signed_in("viewer"), f"/api/programs/{program}/versions?limit=3")
-    assert [[each["number"] for each in part] for part in parts] == [[7, 6, 5], [4, 3, 2], [1]]
+    pages = read_pages(signed_in("viewer"), f"/api/programs/{program}/versions?limit=3")
+    assert [[each["number"] for each in page] for page in pages] == [[7, 6, 5], [4, 3, 2], [1]]
 
 
 def test_the_library_comes_in_parts_by_name(hall: str) -> None:
     make_functions("hall")
-    parts = read_parts(signed_in("viewer"), "/api/library?limit=4&site=hall")
-    assert [[each["name"] for each in part] for part in parts] == [["F0", "F1", "F2", "F3"], ["F4", "F5", "F6"]]
+    pages = read_pages(signed_in("viewer"), "/api/library?limit=4&site=hall")
+    assert [[each["name"] for each in page] for page in pages] == [["F0", "F1", "F2", "F3"], ["F4", "F5", "F6"]]
 
 
 def test_alerts_of_one_moment_are_neither_missed_nor_doubled(hall: str) -> None:
     make_alerts()
     client = signed_in("viewer")
-    parts = read_parts(client, "/api/sites/hall/alerts?state=over&device=mixer1&limit=2")
-    keys = [each["id"] for part in parts for each in part]
-    assert [len(part) for part in parts] == [2, 2, 2, 1]
+    pages = read_pages(client, "/api/sites/hall/alerts?state=over&device=mixer1&limit=2")
+    keys = [each["id"] for page in pages for each in page]
+    assert [len(page) for page in pages] == [2, 2, 2, 1]
     assert keys == sorted(keys, reverse=True)
     assert len(client.get("/api/sites/hall/alerts?state=over").json()) == COUNT + 1
 

@@ -1,6 +1,6 @@
-"""Long lists, given a part at a time: what is added or goes meanwhile neither moves nor doubles what follows.
+"""Long lists, given a page at a time: what is added or goes meanwhile neither moves nor doubles what follows.
 
-A part ends with a mark, which says where the next one begins: what the list is ordered by, and the row. It is signed,
+A page ends with a mark, which says where the next one begins: what the list is ordered by, and the row. It is signed,
 so that nobody can put into it what the database cannot compare.
 """
 
@@ -29,35 +29,35 @@ class BadMark(VipoError):
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class Page:
     """How much is asked for at most, and after which mark; empty: from the beginning."""
 
     limit: int = MOST_AT_ONCE
     before: str = ""
 
 
-FIRST = Part()
+FIRST = Page()
 
 
 class Listed(tuple[View, ...]):
-    """A part of a list; `rest` is the mark after which it goes on, empty where nothing follows."""
+    """A page of a list; `rest` is the mark after which it goes on, empty where nothing follows."""
 
     rest: str = ""
 
 
-def take_part(*, rows: QuerySet[Row], by: str, part: Part, view: Callable[[Row], View]) -> Listed[View]:
-    """Return a part of the rows, ordered by a field (`-field`: the greatest first) and then by their key.
+def take_page(*, rows: QuerySet[Row], by: str, page: Page, view: Callable[[Row], View]) -> Listed[View]:
+    """Return a page of the rows, ordered by a field (`-field`: the greatest first) and then by their key.
 
     Raises BadMark.
     """
     field, is_falling = by.removeprefix("-"), by.startswith("-")
     ordered = rows.order_by(by, "-pk" if is_falling else "pk")
-    if part.before:
-        ordered = ordered.filter(_behind(field, "lt" if is_falling else "gt", rows, part.before))
-    found = list(ordered[: part.limit + 1])
-    listed = Listed(view(row) for row in found[: part.limit])
-    if len(found) > part.limit:
-        listed.rest = _mark(rows, field, found[part.limit - 1])
+    if page.before:
+        ordered = ordered.filter(_behind(field, "lt" if is_falling else "gt", rows, page.before))
+    found = list(ordered[: page.limit + 1])
+    listed = Listed(view(row) for row in found[: page.limit])
+    if len(found) > page.limit:
+        listed.rest = _mark(rows, field, found[page.limit - 1])
     return listed
 
 
