@@ -8,8 +8,8 @@ from typing import Protocol
 
 from simulation.actors import Motion
 from simulation.near_misses import NearnessWatch
+from simulation.obstacles import Obstacles
 from simulation.scene import Layout, make_actors, make_layout
-from simulation.things_in_the_way import ThingsInTheWay
 from simulation.world import Ack, Obstacle, RobotSnapshot, Scene, WorldEvent
 from vipo_device.protocol.description import Pose, Scalar
 
@@ -47,7 +47,7 @@ class SimulatedWorld:
 
     def __init__(self, scene: Scene, make_driver: DriverFactory) -> None:
         self._events: list[WorldEvent] = []
-        self._things = ThingsInTheWay(scene.faults, self._events.append)
+        self._obstacles = Obstacles(scene.faults, self._events.append)
         self._entered: dict[str, int] = {}
         self._by_kind = make_actors(scene, self._events.append)
         layout = make_layout(scene, self._by_kind)
@@ -76,13 +76,13 @@ class SimulatedWorld:
     def reach(self, step: str) -> None:
         """Say that a step of the program is entered, with which faults may begin."""
         count = self._entered[step] = self._entered.get(step, 0) + 1
-        self._things.reach(self._asked_s, step, count)
+        self._obstacles.reach(self._asked_s, step, count)
         for actor in self._actors.values():
             actor.reach(self._asked_s, step, count)
 
     def put_in_the_way(self, obstacles: Sequence[Obstacle]) -> None:
         """Say what stands on the floor that is on no map, besides faults; what stood there before is gone."""
-        if self._things.put(obstacles):
+        if self._obstacles.put(obstacles):
             for robot in self._by_kind.robots.values():
                 robot.stands_before = ""
 
@@ -145,7 +145,7 @@ class SimulatedWorld:
 
     def _begin_faults(self) -> None:
         """Let the faults begin that are there from the first moment on, before anybody looks."""
-        self._things.pass_time(0.0)
+        self._obstacles.pass_time(0.0)
         for actor in self._actors.values():
             actor.notice_faults(0.0)
 
@@ -159,7 +159,7 @@ class SimulatedWorld:
             for name, robot in self._by_kind.robots.items()
             if not robot.resting
         }
-        if self._things.pass_time(t_s):
+        if self._obstacles.pass_time(t_s):
             targets = {name: self._kept_back(name, target) for name, target in targets.items()}
         self._driver.drive(targets, self._nearness.touching)
         self._events.extend(self._nearness.look(t_s, targets))
@@ -172,7 +172,7 @@ class SimulatedWorld:
     def _kept_back(self, name: str, target: Drive) -> Drive:
         """Let a robot stand that would drive into a thing that is not on the map: it sees it."""
         robot, (speed, turn) = self._by_kind.robots[name], target
-        robot.stands_before = self._things.ahead_of(self._motions[name], robot.radius_m) if speed > 0 else ""
+        robot.stands_before = self._obstacles.ahead_of(self._motions[name], robot.radius_m) if speed > 0 else ""
         return (0.0, turn) if robot.stands_before else target
 
     def _tick_slowly(self, t_s: float, targets: Mapping[str, Drive]) -> None:
