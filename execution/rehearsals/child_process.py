@@ -1,9 +1,9 @@
 """`python -m execution.rehearsals.child_process`: one rehearsal in a process of its own, without Django.
 
 It reads a job as JSON from standard input and writes lines of JSON: `{"begun": true}` when its time begins,
-`{"course": {…}}` (`Course`) four times a second, at the end `{"result": {…}}` or `{"error": "…"}`. Of a job's `limits`
-it holds itself to `wall_s` by the clock and to `memory_bytes`; `parent` is the process without which nobody wants the
-result.
+`{"course": {…}}` (`Progress`) four times a second, at the end `{"result": {…}}` or `{"error": "…"}`. Of a job's
+`limits` it holds itself to `wall_s` by the clock and to `memory_bytes`; `parent` is the process without which nobody
+wants the result.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from typing import Any
 from editor.language import plan_from_json
 from editor.language.site.json_form import zone_from_json, zone_to_json
 from editor.language.site.surroundings import PlaceFacts, ZoneFacts
-from execution.rehearsals.course import Course
+from execution.rehearsals.progress import Progress
 from execution.rehearsals.rehearsal import Conditions, rehearse
 from registry.floorplan.plan import Grid
 from simulation.fault_form import faults_to_json, read_faults
@@ -83,14 +83,14 @@ class Teller:
         self._began = time.monotonic()
         self._told_at = 0.0
 
-    def __call__(self, course: Course) -> float | None:
+    def __call__(self, progress: Progress) -> float | None:
         """Take in how far it is; return the seconds that it was given, once they are over."""
         now = time.monotonic()
         if now - self._told_at >= TELL_EVERY_S:
             self._told_at = now
             if self._parent is not None and os.getppid() != self._parent:
                 os._exit(1)  # the one who waits for the result has died
-            _write({"course": asdict(course) | {"share": course.share}})
+            _write({"course": asdict(progress) | {"share": progress.share}})
         is_over = self._wall_s is not None and now - self._began >= self._wall_s
         return self._wall_s if is_over else None
 

@@ -17,7 +17,7 @@ from execution.floor_protocol import AskingRun, to_floor, to_machine, to_run
 from execution.machine import machine
 from execution.machine import messages as r
 from execution.machine.needs import Facts, clock_fact, needs_of, position_facts
-from execution.rehearsals.course import Course, has_known_end
+from execution.rehearsals.progress import Progress, has_known_end
 from execution.rehearsals.recorder import Recorder
 from execution.traffic import floor
 from execution.traffic import messages as m
@@ -42,7 +42,7 @@ REPLY_S = 1.0
 """How long a question is open before the rehearsal answers it."""
 LOOK_ROUND_S = 1.0
 """How often a program is told the time and where robots are, if it asks for them."""
-Follow = Callable[[Course], float | None]
+Follow = Callable[[Progress], float | None]
 """Told at every step how far a rehearsal is; answers with the seconds that it was given, once they are over."""
 
 
@@ -119,7 +119,7 @@ class _Rehearsal:
         self.dropped_timers: set[int] = set()
         self.finished: r.Finished | None = None
         self.actions = 0
-        self.follow = follow or (lambda course: None)
+        self.follow = follow or (lambda progress: None)
         self.end_known = has_known_end(plan)
         self.steps = {instruction.step for instruction in plan.instructions if instruction.step} or {""}
         self.left: set[str] = set()
@@ -285,13 +285,13 @@ class _Rehearsal:
         if action.status == "failed" and not self.recorder.errors:
             self.recorder.error(now, "", "failed", action.reason, "step_failed", why=action.reason)
 
-    def _course(self) -> Course:
+    def _progress(self) -> Progress:
         steps = len(self.steps)
-        return Course(round(self.world.time_s, 2), self.recorder.step_now(), len(self.left), steps, self.end_known)
+        return Progress(round(self.world.time_s, 2), self.recorder.step_now(), len(self.left), steps, self.end_known)
 
     def _check_limits(self, now: float) -> None:
         """Stop what would go on for ever."""
-        given_s = self.follow(self._course())
+        given_s = self.follow(self._progress())
         if self.finished is not None:
             return
         if now >= self.limit_s:

@@ -50,7 +50,7 @@ CHILDREN: Mapping[str, str] = {
     Rehearsal.Kind.TESTS: "execution.trials.child_process",
 }
 """The module that carries out each kind of what is in the queue."""
-Course = Mapping[str, Any]
+ProgressJson = Mapping[str, Any]
 Answer = TypeVar("Answer")
 stopping = threading.Event()
 """Set when this process is to end: what it rehearses goes back to where it stood in the queue."""
@@ -97,7 +97,7 @@ def carry_out(row: Rehearsal) -> None:
 
 def _follow(row: Rehearsal, child: RunningChild) -> dict[str, Any] | None:
     """Return how it ended, as columns of its row; None when the row is not this worker's any more."""
-    course: Course = row.course
+    course: ProgressJson = row.course
     beat_at = time.monotonic()
     while True:
         for line in child.read(LOOK_S):
@@ -131,7 +131,7 @@ def _ending(line: Mapping[str, Any]) -> dict[str, Any]:
     return {"status": Rehearsal.Status.FAILED, "reason": reason}
 
 
-def _overdue(child: RunningChild, course: Course) -> str:
+def _overdue(child: RunningChild, course: ProgressJson) -> str:
     """Return why a child is to be ended that does not do so itself; empty when it is not."""
     if child.silence_s > SILENT_S:
         return f"The process that rehearsed it gave no sign for {SILENT_S:g} s and was ended. Start it again."
@@ -141,7 +141,7 @@ def _overdue(child: RunningChild, course: Course) -> str:
     return ""
 
 
-def _beat(row: Rehearsal, course: Course) -> bool:
+def _beat(row: Rehearsal, course: ProgressJson) -> bool:
     """Say that it goes on and how far it is; False when the row is not this worker's any more."""
     mine = _owned(row)
     progress = float(course.get("share", 0.0))

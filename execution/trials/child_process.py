@@ -1,6 +1,6 @@
 """`python -m execution.trials.child_process`: tests of a program in a process of their own, without Django.
 
-It speaks as `execution.rehearsals.child_process` does; `steps` of the course are tests, seeds of them and changes of
+It speaks as `execution.rehearsals.child_process` does; `steps` of the progress are tests, seeds of them and changes of
 the program. The result has for each test what `execution.rehearsals.test_results` keeps, the ways through the program,
 and what became of changes where they were asked for.
 """
@@ -14,7 +14,7 @@ from typing import Any, Final
 
 from editor.language import plan_from_json
 from execution.rehearsals.child_process import Teller, begin, main, scene_from_json
-from execution.rehearsals.course import Course
+from execution.rehearsals.progress import Progress
 from execution.trials.coverage import Coverage
 from execution.trials.many_seeds import ManySeeds
 from execution.trials.mutants import Mutant
@@ -38,8 +38,8 @@ class _Follower:
     done: int = 0
     is_over: bool = False
 
-    def __call__(self, course: Course) -> float | None:
-        wall_s = self.teller(Course(course.virtual_s, course.step, self.done, self.steps, True))
+    def __call__(self, progress: Progress) -> float | None:
+        wall_s = self.teller(Progress(progress.virtual_s, progress.step, self.done, self.steps, True))
         self.is_over = self.is_over or wall_s is not None
         return wall_s
 

@@ -4,7 +4,7 @@ import pytest
 
 from editor.language.expressions.nodes import Constant
 from editor.language.plan.instructions import Branch, End, EventEntry, Instruction, Invoke, Jump, Plan, Return, Wait
-from execution.rehearsals.course import Course, has_known_end
+from execution.rehearsals.progress import Progress, has_known_end
 from execution.rehearsals.rehearsal import Conditions, rehearse
 from tests.kit import demo_floor
 from tests.kit.programs import plan_of
@@ -31,8 +31,8 @@ def test_the_end_is_known_where_nothing_leads_back(plan: Plan, known: bool) -> N
 
 
 def test_the_share_is_of_the_steps_and_never_quite_one() -> None:
-    assert [Course(0.0, "", done, 4, True).share for done in (0, 1, 4)] == [0.0, 0.247, 0.99]
-    assert Course(0.0, "", 0, 0, True).share == 0.0
+    assert [Progress(0.0, "", done, 4, True).share for done in (0, 1, 4)] == [0.0, 0.247, 0.99]
+    assert Progress(0.0, "", 0, 0, True).share == 0.0
 
 
 def rehearsed(plan: Plan, follow, **conditions):
@@ -46,7 +46,7 @@ def rehearsed(plan: Plan, follow, **conditions):
 
 
 def test_what_is_told_goes_forward_in_time_and_in_steps() -> None:
-    seen: list[Course] = []
+    seen: list[Progress] = []
     two = Instruction(Wait(Constant(5)), "v")
     result = rehearsed(plan_of(Instruction(Wait(Constant(5)), "w"), two, End()), seen.append)
     assert result["ok"] is True
@@ -59,11 +59,11 @@ def test_what_is_told_goes_forward_in_time_and_in_steps() -> None:
 
 def test_following_a_rehearsal_changes_nothing_of_its_result() -> None:
     plan = plan_of(WAIT, End())
-    assert rehearsed(plan, None) == rehearsed(plan, lambda course: None)
+    assert rehearsed(plan, None) == rehearsed(plan, lambda progress: None)
 
 
 def test_one_whose_time_is_over_is_stopped_and_says_where_it_was_and_what_it_has_found() -> None:
-    result = rehearsed(plan_of(WAIT, Jump(0)), lambda course: 600.0 if course.virtual_s >= 70 else None)
+    result = rehearsed(plan_of(WAIT, Jump(0)), lambda progress: 600.0 if progress.virtual_s >= 70 else None)
     assert result["ok"] is False
     error = result["errors"][0]
     assert (error["step"], error["code"], error["args"]) == ("w", "too_slow", {"minutes": 10.0, "reached": "0:01:10"})

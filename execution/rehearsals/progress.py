@@ -8,7 +8,7 @@ from editor.language.plan.instructions import Branch, Invoke, Jump, Plan, TryBeg
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class Progress:
     """How far a rehearsal is: the virtual time (s), the step it is at, and how many of the steps were done once.
 
     Where the program repeats something, or events interrupt it, done steps do not tell when it ends: `end_known` is
