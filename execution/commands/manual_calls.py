@@ -18,7 +18,7 @@ from django.db.models import F
 from execution import database, mailbox
 from execution.errors import BadArguments, NotFound, NotPossibleNow
 from execution.floor.stops import cancel_calls, get_stop, is_stopped
-from execution.lease import fence_of
+from execution.job_lease import fence_of
 from execution.models import Command, FloorState, Run
 from execution.traffic import floor
 from execution.traffic.messages import CONTROLS, CallCancelled, CallSent

@@ -16,9 +16,8 @@ from django.db.models.functions import Now
 
 from execution import database
 from execution.frozen_sessions import end_frozen_holder
+from execution.job_lease import LEASE_S
 from execution.models import SiteLease
-
-LEASE_S = 5.0
 
 
 class _Process:

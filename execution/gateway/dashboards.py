@@ -19,7 +19,7 @@ from typing import Any
 from django.db import DatabaseError, InterfaceError, connection
 
 from execution import database
-from execution.lease import HeldLease
+from execution.job_lease import JobLease
 from registry import services as registry
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.mqtt_client import MqttClient
@@ -51,7 +51,7 @@ class Dashboards:
 
     def __init__(self, client: MqttClient, settings: Any) -> None:
         self._client, self._mqtt = client, settings.VIPO_MQTT
-        self._lease = HeldLease("dashboards", settings.VIPO_GATEWAY)
+        self._lease = JobLease("dashboards", settings.VIPO_GATEWAY)
         self._told: dict[Key, Told] = {}
         self._count = 0
         self._is_known = False

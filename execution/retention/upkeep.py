@@ -16,7 +16,7 @@ from uuid import uuid4
 
 from execution import mailbox
 from execution.archive.history_file import UnreadableHistory
-from execution.lease import HeldLease
+from execution.job_lease import JobLease
 from execution.models import Archive, Lease
 from execution.retention.archiving import Overtaken, Turn, archive_next, check_whole, discard
 from execution.retention.periods import KINDS, get_keeping, note_trouble
@@ -41,7 +41,7 @@ class _Hold:
 
     def __init__(self, clock: Callable[[], datetime], until: datetime) -> None:
         self._holder = f"{socket.gethostname()}:{os.getpid()}:{uuid4().hex[:8]}"
-        self._lease = HeldLease(JOB, self._holder)
+        self._lease = JobLease(JOB, self._holder)
         self.clock, self._until = clock, until
 
     def take(self) -> bool:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from execution import database
-from execution.lease import HeldLease
+from execution.job_lease import JobLease
 from execution.listener import Arrival, Listener
 from registry import services as registry
 from simulation.services import make_world
@@ -57,7 +57,7 @@ class StandIns(Listener):
         super().__init__(settings, heart, speed=speed)
         self._folder = Path(settings.VIPO_STATE_DIR) / "stand-ins"
         self._folder.mkdir(parents=True, exist_ok=True)
-        self._lease = HeldLease("stand-ins", self._name)
+        self._lease = JobLease("stand-ins", self._name)
         self._playing: dict[str, _Playing] = {}
         self._given_up: dict[str, float] = {}
         self._hand_overs = HandOvers()

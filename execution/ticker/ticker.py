@@ -19,7 +19,7 @@ from execution.commands.outbox import drop_stale_controls, end_commands_of_those
 from execution.floor.stops import follow_stops
 from execution.floor_protocol import ToFloor, ToRun
 from execution.frozen_sessions import end_frozen_sessions
-from execution.lease import HeldLease
+from execution.job_lease import JobLease
 from execution.machine.messages import TimerFired
 from execution.models import Run, Timer
 from execution.rehearsals.worker import sweep_rehearsals
@@ -42,7 +42,7 @@ class Ticker:
     """Called every 0.1 to 0.25 s; does each thing as often as it needs, while it holds the lease."""
 
     def __init__(self, holder: str = HOLDER) -> None:
-        self._lease = HeldLease("ticker", holder)
+        self._lease = JobLease("ticker", holder)
         self._done_at: dict[str, datetime] = {}
         self._leads_since: datetime | None = None
 

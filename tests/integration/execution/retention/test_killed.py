@@ -16,7 +16,7 @@ from django.utils import timezone
 
 from execution import services
 from execution.fault_points import ARCHIVE_POINTS, DIES_WITH
-from execution.lease import HeldLease
+from execution.job_lease import JobLease
 from execution.models import Archive, Command, Lease, Run, RunEvent
 from execution.retention import pruning
 from execution.retention.archiving import Overtaken, Turn, archive_next
@@ -86,7 +86,7 @@ def test_a_kill_at_this_moment_loses_nothing_and_doubles_nothing(
 
 def test_while_another_process_has_the_lease_nothing_is_archived() -> None:
     make_run(1, 31)
-    assert HeldLease("archive", "another").hold(timezone.now())
+    assert JobLease("archive", "another").hold(timezone.now())
     archive()
     assert not Archive.objects.exists()
     Lease.objects.update(until=timezone.now() - timedelta(seconds=1))

@@ -7,10 +7,11 @@ from datetime import datetime, timedelta
 from execution.models import Lease, SiteLease
 
 LEASE_S = 5.0
+"""How long a lease stands that nobody renews, of a job as of a site."""
 
 
-class HeldLease:
-    """One process's hold on a job, as far as it has it; a holder that dies loses it after 5 s."""
+class JobLease:
+    """One process's hold on a job, as far as it has it; a holder that dies loses it after `LEASE_S`."""
 
     def __init__(self, job: str, holder: str) -> None:
         self._job, self._holder = job, holder
