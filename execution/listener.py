@@ -41,12 +41,12 @@ class Listener(ABC):
     without_database: str
     """What does not happen while the database is away, for the log."""
 
-    def __init__(self, settings: Any, heart: registry.Heart | None = None, *, speed: float = 1.0) -> None:
+    def __init__(self, settings: Any, heartbeat: registry.HeartbeatWriter | None = None, *, speed: float = 1.0) -> None:
         broker: Mapping[str, Any] = settings.VIPO_MQTT
         own = {**broker, "username": self.account, "password": own_key(self.account, str(broker["password"]))}
         self._name = f"{self.account.removesuffix(':')}-{secrets.token_hex(6)}"
         self._client = MqttClient.from_settings(own, client_id=self._name)
-        self._heart, self._speed = heart, speed
+        self._heartbeat, self._speed = heartbeat, speed
         self._inbox: SimpleQueue[Arrival] = SimpleQueue()
         self._new_line = threading.Event()
         self._outage = Outage("The database", self.without_database)
@@ -59,8 +59,8 @@ class Listener(ABC):
         self._client.start()
         try:
             while not stopping.is_set():
-                if self._heart is not None:
-                    self._heart.beat("works" if self._client.connected else "broker_away")
+                if self._heartbeat is not None:
+                    self._heartbeat.beat("works" if self._client.connected else "broker_away")
                 try:
                     self._turn(stopping)
                     self._outage.end()

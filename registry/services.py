@@ -137,7 +137,7 @@ from registry.people.watch import Seat, watch_of_this_loop
 from registry.processes.children import sigint_blocked
 from registry.processes.counters import BOUNDS_S, MEASURES, Measure, count, counters_to_json, time_spent, watch_amount
 from registry.processes.findings import Finding, find_trouble
-from registry.processes.heart import Heart, ProcessKind
+from registry.processes.heartbeat_writer import HeartbeatWriter, ProcessKind
 from registry.processes.heartbeats import ProcessView, list_processes, prune_processes, read_time
 from registry.sites.invitations import prune_invitations
 from registry.sites.mail import can_mail, send_mail
@@ -179,7 +179,7 @@ __all__ = [
     "DeviceEventView",
     "DeviceView",
     "Finding",
-    "Heart",
+    "HeartbeatWriter",
     "IsSimulated",
     "Listed",
     "Login",

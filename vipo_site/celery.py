@@ -7,7 +7,7 @@ from celery import Celery
 from celery.signals import task_postrun, worker_ready, worker_shutdown
 from django.conf import settings
 
-from vipo_device.kit.pulse import EVERY_S
+from vipo_device.kit.liveness_file import EVERY_S
 
 os.environ.setdefault("DJANGO_SETTINGS_MODULE", "vipo_site.settings")
 # Django's checks load all pages, which a worker does not serve; `manage.py prepare` runs them for every version.
@@ -28,24 +28,24 @@ def make_app(*, is_current: bool = False) -> Celery:
 app = make_app(is_current=True)
 
 
-_hearts: list[Any] = []
+_heartbeats: list[Any] = []
 
 
 @worker_ready.connect  # type: ignore[untyped-decorator]
 def begin_to_beat(sender: Any, **_more: Any) -> None:
     """Beat from the loop that takes tasks in."""
-    from registry.services import Heart
+    from registry.services import HeartbeatWriter
 
-    heart = Heart("worker", pulse=settings.VIPO_PULSE).start()
-    _hearts.append(heart)
-    sender.timer.call_repeatedly(EVERY_S, heart.beat)
+    heartbeat = HeartbeatWriter("worker", liveness_file=settings.VIPO_PULSE).start()
+    _heartbeats.append(heartbeat)
+    sender.timer.call_repeatedly(EVERY_S, heartbeat.beat)
 
 
 @worker_shutdown.connect  # type: ignore[untyped-decorator]
 def say_goodbye(**_more: Any) -> None:
     """End the beats in order."""
-    while _hearts:
-        _hearts.pop().stop()
+    while _heartbeats:
+        _heartbeats.pop().stop()
 
 
 @task_postrun.connect  # type: ignore[untyped-decorator]

@@ -55,11 +55,11 @@ REASONS = KINDS | {TOO_MANY}
 class Gateway:
     """One gateway; the embedded mode runs it in a thread, `manage.py gateway` in a process."""
 
-    def __init__(self, settings: Any, heart: registry.Heart | None = None) -> None:
+    def __init__(self, settings: Any, heartbeat: registry.HeartbeatWriter | None = None) -> None:
         # The same name after a restart takes over the session of the one that died, with the answers kept in it.
         self._client = MqttClient.from_settings(settings.VIPO_MQTT, client_id=settings.VIPO_GATEWAY, keep_session=True)
         self._dashboards = Dashboards(self._client, settings)
-        self._heart = heart
+        self._heartbeat = heartbeat
         self._inbox = Inbox()
         self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
         self.complaints = Complaints()
@@ -107,8 +107,8 @@ class Gateway:
             connection.close()
 
     def _beat(self) -> None:
-        if self._heart is not None:
-            self._heart.beat("works" if self._client.connected else "broker_away")
+        if self._heartbeat is not None:
+            self._heartbeat.beat("works" if self._client.connected else "broker_away")
 
     def _renew_connection(self) -> None:
         """Give up a connection from before an outage; the other thread may have noticed it first."""

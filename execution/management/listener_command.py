@@ -1,4 +1,4 @@
-"""The command of a process that is a `Listener`: its speed, its heart, its end."""
+"""The command of a process that is a `Listener`: its speed, its heartbeat, its end."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
 from execution.listener import Listener
-from registry.services import Heart, ProcessKind
+from registry.services import HeartbeatWriter, ProcessKind
 from vipo_device.kit.shutdown import stop_on_signals
 
 STOP_LIMIT_S = 10
@@ -31,8 +31,8 @@ class ListenerCommand(BaseCommand):
         if not 0.1 <= options["speed"] <= 100:
             raise CommandError(f"--speed {options['speed']:g} is outside 0.1 to 100; 1 is real time.")
         stopping = stop_on_signals(STOP_LIMIT_S)
-        heart = Heart(self.kind, pulse=settings.VIPO_PULSE).start()
+        heartbeat = HeartbeatWriter(self.kind, liveness_file=settings.VIPO_PULSE).start()
         try:
-            self.listener(settings, heart, speed=options["speed"]).run_forever(stopping)
+            self.listener(settings, heartbeat, speed=options["speed"]).run_forever(stopping)
         finally:
-            heart.stop()
+            heartbeat.stop()

@@ -50,8 +50,8 @@ class Mirror(Listener):
     account, filters = MIRROR, MIRROR_FILTERS
     without_database = "What devices take is not measured."
 
-    def __init__(self, settings: Any, heart: registry.Heart | None = None, *, speed: float = 1.0) -> None:
-        super().__init__(settings, heart, speed=speed)
+    def __init__(self, settings: Any, heartbeat: registry.HeartbeatWriter | None = None, *, speed: float = 1.0) -> None:
+        super().__init__(settings, heartbeat, speed=speed)
         self._attention = Attention()
         self._known: dict[str, _Known] = {}
         self._stopped: dict[str, bool] = {}

@@ -53,8 +53,8 @@ class StandIns(Listener):
     account, filters = STAND_INS, STAND_IN_FILTERS
     without_database = "Devices that are simulated begin and end nothing new."
 
-    def __init__(self, settings: Any, heart: registry.Heart | None = None, *, speed: float = 1.0) -> None:
-        super().__init__(settings, heart, speed=speed)
+    def __init__(self, settings: Any, heartbeat: registry.HeartbeatWriter | None = None, *, speed: float = 1.0) -> None:
+        super().__init__(settings, heartbeat, speed=speed)
         self._folder = Path(settings.VIPO_STATE_DIR) / "stand-ins"
         self._folder.mkdir(parents=True, exist_ok=True)
         self._lease = JobLease("stand-ins", self._name)

@@ -146,12 +146,12 @@ TICK_S = 0.1
 IDLE_S = 1.0
 
 
-def run_ticker(*, stopping: threading.Event, heart: registry.Heart | None = None) -> None:
-    """Tick until `stopping` is set; a database that is away is waited for. Each tick is told to the `heart`."""
+def run_ticker(*, stopping: threading.Event, heartbeat: registry.HeartbeatWriter | None = None) -> None:
+    """Tick until `stopping` is set; a database that is away is waited for. Each tick is told to the `heartbeat`."""
     leads = False
     while not stopping.is_set():
-        if heart is not None:
-            heart.beat("leads" if leads else "stands_by")
+        if heartbeat is not None:
+            heartbeat.beat("leads" if leads else "stands_by")
         try:
             leads = tick(database.now())
         except DatabaseError as error:

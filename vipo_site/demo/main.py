@@ -226,15 +226,19 @@ def start_parts(options: argparse.Namespace, state: Path) -> list[Part]:
     from execution.mirror.mirror import Mirror
     from execution.services import run_ticker
     from execution.stand_ins.stand_ins import StandIns
-    from registry.services import Heart
+    from registry.services import HeartbeatWriter
 
     parts = [start_broker(), *start_workers()]
-    gateway, ticker, mirror = Heart("gateway", settings.VIPO_GATEWAY), Heart("ticker"), Heart("mirror")
-    stand_ins = Heart("stand-ins")
-    hearts = (("gateway", gateway), ("ticker", ticker), ("mirror", mirror), ("stand-ins", stand_ins))
-    parts += [Part(name, heart.start().stop) for name, heart in hearts]
+    gateway, ticker, mirror = (
+        HeartbeatWriter("gateway", settings.VIPO_GATEWAY),
+        HeartbeatWriter("ticker"),
+        HeartbeatWriter("mirror"),
+    )
+    stand_ins = HeartbeatWriter("stand-ins")
+    heartbeats = (("gateway", gateway), ("ticker", ticker), ("mirror", mirror), ("stand-ins", stand_ins))
+    parts += [Part(name, heartbeat.start().stop) for name, heartbeat in heartbeats]
     parts.append(start_loop("gateway", lambda stopping: Gateway(settings, gateway).run_forever(stopping)))
-    parts.append(start_loop("ticker", lambda stopping: run_ticker(stopping=stopping, heart=ticker)))
+    parts.append(start_loop("ticker", lambda stopping: run_ticker(stopping=stopping, heartbeat=ticker)))
     parts.append(start_loop("mirror", Mirror(settings, mirror, speed=options.speed).run_forever))
     parts.append(start_loop("stand-ins", StandIns(settings, stand_ins, speed=options.speed).run_forever))
     return parts + start_children(state, options.speed, options.pace)

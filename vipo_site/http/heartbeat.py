@@ -1,4 +1,4 @@
-"""The heart of a web process: it beats while Daphne's loop goes round, and measures how long that lets a call wait."""
+"""The heartbeat of a web process: it beats while Daphne's loop goes round, and measures how long calls wait for it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import sys
 import time
 from typing import Any
 
-from registry.services import Heart, time_spent
+from registry.services import HeartbeatWriter, time_spent
 
 TURN_S = 1.0
 
@@ -22,14 +22,14 @@ def beat_while_serving() -> None:
 def _begin(reactor: Any) -> None:
     from twisted.internet.threads import deferToThread
 
-    heart = Heart("web").start()
-    reactor.addSystemEventTrigger("before", "shutdown", deferToThread, heart.stop)
-    _turn(reactor, heart, time.monotonic())
+    heartbeat = HeartbeatWriter("web").start()
+    reactor.addSystemEventTrigger("before", "shutdown", deferToThread, heartbeat.stop)
+    _turn(reactor, heartbeat, time.monotonic())
 
 
-def _turn(reactor: Any, heart: Heart, due_s: float) -> None:
+def _turn(reactor: Any, heartbeat: HeartbeatWriter, due_s: float) -> None:
     """Note that the loop has come round, and how late."""
     now_s = time.monotonic()
     time_spent(name="loop_lag_seconds", seconds=max(0.0, now_s - due_s))
-    heart.beat("works")
-    reactor.callLater(TURN_S, _turn, reactor, heart, now_s + TURN_S)
+    heartbeat.beat("works")
+    reactor.callLater(TURN_S, _turn, reactor, heartbeat, now_s + TURN_S)

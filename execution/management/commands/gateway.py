@@ -10,7 +10,7 @@ from django.conf import settings
 from django.core.management.base import BaseCommand
 
 from execution.gateway.gateway import Gateway
-from registry.services import Heart
+from registry.services import HeartbeatWriter
 
 
 class Command(BaseCommand):
@@ -24,8 +24,8 @@ class Command(BaseCommand):
         stopping = threading.Event()
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, lambda *_: stopping.set())
-        heart = Heart("gateway", settings.VIPO_GATEWAY, pulse=settings.VIPO_PULSE).start()
+        heartbeat = HeartbeatWriter("gateway", settings.VIPO_GATEWAY, liveness_file=settings.VIPO_PULSE).start()
         try:
-            Gateway(settings, heart).run_forever(stopping)
+            Gateway(settings, heartbeat).run_forever(stopping)
         finally:
-            heart.stop()
+            heartbeat.stop()

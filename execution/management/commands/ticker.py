@@ -10,7 +10,7 @@ from django.conf import settings
 from django.core.management.base import BaseCommand
 
 from execution.ticker.ticker import run_ticker
-from registry.services import Heart
+from registry.services import HeartbeatWriter
 
 
 class Command(BaseCommand):
@@ -24,8 +24,8 @@ class Command(BaseCommand):
         stopping = threading.Event()
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, lambda *_: stopping.set())
-        heart = Heart("ticker", pulse=settings.VIPO_PULSE).start()
+        heartbeat = HeartbeatWriter("ticker", liveness_file=settings.VIPO_PULSE).start()
         try:
-            run_ticker(stopping=stopping, heart=heart)
+            run_ticker(stopping=stopping, heartbeat=heartbeat)
         finally:
-            heart.stop()
+            heartbeat.stop()

@@ -14,7 +14,7 @@ from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
 from registry import services as registry
-from registry.services import Heart
+from registry.services import HeartbeatWriter
 from simulation.site_facts import DescribedDevice, SiteFacts, read_obstacles, read_site_facts
 from simulation.twin import Twin, TwinPlan
 from vipo_device.descriptions.reader import read_description
@@ -57,16 +57,16 @@ class Command(BaseCommand):
         if not 0.1 <= options["speed"] <= 100:
             raise CommandError(f"--speed {options['speed']:g} is outside 0.1 to 100; 1 is real time.")
         stopping = stop_on_signals(STOP_LIMIT_S)
-        heart = Heart("twin", f"twin-{options['site']}", pulse=settings.VIPO_PULSE).start()
+        heartbeat = HeartbeatWriter("twin", f"twin-{options['site']}", liveness_file=settings.VIPO_PULSE).start()
         try:
-            make_twin(options, heart).run(stopping)
+            make_twin(options, heartbeat).run(stopping)
         except VipoError as error:
             raise CommandError(error.detail) from error
         finally:
-            heart.stop()
+            heartbeat.stop()
 
 
-def make_twin(options: dict[str, Any], heart: Heart) -> Twin:
+def make_twin(options: dict[str, Any], heartbeat: HeartbeatWriter) -> Twin:
     """Return the twin that the command line asks for."""
     site: str = options["site"]
     described = read_folder(options["devices"], site) if options["devices"] else ()
@@ -88,7 +88,7 @@ def make_twin(options: dict[str, Any], heart: Heart) -> Twin:
         paces=read_paces(facts, options["pace"]),
         refresh=partial(read_site_facts, site, described),
         obstacles=partial(read_obstacles, site),
-        beat=heart.beat,
+        beat=heartbeat.beat,
     )
     return Twin(plan, connections(site, enrolment_key, folder / "secrets"))
 

@@ -32,7 +32,7 @@ TEXT = """@prefix dct: <http://purl.org/dc/terms/> .
 """
 
 
-class Pulse:
+class Heartbeat:
     """Where a twin says that it works."""
 
     beat: Callable[..., None] = staticmethod(lambda *_: None)
@@ -44,7 +44,7 @@ def playing(devices: Path | None) -> Iterator[None]:
     options: dict[str, Any] = {
         "site": SITE, "devices": devices, "only": "", "left_out": "", "speed": 1.0, "driver": "kinematic", "pace": [],
     }  # fmt: skip
-    twin, stopping = make_twin(options, Pulse()), threading.Event()  # type: ignore[arg-type]
+    twin, stopping = make_twin(options, Heartbeat()), threading.Event()  # type: ignore[arg-type]
     thread = threading.Thread(target=twin.run, args=(stopping,))
     thread.start()
     try:

@@ -26,7 +26,7 @@ from tests.kit.files import ROOT
 from tests.kit.servers import free_port
 from tests.kit.sign_in import sign_in
 from tests.kit.waiting import wait_for
-from vipo_device.kit.pulse import beats
+from vipo_device.kit.liveness_file import is_alive
 from vipo_device.protocol.mqtt_client import MqttClient, tls_context
 
 pytestmark = pytest.mark.servers
@@ -228,7 +228,7 @@ def test_whoever_sends_mail_signs_in_at_a_real_mail_server(site: Composed, servi
 
 def test_each_process_shows_that_it_lives(site: Composed) -> None:
     for service in ("gateway", "worker-1", "ticker"):
-        wait_for(service, lambda s=service: beats(site.folder / f"tmp-{s}" / "pulse"), 60, story=site.story)
+        wait_for(service, lambda s=service: is_alive(site.folder / f"tmp-{s}" / "pulse"), 60, story=site.story)
 
 
 def test_secrets_lie_where_only_their_owner_gets_to_them(site: Composed) -> None:

@@ -292,7 +292,7 @@ def test_one_web_process_tells_of_all_and_of_a_gateway_that_freezes_and_comes_ba
     served.wait("every kind", lambda: beating() == ["gateway", "ticker", "twin", "web", "worker"], 60)
     served.wait("its work", lambda: any("drive_site" in line and "SUCCESS" in line for line in of("vipo_tasks_total")))
     served.wait("its answers", lambda: of("vipo_command_answers_total{"))
-    served.wait("nothing to find: a heart may be late on a busy machine", lambda: not of("vipo_findings{"), 120)
+    served.wait("nothing to find: a heartbeat may be late on a busy machine", lambda: not of("vipo_findings{"), 120)
     frozen = next(process for name, process in served.processes.items() if name.startswith("gateway"))
     frozen.send_signal(signal.SIGSTOP)
     try:

@@ -102,6 +102,6 @@ async def test_two_statements_a_second_in_each_process_whatever_is_open(plant: P
             await asyncio.sleep(WATCHED_S)
             counted = plant.count(since)
             looks = (time.monotonic() - begun) / EVERY_S + 1
-            by_process = sorted(asked for asked in counted.values() if asked > 1)  # hearts ask seldom
+            by_process = sorted(asked for asked in counted.values() if asked > 1)  # heartbeats ask seldom
             assert len(by_process) == 2, f"{number} sessions: {counted}"
             assert all(2 <= statements <= 2 * looks for statements in by_process), f"{number} sessions: {counted}"

@@ -1,4 +1,4 @@
-"""The heart of a process: a thread that writes, every two seconds, that the process works.
+"""The heartbeat of a process: a thread that writes, every two seconds, that the process works.
 
 It beats only while the process's own loop goes round (`beat`), so a loop that stands still falls silent, too; one that
 is busy for a moment does not, since it does not write itself. All times in the row are of the database's clock.
@@ -22,7 +22,7 @@ from registry.live.fanout import Outage
 from registry.models import Heartbeat
 from registry.processes.counters import counters_to_json
 from registry.processes.heartbeats import forget_predecessors
-from vipo_device.kit.pulse import Pulse
+from vipo_device.kit.liveness_file import LivenessFile
 
 BEAT_S = 2.0
 WHOLE_EVERY = 5
@@ -33,7 +33,7 @@ UNSURE_S = 1.0
 """An answer that took longer says nothing exact of how far clocks are apart."""
 GOODBYE_S = 3.0
 _telling = threading.Lock()
-"""Held by the heart that tells what this process has counted: nothing is told twice."""
+"""Held by the writer that tells what this process has counted: nothing is told twice."""
 ProcessKind = Literal["web", "gateway", "worker", "ticker", "mirror", "stand-ins", "twin"]
 
 
@@ -45,12 +45,12 @@ def installed_version() -> str:
         return "unknown"
 
 
-class Heart:
+class HeartbeatWriter:
     """Beats for one part of this process, from `start` until `stop`.
 
-    `clock` is the process's own, `pulse` the file that a container's check of health looks at
-    (vipo_device/kit/pulse.py), empty for none. Where several parts share a process, as in the demo, the one that began
-    first tells what the process has counted.
+    `clock` is the process's own, `liveness_file` the file that a container's check of health looks at
+    (vipo_device/kit/liveness_file.py), empty for none. Where several parts share a process, as in the demo, the one
+    that began first tells what the process has counted.
     """
 
     def __init__(
@@ -58,13 +58,13 @@ class Heart:
         kind: ProcessKind,
         name: str = "",
         *,
-        pulse: str = "",
+        liveness_file: str = "",
         clock: Callable[[], datetime] = lambda: datetime.now(UTC),
     ) -> None:
         machine = socket.gethostname()
         self._row = Heartbeat(kind=kind, name=(name or f"{kind}-{machine}")[:120], machine=machine[:120])
         self._row.process, self._row.version = os.getpid(), installed_version()
-        self._pulse, self._clock, self._tells = Pulse(pulse), clock, False
+        self._liveness_file, self._clock, self._tells = LivenessFile(liveness_file), clock, False
         self._activity = ""
         self._turned_s = time.monotonic()
         self._beats = 0
@@ -75,13 +75,13 @@ class Heart:
     def beat(self, activity: str = "") -> None:
         """Say that the loop has come round once more, and what it is at; costs no question to the database."""
         self._turned_s, self._activity = time.monotonic(), activity
-        self._pulse.beat()
+        self._liveness_file.touch()
 
-    def start(self) -> Heart:
+    def start(self) -> HeartbeatWriter:
         """Begin to beat."""
         self._turned_s = time.monotonic()
         self._tells = _telling.acquire(blocking=False)
-        self._thread = threading.Thread(target=self._run, name=f"heart-{self._row.kind}", daemon=True)
+        self._thread = threading.Thread(target=self._run, name=f"heartbeat-{self._row.kind}", daemon=True)
         self._thread.start()
         return self
 

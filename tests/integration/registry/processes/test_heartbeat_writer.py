@@ -20,7 +20,7 @@ from pytest_django import DjangoDbBlocker
 
 from registry import services
 from registry.models import Heartbeat
-from registry.processes.heart import Heart
+from registry.processes.heartbeat_writer import HeartbeatWriter
 from registry.processes.heartbeats import FORGOTTEN_AFTER, SILENT_AFTER
 from tests.kit.databases import on_database
 from tests.kit.files import ROOT, copy_migrated
@@ -106,10 +106,10 @@ APART = """
 import django, sys, time
 from datetime import UTC, datetime, timedelta
 django.setup()
-from registry.services import Heart
-heart = Heart("worker", "late", clock=lambda: datetime.now(UTC) - timedelta(seconds=60)).start()
+from registry.services import HeartbeatWriter
+heartbeat = HeartbeatWriter("worker", "late", clock=lambda: datetime.now(UTC) - timedelta(seconds=60)).start()
 while True:
-    heart.beat("works")
+    heartbeat.beat("works")
     time.sleep(0.1)
 """
 
@@ -127,30 +127,30 @@ def test_a_clock_that_is_behind_is_told_and_no_beat_carries_it(environment: dict
 def test_a_loop_that_stands_still_falls_silent_though_its_thread_goes_on(
     environment: dict[str, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("registry.processes.heart.BEAT_S", 0.02)
-    monkeypatch.setattr("registry.processes.heart.LOOP_LIMIT_S", 0.3)
-    heart = Heart("gateway", "stuck").start()
+    monkeypatch.setattr("registry.processes.heartbeat_writer.BEAT_S", 0.02)
+    monkeypatch.setattr("registry.processes.heartbeat_writer.LOOP_LIMIT_S", 0.3)
+    heartbeat = HeartbeatWriter("gateway", "stuck").start()
     try:
         wait_for("its first beats", lambda: states() == [("gateway", "beats", "")])
         wait_for("its silence", lambda: (services.list_processes()[0].age_s) > 0.5)
-        heart.beat("works")
+        heartbeat.beat("works")
         wait_for("its next beat", lambda: services.list_processes()[0].age_s < 0.3)
     finally:
-        heart.stop()
+        heartbeat.stop()
     assert [state for _, state, _ in states()] == ["ended"]
 
 
 def test_who_was_forgotten_while_it_was_frozen_comes_back_by_itself(
     environment: dict[str, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("registry.processes.heart.BEAT_S", 0.02)
-    heart = Heart("gateway", "thawed").start()
+    monkeypatch.setattr("registry.processes.heartbeat_writer.BEAT_S", 0.02)
+    heartbeat = HeartbeatWriter("gateway", "thawed").start()
     try:
         wait_for("its first beat", states)
         Heartbeat.objects.all().delete()
         wait_for("its next beat", lambda: states() == [("gateway", "beats", "")])
     finally:
-        heart.stop()
+        heartbeat.stop()
 
 
 def make_rows(count: int, age: timedelta = timedelta()) -> None:
