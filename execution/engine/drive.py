@@ -18,8 +18,8 @@ from execution import mailbox
 from execution.engine import lease as leases
 from execution.engine.commit import Outdated, commit
 from execution.engine.inbox import MOST_AT_ONCE, read_news
-from execution.engine.keeper import keeper
 from execution.engine.lease import Lease, LeaseLost
+from execution.engine.lease_renewal import renewal
 from execution.engine.memory import SiteMemory, read_site
 from execution.engine.poison import set_row_aside
 from execution.engine.turn import Turn
@@ -124,7 +124,7 @@ def _limit_session() -> None:
 def _own(slug: str, lease: Lease, stay_s: float, linger_s: float) -> bool:
     """Stay with a site, then give it up and see to it that somebody goes on where there is more to do."""
     try:
-        with keeper.keeping(lease):
+        with renewal.keeping(lease):
             has_more = _stay(slug, lease, stay_s, linger_s)
         fault_point("before_hand_over")
         leases.release(lease)
@@ -144,14 +144,14 @@ def _stay(slug: str, lease: Lease, stay_s: float, linger_s: float) -> bool:
     looked_at = float("-inf")
     while True:
         now = time.monotonic()
-        if leaving.is_set() or now - began >= stay_s or keeper.others_wait(since=busy_at):
+        if leaving.is_set() or now - began >= stay_s or renewal.others_wait(since=busy_at):
             return True
         memory = _memory(slug, lease)
         is_told = registry.wait_wake(mailbox.look_channel(slug), 0) and now - looked_at >= LOOK_AT_ONCE_S
         look = memory.is_watching and (is_told or now - looked_at >= LOOK_EVERY_S)
         if look:
             looked_at = now
-        keeper.note_turn(lease)
+        renewal.note_turn(lease)
         if _turn(slug, lease, look=look):
             busy_at = time.monotonic()
             # whoever posts something calls, also during the turn; one look more is for a call that was lost

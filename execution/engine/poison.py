@@ -8,7 +8,7 @@ from django.db import transaction
 
 from execution import database
 from execution.engine import lease as leases
-from execution.engine.aside import pause_by_hand, words_of
+from execution.engine.dead_letter_capture import pause_by_hand, words_of
 from execution.engine.inbox import Row, mark_taken
 from execution.engine.lease import Lease
 from execution.models import DeadLetter, Run, RunEvent

@@ -11,7 +11,7 @@ from typing import Any
 from django.db import DatabaseError, InterfaceError
 
 from editor import services as editor
-from execution.engine.aside import (
+from execution.engine.dead_letter_capture import (
     SetAside,
     cancel_by_hand,
     log_ids_of,

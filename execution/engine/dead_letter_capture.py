@@ -1,4 +1,4 @@
-"""What cannot be taken in: it is set aside with its error, and its run is paused with the reason."""
+"""What cannot be taken in becomes a dead letter with its error, and its run is paused with the reason."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ HANGS_AFTER_S = 30.0
 WAITS_S = 1.0
 
 
-class Keeper:
+class LeaseRenewal:
     """One thread for all sites of this process, with a connection of its own; it ends when there is nothing to keep."""
 
     def __init__(self) -> None:
@@ -40,7 +40,7 @@ class Keeper:
         with self._lock:
             self._kept[lease] = time.monotonic()
             if self._thread is None:
-                self._thread = threading.Thread(target=self._run, name="lease-keeper", daemon=True)
+                self._thread = threading.Thread(target=self._run, name="lease-renewal", daemon=True)
                 self._thread.start()
         try:
             yield
@@ -87,4 +87,4 @@ class Keeper:
         return left.exclude(site__in=owned).exists()
 
 
-keeper = Keeper()
+renewal = LeaseRenewal()
