@@ -13,8 +13,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from editor.compiling.feeding import Wanted
-from editor.compiling.lane import GaveWay, Lane, Lost, NotStarted, TookTooLong
+from editor.compiling.checker_process import CheckerProcess, GaveWay, Lost, NotStarted, TookTooLong
+from editor.compiling.job_delta import Wanted
 from editor.compiling.workbench import Found
 from editor.documents.slices import Cutting, CutUpdate
 from editor.documents.tasks import CuttingTask, Refusal
@@ -23,7 +23,7 @@ from editor.documents.yjs_encoding import BadFrame
 
 log = logging.getLogger(__name__)
 Said = TypeVar("Said")
-MOST_LANES = 4
+MOST_PROCESSES = 4
 LIMIT_S = 20.0
 """So long a check may take; the first one of 5,000 steps takes about half a second."""
 PATIENCE_S = 2.0
@@ -48,7 +48,7 @@ class CutFailed(Exception):
 class Limits:
     """How many processes there may be beside the one for slow programs, and how long a check may take in seconds."""
 
-    lanes: int = max(2, min(MOST_LANES, os.cpu_count() or 1))
+    processes: int = max(2, min(MOST_PROCESSES, os.cpu_count() or 1))
     check_s: float = LIMIT_S
     patience_s: float = PATIENCE_S
 
@@ -59,18 +59,18 @@ class Compilers:
     def __init__(self, limits: Limits | None = None) -> None:
         """Start nothing yet."""
         self._limits = limits or Limits()
-        self._lanes = [Lane(f"{number}") for number in range(self._limits.lanes)]
-        self._slow = Lane("slow")
-        self._cutting = Lane("cutting")
-        self._lane_of: dict[str, Lane] = {}
+        self._processes = [CheckerProcess(f"{number}") for number in range(self._limits.processes)]
+        self._slow = CheckerProcess("slow")
+        self._cutting = CheckerProcess("cutting")
+        self._process_of: dict[str, CheckerProcess] = {}
 
     @property
-    def _all(self) -> tuple[Lane, ...]:
-        return (*self._lanes, self._slow, self._cutting)
+    def _all(self) -> tuple[CheckerProcess, ...]:
+        return (*self._processes, self._slow, self._cutting)
 
     def prepare(self, program: str) -> None:
         """Start the process of a program that will be checked soon, and the one that reads what is sent to it."""
-        self._lane(program).prepare()
+        self._usual_process(program).prepare()
         self._cutting.prepare()
 
     async def check(self, wanted: Wanted, begin: Callable[[], None]) -> Found:
@@ -89,7 +89,7 @@ class Compilers:
                 return await self._check_once(wanted, begin)
             except TookTooLong as error:
                 log.warning("The check of program %s was ended after %s s.", wanted.program, self._limits.check_s)
-                self._lane_of[wanted.program] = self._slow
+                self._process_of[wanted.program] = self._slow
                 raise CheckFailed("check_took_too_long") from error
             except NotStarted as error:
                 starts += 1
@@ -97,16 +97,16 @@ class Compilers:
             except Lost as error:
                 losses += 1
                 log.warning("The check of program %s broke off: %s", wanted.program, error)
-        self._lane_of[wanted.program] = self._slow
+        self._process_of[wanted.program] = self._slow
         raise CheckFailed("check_broke_off")
 
     async def do(self, task: DocumentTask[Said]) -> Said | None:
         """Have work on a document done in a process that has nothing else to do; None where that fails."""
-        free = [lane for lane in self._lanes if not lane.is_busy]
-        lane = next((lane for lane in free if lane.pid is not None), free[0] if free else self._slow)
-        if not await lane.enter(self._limits.patience_s):
+        free = [process for process in self._processes if not process.is_busy]
+        process = next((process for process in free if process.pid is not None), free[0] if free else self._slow)
+        if not await process.enter(self._limits.patience_s):
             return None
-        doing = asyncio.create_task(self._do(lane, task))
+        doing = asyncio.create_task(self._do(process, task))
         doing.add_done_callback(lambda task: task.cancelled() or task.exception())
         try:
             said: Said = await asyncio.shield(doing)
@@ -117,11 +117,11 @@ class Compilers:
 
     async def cut(self, cutting: Cutting) -> CutUpdate:
         """Check and cut an update that somebody sent, in a process for that alone. Raises BadFrame, CutFailed."""
-        lane = self._cutting
+        process = self._cutting
         for _ in range(_TRIALS):
-            await lane.enter(None)
+            await process.enter(None)
             try:
-                said = await asyncio.shield(asyncio.create_task(self._do(lane, CuttingTask(cutting))))
+                said = await asyncio.shield(asyncio.create_task(self._do(process, CuttingTask(cutting))))
             except NotStarted as error:
                 log.warning("The process that reads what is sent is started anew: %s", error)
                 continue
@@ -134,59 +134,59 @@ class Compilers:
             return found
         return await asyncio.to_thread(cutting.cut)
 
-    async def _do(self, lane: Lane, task: DocumentTask[Any]) -> Any:
+    async def _do(self, process: CheckerProcess, task: DocumentTask[Any]) -> Any:
         """Have a task done by a process whose turn it is, and give the turn back."""
         try:
-            return await lane.do(task, self._limits.check_s)
+            return await process.do(task, self._limits.check_s)
         finally:
-            lane.leave()
+            process.leave()
 
     async def _check_once(self, wanted: Wanted, begin: Callable[[], None]) -> Found:
         while True:
-            lane = await self._enter(wanted.program)
+            process = await self._enter(wanted.program)
             try:
-                found = await lane.check(wanted, begin, self._limits.check_s)
+                found = await process.check(wanted, begin, self._limits.check_s)
             except GaveWay:
-                self._lane_of[wanted.program] = self._slow
+                self._process_of[wanted.program] = self._slow
                 continue
             finally:
-                lane.leave()
-            if lane is self._slow and found.took_s < QUICK_S:
-                lane.forget(wanted.program)
-                del self._lane_of[wanted.program]
+                process.leave()
+            if process is self._slow and found.took_s < QUICK_S:
+                process.forget(wanted.program)
+                del self._process_of[wanted.program]
             return found
 
-    async def _enter(self, program: str) -> Lane:
+    async def _enter(self, program: str) -> CheckerProcess:
         """Wait for a program's turn at its process, or at another one."""
         while True:
-            lane = self._lane(program)
-            if await lane.enter(None if lane is self._slow else self._limits.patience_s):
-                return lane
-            free = next((other for other in self._lanes if not other.is_busy), None)
+            process = self._usual_process(program)
+            if await process.enter(None if process is self._slow else self._limits.patience_s):
+                return process
+            free = next((other for other in self._processes if not other.is_busy), None)
             if free is None:
-                lane.hurry(self._limits.patience_s)
+                process.hurry(self._limits.patience_s)
             else:
-                lane.forget(program)
-                self._lane_of[program] = free
+                process.forget(program)
+                self._process_of[program] = free
 
-    def _lane(self, program: str) -> Lane:
-        lane = self._lane_of.get(program)
-        if lane is None:
-            crowds = [sum(each is other for each in self._lane_of.values()) for other in self._lanes]
-            lane = self._lane_of[program] = self._lanes[crowds.index(min(crowds))]
-        return lane
+    def _usual_process(self, program: str) -> CheckerProcess:
+        process = self._process_of.get(program)
+        if process is None:
+            crowds = [sum(each is other for each in self._process_of.values()) for other in self._processes]
+            process = self._process_of[program] = self._processes[crowds.index(min(crowds))]
+        return process
 
     def forget(self, program: str) -> None:
         """Keep nothing of a program that nobody has open."""
-        lane = self._lane_of.pop(program, None)
-        if lane is not None:
-            lane.forget(program)
+        process = self._process_of.pop(program, None)
+        if process is not None:
+            process.forget(program)
 
     @property
     def pids(self) -> list[int]:
         """The processes that run now."""
-        return [lane.pid for lane in self._all if lane.pid is not None]
+        return [process.pid for process in self._all if process.pid is not None]
 
     async def close(self) -> None:
         """End all processes."""
-        await asyncio.gather(*(lane.close() for lane in self._all), return_exceptions=True)
+        await asyncio.gather(*(process.close() for process in self._all), return_exceptions=True)

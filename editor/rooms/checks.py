@@ -14,7 +14,7 @@ from django.db import DatabaseError
 
 from editor.compiling.compilers import CheckFailed, Compilers
 from editor.compiling.failures import failed_form
-from editor.compiling.feeding import Wanted
+from editor.compiling.job_delta import Wanted
 from editor.errors import NoSuchProgram
 from editor.programs.checking import Around, new_revision, read_around, store_failure, store_summary
 from editor.programs.summary import Summary

@@ -21,7 +21,7 @@ from execution.listener import Arrival, Listener
 from registry import services as registry
 from simulation.services import make_world
 from simulation.stand_ins.hand_overs import HandOver, HandOvers, hand_over_of, stock_for
-from simulation.stand_ins.line import Line
+from simulation.stand_ins.shared_connection import SharedConnection
 from simulation.stand_ins.stand_in import StandIn, StandInFacts
 from simulation.world import Obstacle, Scene, World
 from vipo_device.protocol.description import Description
@@ -40,10 +40,10 @@ REST_S, TICK_S = 0.2, 0.05
 
 @dataclass(frozen=True, slots=True)
 class _Playing:
-    """A stand-in with its line, and the switch since which it plays."""
+    """A stand-in with its connection, and the switch since which it plays."""
 
     stand_in: StandIn
-    line: Line
+    connection: SharedConnection
     since: str
 
 
@@ -82,7 +82,7 @@ class StandIns(Listener):
         if self._new_line.is_set():
             self._new_line.clear()
             for playing in self._playing.values():
-                playing.line.say_connected()
+                playing.connection.say_connected()
         if first is not None:
             self._hear(first)
         for arrival in arrivals:
@@ -142,7 +142,7 @@ class StandIns(Listener):
 
     def _pass_on(self, name: str, playing: _Playing, arrival: Arrival) -> None:
         with self._alone(name):
-            playing.line.hear(arrival.topic, arrival.payload, retained=arrival.retained)
+            playing.connection.hear(arrival.topic, arrival.payload, retained=arrival.retained)
 
     def _hear_real(self, device: str, kind: str, payload: bytes) -> None:
         """Note what a real robot fetches from a machine or brings to it, once it has said that it has done so."""
@@ -214,13 +214,13 @@ class StandIns(Listener):
                     playing.stand_in.change(facts)
 
     def _begin(self, each: registry.StandInView, now: float) -> None:
-        line = Line(self._client)
+        connection = SharedConnection(self._client)
         memory = self._folder / f"{each.device.id}.json"
-        stand_in = StandIn(self._facts(each), line, _make_world, memory, self._speed)
-        self._playing[each.device.id] = _Playing(stand_in, line, each.since)
+        stand_in = StandIn(self._facts(each), connection, _make_world, memory, self._speed)
+        self._playing[each.device.id] = _Playing(stand_in, connection, each.since)
         stand_in.connect(now)
         if stop := self._stops.get(each.device.site):
-            line.hear(stop_topic(each.device.site), stop, retained=True)
+            connection.hear(stop_topic(each.device.site), stop, retained=True)
 
     def _facts(self, each: registry.StandInView) -> StandInFacts:
         """Return the device as its stand-in begins; the clock keeps its starts apart from those of another time."""

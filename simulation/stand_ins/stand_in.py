@@ -12,7 +12,7 @@ from pathlib import Path
 
 from simulation.site_facts import DescribedDevice
 from simulation.stand_ins.hand_overs import HandOver, HandOvers
-from simulation.stand_ins.line import Line
+from simulation.stand_ins.shared_connection import SharedConnection
 from simulation.twin_memory import TwinMemory, read_memory, snapshot, write_memory
 from simulation.virtual_device import VirtualDevice, look_at
 from simulation.world import Ack, Obstacle, Scene, World, open_floor
@@ -54,10 +54,18 @@ class StandInFacts:
 
 
 class StandIn:
-    """Plays one device over a line that it may share with others."""
+    """Plays one device over a connection that it may share with others."""
 
-    def __init__(self, facts: StandInFacts, line: Line, make_world: MakeWorld, memory: Path, speed: float) -> None:
-        self.facts, self._line, self._make_world, self._memory, self._speed = facts, line, make_world, memory, speed
+    def __init__(
+        self, facts: StandInFacts, connection: SharedConnection, make_world: MakeWorld, memory: Path, speed: float
+    ) -> None:
+        self.facts, self._connection, self._make_world, self._memory, self._speed = (
+            facts,
+            connection,
+            make_world,
+            memory,
+            speed,
+        )
         described = DescribedDevice(facts.description, b"")  # it describes nothing: its device has
         self._device = VirtualDevice(described, facts.site, facts.begins, self._take, "sim")
         self._lag_s, self._now = 0.0, 0.0
@@ -84,7 +92,7 @@ class StandIn:
     def connect(self, now: float) -> None:
         """Begin to speak."""
         self._now = now
-        self._device.connect(lambda _device, _will: self._line)
+        self._device.connect(lambda _device, _will: self._connection)
 
     def leave(self) -> None:
         """Say that it goes, which the device's row no longer hears where it was switched back, and end its world."""
@@ -93,7 +101,7 @@ class StandIn:
 
     def close(self) -> None:
         """End its world without a word: another process plays it by now."""
-        self._line.cut()
+        self._connection.cut()
         self._world.close()
 
     def change(self, facts: StandInFacts) -> None:

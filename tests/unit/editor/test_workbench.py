@@ -1,4 +1,4 @@
-"""What a child process says of a program, fed with what changed, is what a check of the whole document says."""
+"""What a child process says of a program, given what changed, is what a check of the whole document says."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from editor.compiling.feeding import Feeding, Wanted
 from editor.compiling.frames import HEAD, decode_body, encode_frame
+from editor.compiling.job_delta import ChildKnowledge, Wanted
 from editor.compiling.workbench import Found, Workbench
 from editor.documents.shared_document import SharedDocument, empty_document, migrate_document
 from editor.language import compile_document, compiled_to_json
@@ -30,16 +30,16 @@ class Process:
         self.name = name
         self.document = document
         self.form = CompiledForm()
-        self.feeding, self.bench = Feeding(), Workbench()
+        self.knowledge, self.bench = ChildKnowledge(), Workbench()
         self.sizes: list[int] = []
 
     def check(self, site: Surroundings, program: str = "p") -> Json:
         wanted = Wanted(program, lambda: self.document, site, lambda: self.form.revision, self.form.way_from)
-        document, job = self.document, self.feeding.job(wanted)
+        document, job = self.document, self.knowledge.job(wanted)
         frame = encode_frame(job)
         self.sizes.append(len(frame))
         found: Found = self.bench.check(decode_body(frame[HEAD.size :]))
-        self.feeding.take(wanted, document, job, found)
+        self.knowledge.take(wanted, document, job, found)
         assert found.summary == summary_of(self.document.to_json(), compile_document(self.document.to_json(), site))
         return dict(found.said)
 
@@ -73,7 +73,7 @@ def test_the_form_is_that_of_the_whole_document_whoever_of_two_checks_and_whatev
         document.change_to({**empty_document(), **migrate_document(plain)})
         process = data.draw(st.sampled_from((here, there)))
         if data.draw(st.booleans()):  # it was killed, or forgot
-            process.feeding, process.bench = Feeding(), Workbench()
+            process.knowledge, process.bench = ChildKnowledge(), Workbench()
         if data.draw(st.booleans()):  # what it says comes too late and is dropped
             process.check(site)
         tell(process.check(site), number, here, there)
@@ -113,7 +113,7 @@ def test_of_many_programs_those_used_least_are_forgotten() -> None:
     process = Process("here", document)
     for number in range(40):
         process.check(SITES[0], f"p{number}")
-    assert len(process.feeding.programs) == 30
+    assert len(process.knowledge.programs) == 30
     assert len(process.bench._known) == 30
     assert "p39" in process.bench._known
     assert "p0" not in process.bench._known

@@ -18,7 +18,7 @@ import pytest
 from pycrdt import Doc, Map
 
 from editor.compiling.compilers import CheckFailed, Compilers, Limits
-from editor.compiling.feeding import Wanted
+from editor.compiling.job_delta import Wanted
 from editor.compiling.workbench import Found
 from editor.documents.shared_document import SharedDocument, empty_document
 from editor.documents.tasks import Opening
@@ -80,7 +80,7 @@ def kill_all(compilers: Compilers) -> None:
 
 async def test_a_process_that_is_killed_at_any_moment_costs_no_check() -> None:
     program, chance = Edited("p", 400), random.Random(0)
-    async with running(lanes=1) as compilers:
+    async with running(processes=1) as compilers:
         await program.check(compilers)
         for _ in range(12):
             program.add(1)
@@ -92,7 +92,7 @@ async def test_a_process_that_is_killed_at_any_moment_costs_no_check() -> None:
 
 async def test_a_frozen_process_is_ended_and_the_check_made_in_another() -> None:
     program = Edited("p")
-    async with running(lanes=1) as compilers:
+    async with running(processes=1) as compilers:
         await program.check(compilers)
         (frozen,) = compilers.pids
         os.kill(frozen, signal.SIGSTOP)
@@ -103,7 +103,7 @@ async def test_a_frozen_process_is_ended_and_the_check_made_in_another() -> None
 
 async def test_a_program_that_kills_its_process_each_time_is_said_to_break_off_and_the_others_go_on() -> None:
     deadly, other = Edited("deadly", 3000), Edited("other")
-    async with running(lanes=1) as compilers:
+    async with running(processes=1) as compilers:
         await other.check(compilers)
 
         async def go_on_killing() -> None:
@@ -121,7 +121,7 @@ async def test_a_program_that_kills_its_process_each_time_is_said_to_break_off_a
 
 async def test_a_check_that_takes_too_long_is_ended_by_the_clock_and_told_so() -> None:
     large, small = Edited("large", 4900), Edited("small")
-    async with running(lanes=1, check_s=0.1) as compilers:
+    async with running(processes=1, check_s=0.1) as compilers:
         await _check_in_time(small, compilers)
         with pytest.raises(CheckFailed, match="check_took_too_long"):
             await large.check(compilers)
@@ -138,7 +138,7 @@ async def _check_in_time(program: Edited, compilers: Compilers) -> Any:
 
 async def test_who_waits_behind_a_long_check_goes_on_before_it_has_ended() -> None:
     large, small = Edited("large", 4900), Edited("small")
-    async with running(lanes=1, patience_s=0.1) as compilers:
+    async with running(processes=1, patience_s=0.1) as compilers:
         await small.check(compilers)
         done: list[str] = []
 
@@ -156,7 +156,7 @@ async def test_who_waits_behind_a_long_check_goes_on_before_it_has_ended() -> No
 
 async def test_eight_programs_at_once_share_a_few_processes_and_each_stays_where_it_is() -> None:
     programs = [Edited(f"p{number}", 30 + number) for number in range(8)]
-    async with running(lanes=2) as compilers:
+    async with running(processes=2) as compilers:
         seen: set[int] = set()
         for _ in range(5):
             found = await asyncio.gather(*(program.check(compilers) for program in programs))
@@ -169,7 +169,7 @@ async def test_eight_programs_at_once_share_a_few_processes_and_each_stays_where
 
 async def test_a_fault_in_a_check_is_told_and_the_process_goes_on() -> None:
     program, other = Edited("p"), Edited("other")
-    async with running(lanes=1) as compilers:
+    async with running(processes=1) as compilers:
         await other.check(compilers)
         before = compilers.pids
         of_no_form = Wanted("p", lambda: program.document, NOTHING_AROUND, lambda: 5, lambda _: ())
@@ -186,7 +186,7 @@ async def test_a_document_is_put_together_beside_and_holds_the_same() -> None:
         before = program.document.state()
         program.add(1)
         pieces.append(program.document.encode(before))
-    async with running(lanes=1) as compilers:
+    async with running(processes=1) as compilers:
         opening = Opening(tuple(pieces), tuple(pieces[1:]))
         opened = await compilers.do(opening)
         assert opened is not None

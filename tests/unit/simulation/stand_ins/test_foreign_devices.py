@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 import pytest
 from hypothesis import given, settings
 
-from simulation.stand_ins.line import Line
+from simulation.stand_ins.shared_connection import SharedConnection
 from simulation.stand_ins.stand_in import StandIn, StandInFacts
 from tests.kit.files import ROOT
 from tests.unit.simulation.stand_ins.test_stand_in import Broker, kinematic
@@ -33,12 +33,12 @@ def play(device: Description, others: list[Description], folder: Path) -> Broker
     """Tell a stand-in each of its device's methods in turn, and let time pass."""
     machines = [each for each in others if each.kind == "machine" and each.id != device.id]
     broker, now = Broker(), 1.0
-    line = Line(broker)
-    stand_in = StandIn(StandInFacts(device.site, device, machines), line, kinematic, folder / "memory.json", 60.0)
+    connection = SharedConnection(broker)
+    stand_in = StandIn(StandInFacts(device.site, device, machines), connection, kinematic, folder / "memory.json", 60.0)
     stand_in.connect(now)
     for number, method in enumerate(device.methods):
         body = json.dumps({"id": f"c{number}", "v": ARGUMENTS, "ttl_s": 60}).encode()
-        line.hear(f"vipo/v1/sim/{device.id}/down/{method.name}", body, retained=False)
+        connection.hear(f"vipo/v1/sim/{device.id}/down/{method.name}", body, retained=False)
         for _ in range(10):
             now += 0.2
             stand_in.advance(now)

@@ -11,7 +11,7 @@ import pytest
 
 from simulation.services import make_world
 from simulation.stand_ins.hand_overs import HandOver, HandOvers, hand_over_of, stock_for
-from simulation.stand_ins.line import Line
+from simulation.stand_ins.shared_connection import SharedConnection
 from simulation.stand_ins.stand_in import StandIn, StandInFacts
 from simulation.world import Obstacle, Scene, World
 from tests.unit.simulation.stage_set import scene
@@ -55,14 +55,14 @@ class Stage:
         own = descriptions[device] if at is None else replace(descriptions[device], pose=at)
         self.facts = StandInFacts("hall", own, machines, readings or {}, boot, boot + 1)
         self.broker, self.now, self.device = Broker(), 100.0, device
-        self.line = Line(self.broker)
-        self.stand_in = StandIn(self.facts, self.line, kinematic, folder / f"{device}.json", 1.0)
+        self.connection = SharedConnection(self.broker)
+        self.stand_in = StandIn(self.facts, self.connection, kinematic, folder / f"{device}.json", 1.0)
         self.stand_in.connect(self.now)
         self.handed: list[HandOver] = []
 
     def tell(self, method: str, command: str, **arguments: object) -> None:
         body = json.dumps({"id": command, "v": arguments, "ttl_s": 60}).encode()
-        self.line.hear(f"vipo/v1/sim/{self.device}/down/{method}", body, retained=False)
+        self.connection.hear(f"vipo/v1/sim/{self.device}/down/{method}", body, retained=False)
 
     def pass_time(self, seconds: float) -> None:
         for _ in range(round(seconds / TICK_S)):
@@ -85,10 +85,10 @@ def test_it_says_that_it_is_there_and_how_it_is(tmp_path: Path) -> None:
 def test_it_heeds_the_stop(tmp_path: Path) -> None:
     stage = Stage(OVEN, tmp_path)
     stage.tell("curePaint", "c1", time=1)
-    stage.line.hear("vipo/v1/site/hall/stop", b'{"active": true}', retained=True)
+    stage.connection.hear("vipo/v1/site/hall/stop", b'{"active": true}', retained=True)
     stage.pass_time(120)
     assert stage.broker.answers("c1") == ["ACCEPTED", "RUNNING"]
-    stage.line.hear("vipo/v1/site/hall/stop", b'{"active": false}', retained=True)
+    stage.connection.hear("vipo/v1/site/hall/stop", b'{"active": false}', retained=True)
     stage.pass_time(120)
     assert stage.broker.answers("c1")[-1] == "DONE"
 
@@ -133,7 +133,7 @@ def test_a_simulated_robot_charges_at_its_home_and_not_where_it_began(
 ) -> None:
     stage = Stage(ROBOT, tmp_path, readings={"battery": 50})
     facts = replace(stage.facts, stands=stands)
-    stand_in = StandIn(facts, stage.line, kinematic, tmp_path / "other.json", 60.0)
+    stand_in = StandIn(facts, stage.connection, kinematic, tmp_path / "other.json", 60.0)
     stand_in.connect(0.0)
     for second in range(1, 4):
         stand_in.advance(float(second))

@@ -34,7 +34,7 @@ class Wanted:
 
 
 @dataclass(slots=True)
-class Fed:
+class KnownProgram:
     """What a child process has of one program."""
 
     document: SharedDocument
@@ -44,10 +44,10 @@ class Fed:
 
 
 @dataclass(slots=True)
-class Feeding:
+class ChildKnowledge:
     """What one child process has."""
 
-    programs: dict[str, Fed] = field(default_factory=dict)
+    programs: dict[str, KnownProgram] = field(default_factory=dict)
     _floors: dict[int, FloorFacts] = field(default_factory=dict)
     _numbers: itertools.count[int] = field(default_factory=lambda: itertools.count(1))
     _forgotten: list[str] = field(default_factory=list)
@@ -59,20 +59,20 @@ class Feeding:
 
     def job(self, wanted: Wanted) -> Job:
         """Return what to send, as of now."""
-        document, fed = wanted.document(), self.programs.pop(wanted.program, None)
-        if fed is not None and fed.document is not document:
-            fed = None  # it was built anew since pieces had come in a wrong order
+        document, known = wanted.document(), self.programs.pop(wanted.program, None)
+        if known is not None and known.document is not document:
+            known = None  # it was built anew since pieces had come in a wrong order
         while len(self.programs) >= MOST_PROGRAMS:
             self.forget(next(iter(self.programs)))
         number, new_floor = self._floor(wanted.surroundings.floor)
         around = wanted.surroundings
-        forms = tuple(wanted.forms(fed.revisions if fed else ()))
+        forms = tuple(wanted.forms(known.revisions if known else ()))
         job = Job(
             program=wanted.program,
             revision=time.time_ns() // 1000,
-            update=document.encode(fed.state if fed else None),
-            anew=fed is None,
-            around=None if fed and fed.surroundings is around else pickle.dumps(replace(around, floor=None)),
+            update=document.encode(known.state if known else None),
+            anew=known is None,
+            around=None if known and known.surroundings is around else pickle.dumps(replace(around, floor=None)),
             floor=number,
             new_floor=new_floor,
             floors=frozenset(self._floors),
@@ -86,7 +86,7 @@ class Feeding:
     def take(self, wanted: Wanted, document: SharedDocument, job: Job, found: Found) -> None:
         """Note what the process has after a check."""
         revisions = (job.revision,) if job.base is None else (job.base, job.revision)
-        self.programs[wanted.program] = Fed(document, found.state, wanted.surroundings, revisions)
+        self.programs[wanted.program] = KnownProgram(document, found.state, wanted.surroundings, revisions)
 
     def _floor(self, floor: FloorFacts | None) -> tuple[int, FloorFacts | None]:
         """Return the number of a map, and the map itself if the process does not have it."""

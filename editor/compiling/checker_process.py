@@ -14,8 +14,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from editor.compiling.feeding import Feeding, Wanted
 from editor.compiling.frames import HEAD, decode_body, encode_frame
+from editor.compiling.job_delta import ChildKnowledge, Wanted
 from editor.compiling.workbench import Fault, Found
 from editor.documents.work import DocumentTask
 from registry.services import sigint_blocked
@@ -45,7 +45,7 @@ class GaveWay(Exception):
     """The check was ended since others wait."""
 
 
-class Lane:
+class CheckerProcess:
     """A child process and those who wait for it."""
 
     def __init__(self, name: str) -> None:
@@ -56,7 +56,7 @@ class Lane:
         self._process: Process | None = None
         self._hurry = asyncio.Event()
         self._since: float | None = None
-        self._fed = Feeding()
+        self._known = ChildKnowledge()
         self._closed = False
 
     @property
@@ -81,7 +81,7 @@ class Lane:
             log.warning("The process that checks programs did not start: %s", task.exception())
 
     async def _start(self) -> Process:
-        self._fed = Feeding()
+        self._known = ChildKnowledge()
         with sigint_blocked():
             process = await asyncio.create_subprocess_exec(
                 *(sys.executable, "-m", "editor.compiling.child_process"),
@@ -111,7 +111,7 @@ class Lane:
 
     def forget(self, program: str) -> None:
         """Have what is known of a program forgotten."""
-        self._fed.forget(program)
+        self._known.forget(program)
 
     async def check(self, wanted: Wanted, begin: Callable[[], None], limit_s: float) -> Found:
         """Have a program checked by who has the turn.
@@ -121,9 +121,9 @@ class Lane:
         process = await self._running()
         document = wanted.document()
         begin()
-        job = self._fed.job(wanted)
+        job = self._known.job(wanted)
         found: Found = await self._have_done(process, encode_frame(job), limit_s)
-        self._fed.take(wanted, document, job, found)
+        self._known.take(wanted, document, job, found)
         return found
 
     async def do(self, task: DocumentTask[Any], limit_s: float) -> Any:
@@ -169,7 +169,7 @@ class Lane:
             await asyncio.gather(asking, hurrying, return_exceptions=True)
 
     async def _end(self) -> None:
-        process, self._process, self._fed = self._process, None, Feeding()
+        process, self._process, self._known = self._process, None, ChildKnowledge()
         if process is not None:
             _kill(process)
             await process.wait()

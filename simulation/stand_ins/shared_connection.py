@@ -1,4 +1,4 @@
-"""A connection to the broker that many stand-ins share: each has a line, which looks to it as a client of its own."""
+"""A connection to the broker that many stand-ins share: to each its part of it looks like a client of its own."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from vipo_device.kit.connection import Handler
 
 
 class Speaker(Protocol):
-    """What lines need of the client that they share (`MqttClient`)."""
+    """What these connections need of the client that they share (`MqttClient`)."""
 
     @property
     def connected(self) -> bool:
@@ -19,7 +19,7 @@ class Speaker(Protocol):
         """Send a message."""
 
 
-class Line:
+class SharedConnection:
     """One stand-in's part of a connection; a message is given to it by `hear`."""
 
     def __init__(self, speaker: Speaker) -> None:
