@@ -193,7 +193,7 @@ if __name__ == "__main__":
     import django
 
     django.setup()
-    from vipo_site.http.collecting import leave_out_what_stays
+    from vipo_site.http.gc_pause import leave_out_what_stays
 
     leave_out_what_stays()  # as the web process does
     sys.stdout.write(json.dumps(asyncio.run(measure(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3]))))

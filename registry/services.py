@@ -14,8 +14,8 @@ from registry.alerts.inbox import (
 )
 from registry.alerts.views import AlertView, alert_to_json
 from registry.alerts.watch import watch_devices
-from registry.audit.acting import VIPO, acting
-from registry.audit.reading import list_server_audit
+from registry.audit.actor import VIPO, acting
+from registry.audit.queries import list_server_audit
 from registry.audit.record import note_act, prune_audit
 from registry.bounds.pagination import FIRST, Listed, Page, take_page
 from registry.bounds.slots import Claim, Slots

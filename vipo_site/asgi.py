@@ -21,12 +21,12 @@ from editor.rooms.socket import ProgramSocket, close_hub  # noqa: E402
 from execution.services import open_publisher  # noqa: E402
 from execution.wall.socket import WallSocket  # noqa: E402
 from registry.api.site_socket import SiteSocket  # noqa: E402
-from vipo_site.http.collecting import leave_out_what_stays  # noqa: E402
-from vipo_site.http.ending import keep_rooms_at_end  # noqa: E402
 from vipo_site.http.entrance import BehindProxies, OwnPagesOnly, leave_forms_to_django  # noqa: E402
+from vipo_site.http.gc_pause import leave_out_what_stays  # noqa: E402
 from vipo_site.http.heartbeat import beat_while_serving  # noqa: E402
 from vipo_site.http.memory import give_back_large_blocks  # noqa: E402
 from vipo_site.http.middleware import add_headers  # noqa: E402
+from vipo_site.http.shutdown import keep_rooms_at_end  # noqa: E402
 
 
 async def refuse_socket(_scope: Any, receive: Any, send: Any) -> None:

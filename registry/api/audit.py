@@ -10,7 +10,7 @@ from django.conf import settings
 from django.http import HttpRequest, HttpResponse, StreamingHttpResponse
 from ninja import Query, Router, Schema
 
-from registry.audit import reading
+from registry.audit import queries
 from registry.audit.codes import Kind
 from registry.people.access import require
 from registry.people.open_sessions import name_browser
@@ -57,9 +57,9 @@ def list_audit(
     `X-Total-Count` says how many there are of the kind, `X-Kept-Days` for how long they are kept.
     """
     require(signed_in(request), slug, "admin")
-    response["X-Total-Count"] = str(reading.count_audit(site=slug, kind=asked.kind))
+    response["X-Total-Count"] = str(queries.count_audit(site=slug, kind=asked.kind))
     response["X-Kept-Days"] = str(settings.VIPO_AUDIT_DAYS)
-    listed = reading.list_audit(site=slug, kind=asked.kind, page=asked.page())
+    listed = queries.list_audit(site=slug, kind=asked.kind, page=asked.page())
     return [_to_json(view) for view in tell_rest(request, response, listed)]
 
 
@@ -68,12 +68,12 @@ def export_audit(request: HttpRequest, slug: str, asked: Query[AuditOfKind]) -> 
     """Give the record as a table (CSV), the newest first."""
     require(signed_in(request), slug, "admin")
     answer = StreamingHttpResponse(
-        reading.write_table(site=slug, kind=asked.kind), content_type="text/csv; charset=utf-8"
+        queries.write_table(site=slug, kind=asked.kind), content_type="text/csv; charset=utf-8"
     )
     answer["Content-Disposition"] = f'attachment; filename="{slug}-audit.csv"'
     return answer
 
 
-def _to_json(view: reading.AuditView) -> dict[str, Any]:
+def _to_json(view: queries.AuditView) -> dict[str, Any]:
     browser, system = name_browser(view.agent)
     return {**asdict(view), "browser": browser, "system": system}

@@ -16,7 +16,7 @@ from ninja.utils import check_csrf
 from registry import services
 from registry.api.authentication import session_only
 from registry.api.people import begin_session
-from registry.audit.acting import client_address
+from registry.audit.actor import client_address
 from registry.models import User
 from registry.people.access import require
 from registry.requests import Asked, AsTyped, Line, refuses, signed_in

@@ -20,7 +20,7 @@ from ninja.responses import Status
 from ninja.utils import check_csrf
 
 from registry.api.authentication import session_only
-from registry.audit.acting import client_address
+from registry.audit.actor import client_address
 from registry.demo.accounts import read_accounts
 from registry.devices.things import call_listeners
 from registry.live.fanout import EVERY_SITE, publish

@@ -15,7 +15,7 @@ from ninja.responses import Status
 
 from registry.api.authentication import session_only
 from registry.api.people import signed_on_at
-from registry.audit.acting import client_address
+from registry.audit.actor import client_address
 from registry.people import second_factor
 from registry.people.access import require
 from registry.people.open_sessions import follow_session

@@ -17,7 +17,7 @@ from ninja.utils import check_csrf
 
 from registry.api.authentication import session_only
 from registry.api.people import begin_session, signed_on_at, tell_me
-from registry.audit.acting import client_address
+from registry.audit.actor import client_address
 from registry.models import User
 from registry.people.backends import PASSWORDS, TWO_FACTORS
 from registry.people.known_browsers import PATH, find_device

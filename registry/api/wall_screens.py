@@ -15,7 +15,7 @@ from ninja.responses import Status
 from ninja.utils import check_csrf
 
 from registry.api.authentication import session_only
-from registry.audit.acting import client_address
+from registry.audit.actor import client_address
 from registry.people import wall_screens
 from registry.people.access import require
 from registry.people.wall_screens import COOKIE, MOST_DAYS, MOST_NAME, WallScreenView

@@ -12,7 +12,7 @@ from datetime import datetime, timedelta
 from django.conf import settings
 from django.utils import timezone
 
-from registry.audit.acting import MOST_NAME, Actor, who_acts
+from registry.audit.actor import MOST_NAME, Actor, who_acts
 from registry.audit.codes import KIND_OF
 from registry.models import AuditLine
 

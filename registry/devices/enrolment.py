@@ -15,7 +15,7 @@ from django.conf import settings
 from django.db import transaction
 
 from registry.alerts.buffer import note_alert
-from registry.audit.acting import VIPO
+from registry.audit.actor import VIPO
 from registry.audit.record import device_acts, note_act
 from registry.broker.accounts import Account, accounts
 from registry.devices.history import history_text, write_event

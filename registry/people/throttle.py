@@ -16,7 +16,7 @@ from typing import Literal
 
 from django.db.models import QuerySet
 
-from registry.audit.acting import Actor, who_acts
+from registry.audit.actor import Actor, who_acts
 from registry.audit.record import note_act
 from registry.errors import RegistryError
 from registry.models import AuditLine, Membership, SignInFailure

@@ -16,7 +16,7 @@ from execution.models import Command, Measurement, Rehearsal
 from execution.program_tests.site_digests import digests_of, what_changed
 from execution.rehearsals.child_process import scene_from_json
 from registry import services as registry
-from registry.audit.reading import list_audit
+from registry.audit.queries import list_audit
 from simulation.mirror.device_copy import Job, Measured
 from tests.kit.programs import SITE, TASK
 from tests.kit.sign_in import EVERYBODY, from_role, post_json, sign_in_member

@@ -1,4 +1,4 @@
-"""The record as admins read it: the newest first, by kind, in parts, or all of it as a table."""
+"""The record as admins read it: the newest first, by kind, in pages, or all of it as a table."""
 
 from __future__ import annotations
 

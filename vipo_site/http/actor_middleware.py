@@ -9,7 +9,7 @@ from django.http import HttpRequest, HttpResponse
 from registry.services import acting
 
 
-class NotesWhoActs:
+class ActorMiddleware:
     """Goes around the call itself; who asks is looked up only if something is written."""
 
     def __init__(self, get_response: Callable[[HttpRequest], HttpResponse]) -> None:
