@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from editor.language.expressions import nodes as e
 from editor.language.plan import instructions as p
-from execution.machine.ending import ENOUGH_ENDED, OVER, call_off_branches, end_run, leave_call, remove, unwind
 from execution.machine.evaluation import EvaluationError, NoReading, NoValue
 from execution.machine.messages import StepEntered, StepFailed
+from execution.machine.outcomes import ENOUGH_ENDED, OVER, call_off_branches, end_run, leave_call, remove, unwind
 from execution.machine.state import MAIN, Activation, Thread
 from execution.machine.turn import YIELD_S, Failure, Turn
 

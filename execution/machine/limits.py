@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from editor.language.expressions.nodes import Expression
-from execution.machine.ending import begin_guard, call_off_branches, tell_at_once
 from execution.machine.messages import SetTimer
+from execution.machine.outcomes import begin_guard, call_off_branches, tell_at_once
 from execution.machine.state import Guard, Thread, Wake
 from execution.machine.turn import LONGEST_WAIT_S, Failure, Turn
 

@@ -2,7 +2,7 @@
 
 It knows no time, no network and no robots: time is a timer that fires, the floor is tasks that end.
 The same plan, state and event always give the same answer, so that a recorded history can be replayed.
-Its parts: `turn` (what changes), `flow` (threads, functions, events), `ending` (failures).
+Its parts: `turn` (what changes), `flow` (threads, functions, events), `outcomes` (failures).
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from typing import assert_never
 
 from editor.language.expressions.nodes import Expression, PlaceRef
 from editor.language.plan import instructions as p
-from execution.machine.ending import begin_guard, end_guard, end_run, finish, rethrow, unwind
 from execution.machine.evaluation import EvaluationError, NoReading, bound_roles, in_words
 from execution.machine.floor_task import Target, TaskKind, TaskOrder
 from execution.machine.flow import end, end_thread, fork, invoke, leave_function, remember_truths, start_events
@@ -34,6 +33,7 @@ from execution.machine.messages import (
     Tell,
     TimerFired,
 )
+from execution.machine.outcomes import begin_guard, end_guard, end_run, finish, rethrow, unwind
 from execution.machine.state import FLOOR_TASK, MAIN, Activation, Guard, RunState, Thread, Wake, from_json, to_json
 from execution.machine.turn import YIELD_S, Failure, Turn, Watch
 from vipo_device.protocol.description import Scalar

@@ -18,9 +18,9 @@ from execution import mailbox
 from execution.archive.history_file import UnreadableHistory
 from execution.job_lease import JobLease
 from execution.models import Archive, Lease
-from execution.retention.archiving import Overtaken, Turn, archive_next, check_whole, discard
+from execution.retention.archiver import Overtaken, Turn, archive_next, check_whole, discard
 from execution.retention.periods import KINDS, get_keeping, note_trouble
-from execution.retention.pruning import prune
+from execution.retention.pruner import prune
 from registry import services as registry
 
 log = logging.getLogger(__name__)

@@ -7,7 +7,7 @@ from typing import Any
 from django.http import HttpRequest
 from ninja import Router
 
-from execution.stand_ins.switching import simulate_device
+from execution.stand_ins.switches import simulate_device
 from registry.requests import refuses, signed_in
 from registry.services import device_to_json, require
 from registry.shapes import DeviceShape

@@ -13,7 +13,7 @@ from channels.db import database_sync_to_async
 from channels.generic.websocket import AsyncWebsocketConsumer
 from django.db import Error
 
-from execution.wall import reading
+from execution.wall import queries
 from execution.wall.picture import device_to_wall, is_anew
 from registry import services as registry
 
@@ -57,7 +57,7 @@ class WallSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         self._something, self._listens = asyncio.Event(), asyncio.Event()
         await self.accept()
         try:
-            wall = await _in_database(reading.find_wall, self.scope["cookies"].get(registry.WALL_COOKIE, ""))
+            wall = await _in_database(queries.find_wall, self.scope["cookies"].get(registry.WALL_COOKIE, ""))
             if wall:
                 session = registry.Session("", 0, wall=wall.id)
                 self._seat = await registry.watch_of_this_loop().join(session, self._review)
@@ -134,7 +134,7 @@ class WallSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
             now = time.monotonic()
             if now - seen_at >= SEEN_EVERY_S:
                 seen_at = now
-                await _in_database(reading.note_seen, self._wall.id)
+                await _in_database(queries.note_seen, self._wall.id)
             if self._wants_map or (self._wants_picture and now - pictured_at >= PICTURE_EVERY_S):
                 pictured_at = now
                 if not await self._send_anew():
@@ -153,8 +153,8 @@ class WallSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         """Send the map, if it is another one, and the picture; False where the database does not answer."""
         wants_map, self._wants_map, self._wants_picture = self._wants_map, False, False
         try:
-            drawn = await _in_database(reading.read_map, self._wall.site) if wants_map else None
-            picture = await _in_database(reading.read_picture, self._wall.site)
+            drawn = await _in_database(queries.read_map, self._wall.site) if wants_map else None
+            picture = await _in_database(queries.read_picture, self._wall.site)
         except (Error, registry.NotAMember):
             return False
         self._known = frozenset(device["id"] for device in picture["devices"])

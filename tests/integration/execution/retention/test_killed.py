@@ -18,8 +18,8 @@ from execution import services
 from execution.fault_points import ARCHIVE_POINTS, DIES_WITH
 from execution.job_lease import JobLease
 from execution.models import Archive, Command, Lease, Run, RunEvent
-from execution.retention import pruning
-from execution.retention.archiving import Overtaken, Turn, archive_next
+from execution.retention import pruner
+from execution.retention.archiver import Overtaken, Turn, archive_next
 from execution.views import event_to_json, whole_run_to_json
 from tests.integration.execution.retention.histories import NOW, archive, make_command, make_run
 
@@ -61,8 +61,8 @@ def test_a_kill_at_this_moment_loses_nothing_and_doubles_nothing(
     moment: str, folder: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     faults = tmp_path_factory.mktemp("faults")
-    monkeypatch.setattr(pruning, "ROWS_AT_ONCE", 3)
-    monkeypatch.setattr(pruning, "SUMMARIES_AT_ONCE", 1)
+    monkeypatch.setattr(pruner, "ROWS_AT_ONCE", 3)
+    monkeypatch.setattr(pruner, "SUMMARIES_AT_ONCE", 1)
     runs = [make_run(number, 31, events=4) for number in range(1, 4)]
     calls = [make_command(31, by="Ada") for _ in range(12)]
     ids = {str(key) for key in (*Command.objects.values_list("pk", flat=True), *(run.pk for run in runs))}

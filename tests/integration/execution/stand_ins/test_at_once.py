@@ -13,7 +13,7 @@ from pytest_django import DjangoDbBlocker
 from execution import services
 from execution.errors import NotPossibleNow
 from execution.models import Command, FloorState
-from execution.stand_ins.switching import simulate_device
+from execution.stand_ins.switches import simulate_device
 from registry import services as registry
 from registry.models import AuditLine, Device, Site
 from tests.kit import demo_floor

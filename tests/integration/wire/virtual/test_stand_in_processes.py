@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from execution.models import Command, Lease
-from execution.stand_ins.switching import simulate_device
+from execution.stand_ins.switches import simulate_device
 from registry import services
 from registry.models import Device
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus

@@ -19,7 +19,7 @@ from execution.commands.manual_calls import call_method
 from execution.errors import NotPossibleNow
 from execution.models import Command, Lease
 from execution.stand_ins.stand_ins import StandIns
-from execution.stand_ins.switching import simulate_device
+from execution.stand_ins.switches import simulate_device
 from registry import services
 from registry.demo.devices import DEVICES
 from registry.models import Device

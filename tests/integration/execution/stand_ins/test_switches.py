@@ -10,7 +10,7 @@ from execution.commands.claim import claim_commands
 from execution.engine.drive import advance_site
 from execution.floor.layouts import get_layout
 from execution.models import Command
-from execution.stand_ins.switching import simulate_device
+from execution.stand_ins.switches import simulate_device
 from registry import services as registry
 from registry.models import AuditLine, Device
 from tests.integration.execution.test_calls import CURE
