@@ -25,7 +25,7 @@ from editor.programs.access import program_for
 from editor.programs.views import ProgramView
 from editor.promotions.routes import router as promotions_router
 from editor.reviews.routes import router as reviews_router
-from editor.rooms.writing import ensure_stored, read_content, write_document, write_script
+from editor.rooms.content_update import ensure_stored, read_content, write_document, write_script
 from editor.shapes import (
     Compiled,
     Document,

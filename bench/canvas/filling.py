@@ -107,7 +107,7 @@ def _fill(email: str) -> Json:
 
 
 def _save(site: str, name: str, document: Json, user: Any) -> str:
-    from editor.rooms.writing import read_content, write_document
+    from editor.rooms.content_update import read_content, write_document
     from editor.services import create_program
 
     program = create_program(site=site, name=name, user=user)

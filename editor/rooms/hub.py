@@ -29,9 +29,9 @@ from editor.programs.checking import DeviceWatch
 from editor.rooms.hold_off import HoldOffs, make_hold_offs
 from editor.rooms.inbox import Inbox
 from editor.rooms.member import Allowance, Close, Member, Person
-from editor.rooms.opening import open_room
 from editor.rooms.refusals import INTERRUPTED
 from editor.rooms.room import Room
+from editor.rooms.room_loader import open_room
 from editor.rooms.runner import OpenRoom, Shared
 from editor.rooms.stream import Note, RoomStream, StreamLost, make_stream
 from editor.rooms.threads import in_database

@@ -17,7 +17,7 @@ from editor.compiling.compilers import CutFailed
 from editor.documents.slices import Cutting, CutUpdate
 from editor.documents.yjs_encoding import BadFrame
 from editor.rooms.member import Close, Member
-from editor.rooms.receiving import Acting
+from editor.rooms.receiver import Acting
 from editor.rooms.refusals import INTERRUPTED, TOO_COSTLY
 from editor.rooms.room import Room
 

@@ -9,11 +9,11 @@ from editor.documents import yjs_encoding
 from editor.documents.shared_document import SharedDocument, UpdateHole, read_update
 from editor.rooms import yjs_protocol
 from editor.rooms.awareness import AwarenessBoard
+from editor.rooms.broadcast import Broadcast, broadcast_form
 from editor.rooms.compiled_form import CompiledForm
 from editor.rooms.ledger import Ledger, decode_change, decode_stored, encode_stored
 from editor.rooms.member import Close, Member
-from editor.rooms.receiving import Receiver
-from editor.rooms.spreading import Spreading, spread_form
+from editor.rooms.receiver import Receiver
 from editor.rooms.stream import Entry, Note
 
 MOST_READERS, MOST_WRITERS = 300, 50
@@ -42,7 +42,7 @@ class Room:
         self.form = CompiledForm()
         self.must_keep = False
         """Whether somebody waits until everything is in the database."""
-        self.spreading = Spreading(self.members, lambda: self.document.state())
+        self.broadcast = Broadcast(self.members, lambda: self.document.state())
         self.wake: Callable[[], None] = _nobody
         self.receiver = Receiver(self)
 
@@ -69,12 +69,12 @@ class Room:
 
     def spread_later(self, change: bytes, sender: Member | None = None) -> None:
         """Take in a change that is to be sent to all but its sender."""
-        self.spreading.add(change, sender)
+        self.broadcast.add(change, sender)
         self.wake()
 
     def spread(self) -> None:
         """Send what has changed since the last call."""
-        self.spreading.send()
+        self.broadcast.send()
 
     def hear(self, entry: Entry, now_s: float = 0.0) -> None:
         """Take what a process has to say; of this one's own, only what holds for all from its entry on."""
@@ -129,7 +129,7 @@ class Room:
         """Take in a check; check here when one's own edits are not in it, or one's own check did not hold."""
         holds = self.form.hear(entry)
         if holds:
-            spread_form(self.form, self.members, self.spreading)
+            broadcast_form(self.form, self.members, self.broadcast)
         is_wanted = entry.origin == self.origin or any(member.shown is not None for member in self.members)
         if self.origin in self.form.not_shown() or (not holds and is_wanted):
             self.touched = True
@@ -225,7 +225,7 @@ class Room:
                 entries = [e for e in (*here, *elsewhere) if e.client not in member.clients]
                 if entries:
                     frame = yjs_protocol.encode_awareness(entries)
-                    self.spreading.tell(member, frame)
+                    self.broadcast.tell(member, frame)
                     sent += len(frame)
         return sent
 

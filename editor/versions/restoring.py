@@ -25,7 +25,7 @@ from editor.language.comparison.changes import (
 from editor.language.comparison.difference import Name
 from editor.language.comparison.needs import Restoring, restore_all, restore_some
 from editor.programs.views import WholeVersionView
-from editor.rooms.writing import change_content
+from editor.rooms.content_update import change_content
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from editor.documents.slices import SLICE_CHANGES, Cutting, CutUpdate
 from editor.rooms import yjs_protocol
 from editor.rooms.inbox import Inbox
 from editor.rooms.member import BURST_WORK_S, WORK_PER_S, Close, Person
-from editor.rooms.receiving import MOST_STEPS
+from editor.rooms.receiver import MOST_STEPS
 from tests.unit.editor.people import Client, room
 
 LARGE, LARGER = 3000, 10_000

@@ -15,7 +15,7 @@ from editor.rooms.compiled_form import CompiledForm
 from editor.rooms.member import Member
 
 
-class Spreading:
+class Broadcast:
     """The way out of one room. `state` returns the document's state vector."""
 
     def __init__(self, members: Sequence[Member], state: Callable[[], bytes]) -> None:
@@ -52,14 +52,14 @@ class Spreading:
             member.ask_for_state(self._state())
 
 
-def post_form(form: CompiledForm, member: Member, out: Spreading) -> int:
+def post_form(form: CompiledForm, member: Member, out: Broadcast) -> int:
     """Send a connection all of the form; return how many bytes that is."""
     frame = yjs_protocol.encode_compiled(form.now)
     _post(form, member, frame, out)
     return len(frame)
 
 
-def spread_form(form: CompiledForm, members: Iterable[Member], out: Spreading) -> None:
+def broadcast_form(form: CompiledForm, members: Iterable[Member], out: Broadcast) -> None:
     """Send who looks at the form what is another in it, or all of it to who had another one before."""
     change, whole = form.change or {}, b""
     frame = yjs_protocol.encode_compiled(change) if "base" in change else b""
@@ -71,7 +71,7 @@ def spread_form(form: CompiledForm, members: Iterable[Member], out: Spreading) -
             _post(form, member, whole, out)
 
 
-def _post(form: CompiledForm, member: Member, frame: bytes, out: Spreading) -> None:
+def _post(form: CompiledForm, member: Member, frame: bytes, out: Broadcast) -> None:
     if form.now is not None and member.behind is None:
         member.shown = form.now["revision"]
         out.tell(member, frame)

@@ -15,11 +15,11 @@ from editor.documents.store import Change
 from editor.documents.yjs_updates import MOST_CLIENTS, MOST_CLIENTS_EVER, MOST_CLIENTS_OF_ALL, check_update
 from editor.rooms import yjs_protocol
 from editor.rooms.awareness import AwarenessBoard
+from editor.rooms.broadcast import Broadcast, post_form
 from editor.rooms.compiled_form import CompiledForm
 from editor.rooms.ledger import Ledger, encode_change
 from editor.rooms.member import KIB, MIB, Close, Member
 from editor.rooms.refusals import INTERRUPTED, PROGRAM_FULL, TOO_MANY_PAGES
-from editor.rooms.spreading import Spreading, post_form
 from editor.rooms.stream import Note
 
 MOST_DOCUMENT_BYTES = 8 * MIB
@@ -44,7 +44,7 @@ class Changed(Protocol):
     board: AwarenessBoard
     ledger: Ledger
     form: CompiledForm
-    spreading: Spreading
+    broadcast: Broadcast
     to_publish: deque[Note]
     touched: bool
     wake: Callable[[], None]
@@ -111,7 +111,7 @@ class Receiver:
             self._room.touched = True
             self._room.wake()
         elif self._room.form.now["revision"] != revision:
-            member.spend_bytes(post_form(self._room.form, member, self._room.spreading), now_s)
+            member.spend_bytes(post_form(self._room.form, member, self._room.broadcast), now_s)
 
     def _receive_awareness(self, member: Member, message: yjs_protocol.Awareness, now_s: float) -> None:
         if not message.entries or self._room.board.speaks_for_itself(member, message.entries):
@@ -161,14 +161,14 @@ class Receiver:
     def _catch_up(self, member: Member) -> None:
         """Tell a connection that was behind what it was not told meanwhile."""
         state, member.behind = member.behind, None
-        self._room.spreading.tell(member, yjs_protocol.encode_update(self._room.document.encode(state)))
-        self._room.spreading.tell(member, yjs_protocol.encode_awareness(self._room.board.everybody()))
+        self._room.broadcast.tell(member, yjs_protocol.encode_update(self._room.document.encode(state)))
+        self._room.broadcast.tell(member, yjs_protocol.encode_awareness(self._room.board.everybody()))
         if (
             member.shown is not None
             and self._room.form.now is not None
             and self._room.form.now["revision"] != member.shown
         ):
-            post_form(self._room.form, member, self._room.spreading)
+            post_form(self._room.form, member, self._room.broadcast)
 
     def _check(self, member: Member, update: bytes, most_clients: int, now_s: float) -> Knowledge:
         """Read an update before the document does, at the cost of who sent it. Raises BadFrame, Close."""
