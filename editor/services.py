@@ -2,7 +2,7 @@
 
 from editor.comments.mail import is_mail_due, send_due_mail
 from editor.comments.threads import Moment, Words, start_thread_at
-from editor.documents.mending import Mending, mend_program, restore_rows, show_mending
+from editor.documents.repair import Mending, mend_program, restore_rows, show_mending
 from editor.documents.store import Change, get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram, NotApproved
 from editor.library.functions import Said, change_function, save_function

@@ -17,7 +17,7 @@ from editor.language.signatures.signature import signature_of
 from editor.language.site.signature import Signature, signature_to_json
 from editor.language.site.surroundings import DeviceFacts
 from editor.library.access import changer, seen_by
-from editor.library.cutting import cut_out_function, held_by, made_from
+from editor.library.function_extraction import cut_out_function, held_by, made_from
 from editor.library.queries import GONE, LibraryView, get_function
 from editor.library.words import words_of
 from editor.models import LibraryFunction, LibraryPart, LibraryUse, LibraryVersion, Program

@@ -27,7 +27,7 @@ def describe_versions(apps: Any, schema_editor: Any) -> None:
 
 def note_parts(apps: Any, schema_editor: Any) -> None:
     """Note which functions of the library each version holds."""
-    from editor.library.cutting import held_by
+    from editor.library.function_extraction import held_by
 
     known = {str(pk) for pk in apps.get_model("editor", "LibraryFunction").objects.values_list("pk", flat=True)}
     parts = apps.get_model("editor", "LibraryPart")

@@ -17,7 +17,7 @@ from editor.library.shapes import MOST_VERSION
 from editor.programs.access import program_for
 from editor.programs.views import ProgramView, VersionView
 from editor.shapes import ProgramName, ProgramShape
-from editor.versions.restoring import Wanted, apply_sent, look_at_restore, names_of, restore
+from editor.versions.restore import Wanted, apply_sent, look_at_restore, names_of, restore
 from editor.versions.shapes import (
     ChangedShape,
     ChangesToMake,

@@ -11,7 +11,7 @@ from ninja import Field, Schema
 from editor.language.comparison.changes import ABSENT, ValueChange, change_to_json
 from editor.language.comparison.difference import ConstructChange, Difference
 from editor.shapes import Author, Compiled, Document
-from editor.versions.restoring import Changed
+from editor.versions.restore import Changed
 from editor.versions.sides import Comparison, Side
 from registry.requests import Asked, Flag, Line, Repaired, Unchecked
 

@@ -12,7 +12,7 @@ from typing import NoReturn
 from editor.language.messages.diagnostics import diagnostic_to_json
 from vipo_device.descriptions.forms import FORMS
 from vipo_device.protocol.errors import VipoError
-from vipo_site.cli import account, call, devices, history, mending, record, token
+from vipo_site.cli import account, call, devices, history, record, repair, token
 from vipo_site.cli.program_file import FaultyScript
 from vipo_site.cli.programs import add_program_commands
 from vipo_site.cli.terminal import CLEAN, FAULTY, INTERRUPTED, UNUSABLE, Unusable, complain, refuse, write_failure
@@ -137,7 +137,7 @@ def _parser() -> argparse.ArgumentParser:
         ("approve", devices.APPROVE, devices.add_approve_arguments),
         ("account", account.ACCOUNT, account.add_account_arguments),
         ("token", token.WHAT, token.add_token_arguments),
-        ("mend-program", mending.WHAT, mending.add_mending_arguments),
+        ("mend-program", repair.WHAT, repair.add_mending_arguments),
         ("history", history.WHAT, history.add_history_arguments),
         ("record", record.WHAT, record.add_record_arguments),
     ):

@@ -20,7 +20,7 @@ from editor.language.compiler import EditedProgram
 from editor.language.one_line.scope import make_line_scope
 from editor.language.one_line.values import print_line, type_of_line
 from editor.language.reading.well_formed import well_formed
-from editor.library.cutting import cut_out_function
+from editor.library.function_extraction import cut_out_function
 from editor.programs.compiled_patch import apply_patch, make_patch
 from editor.programs.summary import names_in
 from tests.cases.odd_documents import ODD, make_odd, sound_documents
