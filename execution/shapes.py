@@ -1,4 +1,4 @@
-"""The shapes of execution's HTTP answers and requests; `execution.runs.views` makes the answers."""
+"""The shapes of execution's HTTP answers and requests; `execution.views` makes the answers."""
 
 from __future__ import annotations
 

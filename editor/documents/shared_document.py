@@ -296,7 +296,7 @@ class SharedDocument:
         return bool(self._unhashed)
 
     def hashes(self) -> dict[Entry, int]:
-        """Return the hashes of the entries, which `know_hashes` of a document of the same content takes."""
+        """Return the hashes of the entries, which `know` of a document of the same content takes."""
         self.digest()
         return self._hashes
 

@@ -10,7 +10,7 @@ from execution.models.archives import Archivable
 
 
 class Rehearsal(Archivable):
-    """A program tried out in a pretend world, or its tests: `kind` says which; tests leave their results elsewhere.
+    """A program tried out in a simulated world, or its tests: `kind` says which; tests leave their results elsewhere.
 
     `person` is whose it is. The worker that carries it out has its `claim`, runs on `machine` and says at `beat_at`, by
     the database's clock, that it goes on; `tries` counts how often it was begun, `course` says how far it is, `asked`

@@ -1,4 +1,4 @@
-"""A rehearsal: run machine, floor and a pretend world in lockstep, in virtual time.
+"""A rehearsal: run machine, floor and a simulated world in lockstep, in virtual time.
 
 See `execution.rehearsals.child_process` for the process of its own that physics wants.
 """
@@ -261,7 +261,7 @@ class _Rehearsal:
                 case r.CancelTimer(timer=timer):
                     self.dropped_timers.add(timer)
                 case r.AskPeople(question=question, answer=spec, step=step):
-                    answer = pretend_answer(spec)
+                    answer = simulated_answer(spec)
                     self.recorder.note_answer(now, step, answer)
                     self.replies.append((now + REPLY_S, r.Answered(question, answer)))
                 case r.Finished():
@@ -316,7 +316,7 @@ def clock_of(seconds: float) -> str:
     return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
 
 
-def pretend_answer(spec: AnswerSpec) -> Scalar:
+def simulated_answer(spec: AnswerSpec) -> Scalar:
     """Return what a rehearsal answers by itself: yes, the first option, the least number or 1, no text."""
     match spec.type:
         case "boolean":

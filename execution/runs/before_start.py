@@ -23,7 +23,7 @@ def may_begin(run: Run, now: datetime) -> bool:
     return run.status == Run.Status.PENDING and (run.not_before is None or run.not_before <= now)
 
 
-def take_in(run: Run, journal: Journal, messages: list[ToRun]) -> None:
+def ingest(run: Run, journal: Journal, messages: list[ToRun]) -> None:
     """Do what people want of a run before its start; a Cancel that arrives together with the start comes before it."""
     for message in messages:
         match message:

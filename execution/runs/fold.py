@@ -17,7 +17,7 @@ from execution.machine.needs import Needs
 from execution.machine.state import RunState
 from execution.models import Run, RunEvent
 from execution.runs import notices
-from execution.runs.before_start import is_before_start, may_begin, take_in
+from execution.runs.before_start import ingest, is_before_start, may_begin
 from execution.runs.journal import Journal, describe
 from execution.traffic.messages import RunPaused, RunResumed, floor_zones
 from vipo_device.protocol.description import Scalar
@@ -105,20 +105,20 @@ def fold(
     begins now. Raises CannotTakeIn; the work that was given is as it was.
     """
     new = work.fork()
-    doing = _Fold(new, Journal(new.row, now, names), [], _asking(new))
+    fold = _Fold(new, Journal(new.row, now, names), [], _asking(new))
     if is_before_start(new.row):
-        _before_start(doing, messages)
+        _before_start(fold, messages)
         messages = []
     if may_begin(new.row, now):
-        _take_facts(doing, facts)
+        _take_facts(fold, facts)
         for index, message in enumerate(messages):
-            _take_message(doing, index, message)
-        _close(doing)
-    if doing.journal.live or doing.journal.seq != new.row.next_seq:
+            _take_message(fold, index, message)
+        _close(fold)
+    if fold.journal.live or fold.journal.seq != new.row.next_seq:
         new.is_changed = True
-    new.lines += doing.journal.close()
-    new.live += doing.journal.live
-    return new, doing.told
+    new.lines += fold.journal.close()
+    new.live += fold.journal.live
+    return new, fold.told
 
 
 def _asking(work: RunWork) -> AskingRun:
@@ -128,30 +128,30 @@ def _asking(work: RunWork) -> AskingRun:
     return AskingRun(str(run.id), f"run {run.number}", plan.roles, zones, run.priority, due)
 
 
-def _before_start(doing: _Fold, messages: Sequence[ToRun]) -> None:
-    before = (doing.work.row.status, doing.work.row.reason, doing.work.row.late)
-    take_in(doing.work.row, doing.journal, list(messages))
-    run = doing.work.row
-    doing.work.is_changed |= before != (run.status, run.reason, run.late)
+def _before_start(fold: _Fold, messages: Sequence[ToRun]) -> None:
+    before = (fold.work.row.status, fold.work.row.reason, fold.work.row.late)
+    ingest(fold.work.row, fold.journal, list(messages))
+    run = fold.work.row
+    fold.work.is_changed |= before != (run.status, run.reason, run.late)
 
 
-def _take_facts(doing: _Fold, facts: Callable[[], Facts]) -> None:
+def _take_facts(fold: _Fold, facts: Callable[[], Facts]) -> None:
     """Begin the run, or take in what readings are news."""
-    work = doing.work
+    work = fold.work
     try:
         known = facts()
         if work.state is None:
-            work.row.started_at = doing.journal.now
-            _say_started(doing)
+            work.row.started_at = fold.journal.now
+            _say_started(fold)
             work.is_changed = True
             work.inputs.append({"start": _listed(known)})
             work.state, actions = machine.start(work.plan, work.row.parameters, known, work.row.entry)
-            _do(doing, actions)
+            _do(fold, actions)
             return
         news = {key: value for key, value in known.items() if work.state.facts.get(key) != value}
         if news:
             work.inputs.append({"facts": _listed(news)})
-            _tell(doing, r.Facts(news))
+            _tell(fold, r.Facts(news))
     except Exception as error:
         raise CannotTakeIn(None) from error
 
@@ -160,77 +160,77 @@ def _listed(facts: Facts) -> list[list[Scalar]]:
     return [[thing, name, value] for (thing, name), value in facts.items()]
 
 
-def _take_message(doing: _Fold, index: int, message: ToRun) -> None:
+def _take_message(fold: _Fold, index: int, message: ToRun) -> None:
     try:
-        doing.journal.note(message)
+        fold.journal.note(message)
         if isinstance(message, DeadlinePassed):
-            notices.tell_late(doing.work.row, doing.journal)
+            notices.tell_late(fold.work.row, fold.journal)
         event = to_machine(message)
         if event is not None:
             if isinstance(event, r.TaskDone | r.TaskFailed):
-                doing.work.orders.pop(event.task, None)
-            doing.work.inputs.append({"told": to_json(message)})
-            _tell(doing, event)
+                fold.work.orders.pop(event.task, None)
+            fold.work.inputs.append({"told": to_json(message)})
+            _tell(fold, event)
     except Exception as error:
         raise CannotTakeIn(index) from error
 
 
-def _close(doing: _Fold) -> None:
+def _close(fold: _Fold) -> None:
     """Say in the run's row what its machine has come to."""
-    run, state = doing.work.row, doing.work.state
+    run, state = fold.work.row, fold.work.state
     assert state is not None
-    watches = state.status in {"running", "paused"} and _watches(doing.work.plan, state)
+    watches = state.status in {"running", "paused"} and _watches(fold.work.plan, state)
     said = (state.status, state.reason[:REASON_CHARACTERS], watches)
     if said != (run.status, run.reason, run.watches):
         run.status, run.reason, run.watches = said
-        doing.work.is_changed = True
+        fold.work.is_changed = True
 
 
-def _say_started(doing: _Fold) -> None:
-    run, by = doing.work.row, doing.work.row.started_by or "Somebody"
+def _say_started(fold: _Fold) -> None:
+    run, by = fold.work.row, fold.work.row.started_by or "Somebody"
     if run.entry:
         text = f"Run {run.number} started by itself; {by} has armed the program."
-        doing.journal.say("run", text, code="started_itself", by=by, number=run.number)
+        fold.journal.say("run", text, code="started_itself", by=by, number=run.number)
     elif run.not_before:
         text = f"Run {run.number} began at its time; {by} has planned it."
-        doing.journal.say("run", text, code="started_planned", by=by, number=run.number)
+        fold.journal.say("run", text, code="started_planned", by=by, number=run.number)
     else:
-        doing.journal.say("run", f"{by} started run {run.number}.", code="started", by=by, number=run.number)
+        fold.journal.say("run", f"{by} started run {run.number}.", code="started", by=by, number=run.number)
 
 
-def _tell(doing: _Fold, event: r.Event) -> None:
-    work = doing.work
+def _tell(fold: _Fold, event: r.Event) -> None:
+    work = fold.work
     assert work.state is not None
     before = work.state
     work.state, actions = machine.step(work.plan, before, event)
     work.is_changed |= work.state is not before and work.state != before
-    _do(doing, actions)
+    _do(fold, actions)
     if before.status != work.state.status and {before.status, work.state.status} == {"running", "paused"}:
-        doing.journal.say("run", describe(work.state.status, work.state.reason), code=work.state.status)
-        doing.told.append(RunPaused(work.id) if work.state.status == "paused" else RunResumed(work.id))
+        fold.journal.say("run", describe(work.state.status, work.state.reason), code=work.state.status)
+        fold.told.append(RunPaused(work.id) if work.state.status == "paused" else RunResumed(work.id))
 
 
-def _do(doing: _Fold, actions: tuple[r.Action, ...]) -> None:
+def _do(fold: _Fold, actions: tuple[r.Action, ...]) -> None:
     """Note what the machine wants done."""
-    work, journal = doing.work, doing.journal
+    work, journal = fold.work, fold.journal
     for action in actions:
         match action:
             case r.Ask(task=task, order=order):
                 if work.needs.properties:
                     work.orders[task] = order
-                doing.told.append(to_floor(doing.asking, action))
+                fold.told.append(to_floor(fold.asking, action))
             case r.Cancel(task=task):
                 work.orders.pop(task, None)
-                doing.told.append(to_floor(doing.asking, action))
+                fold.told.append(to_floor(fold.asking, action))
             case r.SetTimer() | r.CancelTimer():
                 _time(work, action)
             case r.AskPeople() | r.CancelQuestion() | r.Tell():
-                _speak(doing, action)
+                _speak(fold, action)
             case r.Finished(status=status, reason=reason):
                 work.row.ended_at = journal.now
                 notices.say_held(work.row, journal)
                 journal.say("run", describe(status, reason), code=status)
-                doing.told.append(to_floor(doing.asking, action))
+                fold.told.append(to_floor(fold.asking, action))
             case r.StepEntered() | r.StepLeft() | r.StepFailed():
                 journal.mark(action)
             case _:
@@ -246,16 +246,16 @@ def _time(work: RunWork, action: r.SetTimer | r.CancelTimer) -> None:
         work.dropped_timers.add(action.timer)
 
 
-def _speak(doing: _Fold, action: r.AskPeople | r.CancelQuestion | r.Tell) -> None:
+def _speak(fold: _Fold, action: r.AskPeople | r.CancelQuestion | r.Tell) -> None:
     """Note what people are asked or told."""
     match action:
         case r.AskPeople(step=name, text=text):
-            doing.journal.ask(name, text)
-            doing.work.asked.append(action)
+            fold.journal.ask(name, text)
+            fold.work.asked.append(action)
         case r.CancelQuestion():
-            doing.work.asked.append(action)
+            fold.work.asked.append(action)
         case r.Tell():
-            notices.tell(doing.work.row, doing.journal, action)
+            notices.tell(fold.work.row, fold.journal, action)
 
 
 def _watches(plan: Plan, state: RunState) -> bool:

@@ -89,5 +89,5 @@ def layout() -> Layout:
 
 
 def scene(**more: Any) -> Scene:
-    """Return the factory for a pretend world."""
+    """Return the factory for a simulated world."""
     return Scene(grid(), devices(), seed=1, **more)

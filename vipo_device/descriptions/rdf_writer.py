@@ -1,4 +1,4 @@
-"""RDF out, in every form, and graphs for those who work with rdflib's; RDF is read in `rdf_reading.py`."""
+"""RDF out, in every form, and graphs for those who work with rdflib's; RDF is read in `rdf_reader.py`."""
 
 from __future__ import annotations
 

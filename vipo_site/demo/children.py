@@ -1,4 +1,4 @@
-"""The demo's child processes: the pretend world, the firmware, and the robot of the site that begins empty."""
+"""The demo's child processes: the simulated world, the firmware, and the robot of the site that begins empty."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ class Child:
 
 
 def start_children(state: Path, speed: float, pace: str = "") -> list[Part]:
-    """Start the pretend world, the firmware on MicroPython, and the robot of the empty site if there is one."""
+    """Start the simulated world, the firmware on MicroPython, and the robot of the empty site if there is one."""
     from django.conf import settings
 
     from registry import services as registry

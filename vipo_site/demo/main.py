@@ -1,7 +1,7 @@
 """The embedded mode: everything in one process group, on a bare machine, with nothing but Python.
 
 The main thread runs Daphne; the broker, the Celery workers of runs and of rehearsals, the gateway and the ticker are
-threads; the pretend world (PyBullet) and the firmware (MicroPython) are child processes, started again when they die,
+threads; the simulated world (PyBullet) and the firmware (MicroPython) are child processes, started again when they die,
 and so is each rehearsal.
 """
 

@@ -21,7 +21,7 @@ def is_alive(pid: int) -> bool:
 
 
 def held_by(machine: str, state: Path) -> dict[str, int]:
-    """What the pretend world says is in a machine; machines do not tell it over MQTT."""
+    """What the simulated world says is in a machine; machines do not tell it over MQTT."""
     memory = json.loads((state / "twin" / "painting-factory.json").read_text())
     held: dict[str, int] = memory["stocks"][machine]
     return held
