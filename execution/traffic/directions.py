@@ -11,14 +11,14 @@ from execution.traffic.outlines import touches_way
 from registry.floorplan.lattice import Lattice, Point
 
 ACROSS = 0.1
-"""A way whose angle to a zone's direction has a cosine nearer to 0 than this leads across it, not against it: up to
+"""An edge whose angle to a zone's direction has a cosine nearer to 0 than this leads across it, not against it: up to
 5 degrees from a right angle."""
 Edge = tuple[int, int]
 """Of the lattice: from a cell to its neighbour."""
 
 
 def _is_against(zone: FloorZone, start: Point, end: Point) -> bool:
-    """Tell whether a straight way leads over a one-way zone against its direction; across it one may drive."""
+    """Tell whether a straight edge leads over a one-way zone against its direction; across it one may drive."""
     if zone.rule != "one_way" or zone.heading_deg is None:
         return False
     heading, x, y = radians(zone.heading_deg), end[0] - start[0], end[1] - start[1]
