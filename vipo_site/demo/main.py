@@ -229,12 +229,8 @@ def start_parts(options: argparse.Namespace, state: Path) -> list[Part]:
     from registry.services import HeartbeatWriter
 
     parts = [start_broker(), *start_workers()]
-    gateway, ticker, mirror = (
-        HeartbeatWriter("gateway", settings.VIPO_GATEWAY),
-        HeartbeatWriter("ticker"),
-        HeartbeatWriter("mirror"),
-    )
-    stand_ins = HeartbeatWriter("stand-ins")
+    gateway = HeartbeatWriter("gateway", settings.VIPO_GATEWAY)
+    ticker, mirror, stand_ins = HeartbeatWriter("ticker"), HeartbeatWriter("mirror"), HeartbeatWriter("stand-ins")
     heartbeats = (("gateway", gateway), ("ticker", ticker), ("mirror", mirror), ("stand-ins", stand_ins))
     parts += [Part(name, heartbeat.start().stop) for name, heartbeat in heartbeats]
     parts.append(start_loop("gateway", lambda stopping: Gateway(settings, gateway).run_forever(stopping)))
