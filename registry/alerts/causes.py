@@ -57,15 +57,17 @@ CAUSES: Mapping[AlertCode, Cause] = {
     "warning": Cause("warning", "It reports a warning"),
     "battery_low": Cause("warning", "Its battery is low"),
     "newcomer_waits": Cause("info", "It has been waiting for approval for more than an hour", role="admin"),
-    "description_refused": Cause("warning", "What it says of itself was refused"),
+    "description_refused": Cause("warning", "Its description was refused"),
     "messages_dropped": Cause("warning", "It sends too many messages; some were dropped", quiet=SOON),
     "messages_refused": Cause("warning", "Messages of it were refused", quiet=SOON),
     "flapping": Cause(
         "warning",
-        "It comes and leaves all the time: its network is bad, or two connections by its id end each other",
+        "It comes and leaves all the time: its network is bad, or two connections with its id displace each other",
         quiet=SOON,
     ),
-    "wrong_key": Cause("warning", "Somebody tried to come in as it with a wrong key", quiet=timedelta(hours=1)),
+    "wrong_key": Cause(
+        "warning", "Somebody tried to connect as this device with a wrong key", quiet=timedelta(hours=1)
+    ),
     "foreign_knock": Cause("warning", "Somebody wanted to enrol as it with another key", quiet=timedelta(hours=1)),
     "command_rejected": Cause("warning", "It refused {method}", quiet=timedelta(days=1), anew=timedelta(minutes=1)),
     "command_failed": Cause("error", "It did not finish {method}", quiet=timedelta(days=1), anew=timedelta(minutes=1)),

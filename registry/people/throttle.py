@@ -26,8 +26,8 @@ Tried = Literal["wait", "link", "sign_on"]
 """What is tried: a password, the link of an invitation, or the answer of a provider."""
 _TRIED: dict[Tried, str] = {
     "wait": "Too many sign-ins failed.",
-    "link": "Too many links that are none were tried from here.",
-    "sign_on": "Too many sign-ons that are none were tried from here.",
+    "link": "Too many invalid links were tried from here.",
+    "sign_on": "Too many invalid sign-ons were tried from here.",
 }
 MOST_FOR_PAIR, MOST_FOR_EMAIL, MOST_FOR_ADDRESS = 8, 50, 200
 

@@ -133,7 +133,7 @@ def change_member(
     """
     now = timezone.now()
     if sets_end and ends_at is not None and not now < ends_at < now + LONGEST:
-        raise BadEnd("The end of access lies in the future, and at most ten years ahead. Choose another day.")
+        raise BadEnd("The end of access must be in the future and at most ten years ahead. Choose another day.")
     with transaction.atomic():
         _lock(site)
         require(by, site, "admin")

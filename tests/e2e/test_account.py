@@ -63,7 +63,7 @@ def test_an_own_password_is_changed_and_all_sessions_are_ended(
     faults.clear()  # the browser itself tells of the refusal
     page.get_by_label("New password").fill(SECOND)
     page.keyboard.press("Enter")
-    expect(page.get_by_text("The new password holds. Everywhere else you are signed out.")).to_be_visible()
+    expect(page.get_by_text("Your password is changed. You are signed out everywhere else.")).to_be_visible()
     expect(other.get_by_role("button", name="Sign in", exact=True)).to_be_visible()
     page.reload()
     third = chromium.new_context(locale="en-GB")

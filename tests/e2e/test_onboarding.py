@@ -70,7 +70,7 @@ def test_a_device_is_added_comes_in_and_is_approved(sign_in: SignIn) -> None:
     device = connect(setup)
     try:
         say(device, "mixer-7", "desc", TEXT.replace(";", "", 1))
-        expect(dialog.get_by_text("What it says of itself was refused", exact=False)).to_be_visible()
+        expect(dialog.get_by_text("Its description was refused", exact=False)).to_be_visible()
         expect(dialog.get_by_text("Waiting for mixer-7")).to_be_visible()
         assert violations(page) == []
         introduce(device, "mixer-7")

@@ -128,7 +128,7 @@ def test_a_device_that_comes_and_leaves_and_a_foreign_key_are_told(mixer: str) -
     Device.objects.filter(pk=mixer).update(lifecycle="approved", online=True)
     services.flush_alerts()
     assert sorted(alerts()) == [("flapping", "", 1), ("foreign_knock", "", 1), ("wrong_key", "", 1)]
-    assert "two connections by its id end each other" in sentence_of("flapping", {})
+    assert "two connections with its id displace each other" in sentence_of("flapping", {})
     quiet = DeviceAlert.objects.get(code="flapping").last_at
     services.watch_devices(now=quiet + timedelta(minutes=11), since=LONG_AGO, at_work=())
     assert sorted(alerts()) == [("foreign_knock", "", 1), ("wrong_key", "", 1)]

@@ -44,7 +44,7 @@ test("what differs by what it is made of has words of its own", () => {
 
 test("why a device was not let ask is told in words", () => {
   const refused = line("device_turned_away", { device: "oven 1", because: "device_id" }, { kind: "devices" });
-  expect(deedWords(refused)).toBe("refused oven 1, which asked to join: this can be no id");
+  expect(deedWords(refused)).toBe("refused oven 1, which asked to join: the id is not valid");
 });
 
 test("tokens and VIPO itself stand where people stand", () => {
