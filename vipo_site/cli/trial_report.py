@@ -15,7 +15,7 @@ from vipo_device.protocol.faults import printable
 
 _WORDS: Mapping[str, str] = {
     REACHED: "never reached", "true": "its condition never held", "false": "its condition always held",
-    "none": "it always has a round", "one": "it never has just one round", "many": "it never has several rounds",
+    "none": "it is never skipped", "one": "it never runs exactly once", "many": "it never runs more than once",
     "limit": "its time limit was never over", "time out": "it never timed out", "fires": "its event never came",
 }  # fmt: skip
 

@@ -64,15 +64,15 @@ def test_a_test_is_written_mended_and_carried_out_by_keyboard(sign_in: SignIn, f
     result = panel.get_by_role("region", name="Result")
     expect(result.get_by_role("listitem").first).to_have_text(re.compile("ends well"))
     press(panel, "All tests")
-    expect(panel.get_by_text("Every step and every way through the program is taken by a test.")).to_be_visible()
-    expect(page.get_by_title("taken in 1 test")).to_be_visible()
+    expect(panel.get_by_text("Every step and every way through the program is covered by a test.")).to_be_visible()
+    expect(page.get_by_title("covered by 1 test")).to_be_visible()
     shoot(page, "tests-coverage")
     assert violations(page) == []
 
     panel.get_by_label("Seeds", exact=True).select_option("20")
     press(panel, "Run all")
-    expect(row).to_contain_text("Odds to fail", timeout=90_000)
-    expect(row.get_by_title(re.compile("^0 of 20 seeds failed: 0%, 95 % range 0% to "))).to_be_visible()
+    expect(row).to_contain_text("Failure rate", timeout=90_000)
+    expect(row.get_by_title(re.compile("^0 of 20 seeds failed: 0%, 95 % interval 0% to "))).to_be_visible()
     assert violations(page) == []
     shoot(page, "tests-odds")
     press(panel, "Try changes")
@@ -227,19 +227,19 @@ def test_what_is_meant_so_is_set_aside_for_all_until_the_step_is_changed(
     mine, theirs, seen = (panel.get_by_role("region", name="What no test notices") for panel in panels)
     for region in (mine, theirs, seen):
         expect(region.get_by_text("0 of 3 noticed")).to_be_visible()
-    expect(seen.get_by_role("button", name=re.compile("meant so"))).to_have_count(0)
-    turned = re.compile("^It is meant so: .* if the condition is turned round$")
+    expect(seen.get_by_role("button", name=re.compile("intended"))).to_have_count(0)
+    turned = re.compile("^This is intended: .* if the condition is turned round$")
     mine.get_by_role("button", name=turned).press("Enter")
     for region in (mine, theirs, seen):
-        expect(region.get_by_text("1 is meant so")).to_be_visible()
+        expect(region.get_by_text("1 is intended")).to_be_visible()
     expect(theirs.get_by_role("button", name=turned)).to_have_count(0)
     shoot(page, "tests-meant")
     assert violations(page) == []
     theirs.locator("summary").press("Enter")
-    expect(theirs.get_by_text(re.compile("Said by .*, while the step stays as it is."))).to_be_visible()
+    expect(theirs.get_by_text(re.compile("Marked by .*; holds until the step is changed."))).to_be_visible()
     shoot(other, "tests-meant-open")
     assert violations(other) == []
-    theirs.get_by_role("button", name=re.compile("^It is not meant so: ")).press("Enter")
+    theirs.get_by_role("button", name=re.compile("^This is not intended: ")).press("Enter")
     for region in (mine, theirs, seen):
-        expect(region.get_by_text("1 is meant so")).to_have_count(0)
+        expect(region.get_by_text("1 is intended")).to_have_count(0)
     expect(mine.get_by_role("button", name=turned)).to_be_visible()
