@@ -23,12 +23,12 @@ FindingCode = Literal[
 ]
 _NONE: Mapping[str, FindingCode] = {"gateway": "no_gateway", "worker": "no_worker", "ticker": "no_ticker"}
 TEXTS: Mapping[FindingCode, str] = {
-    "no_gateway": "No gateway works: commands and what devices say wait.",
-    "no_worker": "No worker works: runs and rehearsals stand still.",
-    "no_ticker": "No ticker works: timers do not fire, and what was lost is not found.",
+    "no_gateway": "No gateway is running: commands and what devices say wait.",
+    "no_worker": "No worker is running: runs and rehearsals stand still.",
+    "no_ticker": "No ticker is running: timers do not fire, and work that was lost is not found.",
     "process_silent": "A process has fallen silent: {kind} {name}.",
     "archive_failed": "Old histories cannot be archived, and stay in the database: {why}",
-    "set_aside": "What could not be taken in was set aside and waits for an admin: {count}.",
+    "set_aside": "Messages that could not be processed wait for an admin: {count}.",
     "clock_apart": "The clock of {kind} {name} is {seconds} s apart from the database's.",
 }
 

@@ -18,7 +18,7 @@ from tests.kit.demo import Demo
 pytestmark = pytest.mark.browser
 SITE = "/sites/painting-factory"
 LIST = "**/dead-letters?state=open"
-NONE = "Nothing is set aside: all that came was taken in."
+NONE = "Nothing is set aside: all that came was processed."
 
 
 @pytest.fixture
@@ -57,7 +57,7 @@ def test_an_admin_is_led_to_what_was_set_aside_and_settles_it_by_keyboard(sign_i
     strip.get_by_role("link", name="Look").press("Enter")
     expect(section(page).get_by_role("heading", name="Set aside")).to_be_focused()
     letter = section(page).get_by_role("listitem")
-    expect(letter).to_contain_text("A message of the kind “nonsense” could not be taken in.")
+    expect(letter).to_contain_text("A message of the kind “nonsense” could not be processed.")
     for name in ("Retry", "Drop", "Why, and what it says"):
         page.keyboard.press("Tab")
         expect(page.locator(":focus")).to_contain_text(name)

@@ -103,7 +103,7 @@ def test_operators_are_told_what_stops_work_and_admins_which_process_it_is(hall:
     operator, admin = (ask(signed_in(role), "findings") for role in ("operator", "admin"))
     assert operator == [
         {"code": "no_gateway", "severity": "error", "args": {},
-         "text": "No gateway works: commands and what devices say wait."},
+         "text": "No gateway is running: commands and what devices say wait."},
     ]  # fmt: skip
     assert [each["code"] for each in admin] == ["no_gateway", "clock_apart", "process_silent"]
     assert admin[1]["args"] == {"kind": "worker", "name": "p1", "machine": "m1", "seconds": -60.0}
@@ -120,7 +120,7 @@ def test_what_was_set_aside_waits_for_admins_until_it_is_retried_or_dropped(othe
     assert ask(operator, "findings") == []
     assert ask(admin, "findings") == [
         {"code": "set_aside", "severity": "error", "args": {"count": 2},
-         "text": "What could not be taken in was set aside and waits for an admin: 2."},
+         "text": "Messages that could not be processed wait for an admin: 2."},
     ]  # fmt: skip
     for letter in letters:
         services.drop_dead_letter(letter_id=letter, by="Ada")

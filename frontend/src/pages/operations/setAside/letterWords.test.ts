@@ -30,9 +30,9 @@ beforeAll(() =>
 );
 
 test("what could not be taken in is told by whether it was for a run or for the floor", async () => {
-  expect(whatWords(LETTER)).toBe("The answer of a device could not be taken in.");
-  expect(whatWords(saying("answered"))).toBe("The answer of a person could not be taken in.");
-  expect(whatWords(saying("answered", { target: "floor" }))).toBe("The answer of a device could not be taken in.");
+  expect(whatWords(LETTER)).toBe("The answer of a device could not be processed.");
+  expect(whatWords(saying("answered"))).toBe("The answer of a person could not be processed.");
+  expect(whatWords(saying("answered", { target: "floor" }))).toBe("The answer of a device could not be processed.");
   expect(whatWords(saying("plan"))).toBe("The plan or the state of the run cannot be read.");
   await i18next.changeLanguage("de");
   expect(whatWords(saying("run_over", { target: "floor" }))).toBe("Nicht verarbeitet: das Ende des Laufs.");
@@ -40,7 +40,7 @@ test("what could not be taken in is told by whether it was for a run or for the 
 });
 
 test("what no version knows is named as it is, and what is no message is said to be none", () => {
-  expect(whatWords(saying("nonsense"))).toBe("A message of the kind “nonsense” could not be taken in.");
+  expect(whatWords(saying("nonsense"))).toBe("A message of the kind “nonsense” could not be processed.");
   for (const type of [undefined, 7, null, "unreadable"]) {
     expect(whatWords(saying(type))).toBe("A message that nobody can read came.");
   }
