@@ -147,6 +147,6 @@ def _opened(summary: Run | Rehearsal) -> Iterator[Iterator[Row]]:
             yield _rows_of(part, str(summary.pk))
     except (UnreadableHistory, KeyError, TypeError) as error:
         raise HistoryUnreadable(
-            "This history is in the archive, which cannot be read here now. Ask who runs this server to look at "
-            f"{archive.file}: {error}",
+            "This history is in the archive, which cannot be read here now. Ask whoever runs this VIPO server to "
+            f"look at {archive.file}: {error}",
         ) from error

@@ -11,7 +11,7 @@ class AuditLine(models.Model):
     """Who did what, when and from where; `facts` are what its sentence names.
 
     `person_id` is no foreign key: a line stays as it is, whatever becomes of the person. Without a site it is about the
-    server, such as a sign-on of somebody whom no site knows, and who serves VIPO reads it.
+    server, such as a sign-on of somebody whom no site knows, and whoever runs this VIPO server reads it.
     """
 
     site = models.ForeignKey(Site, on_delete=models.CASCADE, null=True, related_name="+")

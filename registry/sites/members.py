@@ -1,8 +1,8 @@
 """The members of a site: who they are, what they may do and until when; changed, removed, left.
 
 Whoever changes it locks the site's row first and is looked at again then, so that of two admins who lower each other
-at once one is told. A site that has an admin whose access does not end keeps one: only who serves VIPO may take the
-last one away (`set_member`, `remove_member`).
+at once one is told. A site that has an admin whose access does not end keeps one: only whoever runs this VIPO
+server may take the last one away (`set_member`, `remove_member`).
 """
 
 from __future__ import annotations
@@ -166,8 +166,8 @@ def reset_second_factor(*, site: str, person: int, by: User) -> None:
         theirs = Membership.objects.filter(user_id=member.user_id).values_list("site__slug", flat=True)
         if any((access := find_access(by, each)) is None or not access.allows("admin") for each in theirs):
             raise NotAllowed(
-                f"{member.user.display_name} is a member of sites that are not yours. Who serves VIPO can reset "
-                "the second factor: vipo account EMAIL --no-second-factor"
+                f"{member.user.display_name} is a member of sites that are not yours. Whoever runs this VIPO "
+                "server can reset the second factor: vipo account EMAIL --no-second-factor"
             )
         reset_factor(user=member.user)
 
@@ -201,9 +201,9 @@ def leave_site(*, site: str, user: User) -> None:
 
 
 def set_member(*, site: str, email: str, role: str) -> None:
-    """Make a person a member, or change their role, as who serves VIPO may. Raises UnknownPerson, BadName, NotAMember.
+    """Make a person a member, or change their role, as whoever runs this VIPO server may.
 
-    Access that had ended is given anew.
+    Access that had ended is given anew. Raises UnknownPerson, BadName, NotAMember.
     """
     if role not in ROLES:
         raise BadName(f"There is no role {role[:20]!r}. Choose {', '.join(ROLES)}.")
@@ -223,7 +223,7 @@ def set_member(*, site: str, email: str, role: str) -> None:
 
 
 def remove_member(*, site: str, email: str) -> None:
-    """End a membership and its tokens, as who serves VIPO may; the person's open pages of the site are closed."""
+    """End a membership and its tokens, as whoever runs this VIPO server may; open pages of the site are closed."""
     find_site(site)
     with transaction.atomic():
         _lock(site)

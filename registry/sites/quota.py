@@ -39,11 +39,13 @@ def may_create_sites(user: User) -> bool:
 def require_site_quota(user: User) -> None:
     """Raise MayNotCreateSites or SiteQuotaReached unless a person may make one more site."""
     if not user.site_quota:
-        raise MayNotCreateSites("You may not make sites. Ask who runs this server for it: `vipo account … --sites 1`.")
+        raise MayNotCreateSites(
+            "You may not make sites. Ask whoever runs this VIPO server for it: `vipo account … --sites 1`."
+        )
     if not may_create_sites(user):
         raise SiteQuotaReached(
             f"You have made {user.site_quota} sites, which is as many as you may. "
-            "Ask who runs this server for more: `vipo account … --sites`."
+            "Ask whoever runs this VIPO server for more: `vipo account … --sites`."
         )
 
 

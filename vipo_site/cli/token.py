@@ -56,7 +56,7 @@ def create_token(options: argparse.Namespace) -> int:
     write(f"{view.name} asks as {view.email} at {view.site} until {view.expires_at:%Y-%m-%d}: {' '.join(view.scopes)}.")
     write(f"The token, shown this once: {text}")
     if way := services.broker_of(view=view):
-        where = way["address"] or "the address that whoever serves VIPO knows"
+        where = way["address"] or "the address that whoever runs this VIPO server knows"
         write(f"The MQTT broker: {where}, user name {way['username']}, password the token; topics {way['topics']}")
     return CLEAN
 

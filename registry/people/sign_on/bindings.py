@@ -92,7 +92,7 @@ def unlink(*, user: User, sign_on: int) -> None:
             raise NoSuchSignOn("There is no such link. It may have been taken away already.")
         if not person.has_usable_password() and SignOn.objects.filter(user=person).count() == 1:
             raise OnlyWayIn(
-                "You have no password: this is your only way in. Whoever serves VIPO can give you one "
+                "You have no password: this is your only way in. Whoever runs this VIPO server can give you one "
                 "(vipo account EMAIL --new-password)."
             )
         row.delete()

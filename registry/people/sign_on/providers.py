@@ -17,11 +17,17 @@ _SENTENCES: dict[Why, tuple[int, str]] = {
     "provider": (404, "Nobody signs in here by this provider. Go to the sign-in page and choose another way."),
     "down": (503, "{provider} does not answer, or says nothing that VIPO can read. Try again in a few minutes."),
     "denied": (403, "{provider} let you not in, or you turned back there. Start again from the sign-in page."),
-    "refused": (403, "{provider} refused the sign-on; the server's log has its words. Tell whoever serves VIPO."),
+    "refused": (
+        403,
+        "{provider} refused the sign-on; the server's log has its words. Tell whoever runs this VIPO server.",
+    ),
     "code": (403, "{provider} does not take this sign-on any more. Start again from the sign-in page."),
-    "clock": (403, "The clocks of {provider} and of VIPO differ too much. Tell whoever serves VIPO."),
+    "clock": (403, "The clocks of {provider} and of VIPO differ too much. Tell whoever runs this VIPO server."),
     "nonce": (403, "The answer of {provider} belongs to another sign-on. Start again from the sign-in page."),
-    "answer": (403, "The answer of {provider} is not signed by it, or not meant for VIPO. Tell whoever serves VIPO."),
+    "answer": (
+        403,
+        "The answer of {provider} is not signed by it, or not meant for VIPO. Tell whoever runs this VIPO server.",
+    ),
     "replayed": (403, "This sign-on was used already. Start again from the sign-in page."),
     "expired": (403, "This sign-on took longer than 10 minutes. Start again from the sign-in page."),
     "browser": (403, "This sign-on began in another browser. Start again from the sign-in page of this one."),
@@ -43,7 +49,7 @@ _SENTENCES: dict[Why, tuple[int, str]] = {
         "Somebody has an account here with the e-mail address that {provider} tells. If it is you, sign in with your "
         "password and link {provider} on the page of your account.",
     ),
-    "closed": (403, "This account is closed. Ask whoever serves VIPO."),
+    "closed": (403, "This account is closed. Ask whoever runs this VIPO server."),
     "signed_out": (403, "You have signed out, or signed in as somebody else, since this began. Start again."),
 }
 
