@@ -48,8 +48,8 @@ def test_a_token_for_the_broker_is_for_reading_alone_and_says_how_a_dashboard_co
     words = {
         "en": ("New token", "What it is for", "At the broker", "Operate", "User name", "Topics", "I have it", "Revoke"),
         "de": (
-            *("Neue Zugangsmarke", "Wofür sie ist", "Am Broker", "Bedienen", "Benutzername", "Themen (Topics)"),
-            *("Ich habe sie", "Widerrufen"),
+            *("Neues Zugriffstoken", "Wofür es ist", "Am Broker", "Bedienen", "Benutzername", "Themen (Topics)"),
+            *("Ich habe es", "Widerrufen"),
         ),
     }
     new, name, broker, operate, username, topics, done, revoke = words[language]
@@ -80,8 +80,8 @@ def test_a_token_for_the_broker_is_for_reading_alone_and_says_how_a_dashboard_co
 )
 def test_the_page_passes_axe_and_fits(sign_in: SignIn, language: str, dark: bool, width: int, height: int) -> None:
     page = sign_in("admin", PAGE, width=width, height=height, dark=dark, language=language)
-    title = {"en": "Tokens", "de": "Zugangsmarken"}[language]
+    title = {"en": "Tokens", "de": "Zugriffstoken"}[language]
     expect(page.get_by_role("heading", level=1, name=title)).to_be_visible()
-    expect(page.get_by_role("button", name={"en": "New token", "de": "Neue Zugangsmarke"}[language])).to_be_visible()
+    expect(page.get_by_role("button", name={"en": "New token", "de": "Neues Zugriffstoken"}[language])).to_be_visible()
     assert violations(page) == []
     assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")

@@ -50,7 +50,7 @@ def test_a_robot_waits_to_be_let_in_and_an_operator_lets_it_in(
         shoot(author, "let-in-run", "light", "dark")
         assert violations(author) == []
         viewer.get_by_role("button", name="1 Roboter wartet auf Einlass").press("Enter")
-        expect(viewer.get_by_text("Wer Läufe bedient, kann ihn einlassen.")).to_be_visible()
+        expect(viewer.get_by_text("Ein Bediener kann ihn einlassen.")).to_be_visible()
         expect(viewer.get_by_role("button", name="Einlassen")).to_have_count(0)
         bell.press("Enter")
         shoot(tablet, "let-in-tablet", "light", "dark")
