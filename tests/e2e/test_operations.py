@@ -40,7 +40,7 @@ def test_an_author_sees_what_waits_and_not_the_processes(sign_in: SignIn) -> Non
     ("language", "dark", "width", "height", "strip", "silent"),
     [
         ("en", False, 1600, 1000, "61.3\u202fs behind", "has been silent for"),
-        ("de", True, 820, 1180, "geht 61,3\u202fs nach", "schweigt seit"),
+        ("de", True, 820, 1180, "61,3\u202fs nach", "schweigt seit"),
     ],
 )
 def test_a_clock_that_is_off_is_said_on_every_screen_until_it_is_right(

@@ -28,7 +28,7 @@ describe("what is wrong with processes", () => {
     );
     expect(findingWords(apart(2.5))).toContain("2.5\u202fs ahead");
     await i18next.changeLanguage("de");
-    expect(findingWords(apart(2.5))).toContain("geht 2,5\u202fs vor");
+    expect(findingWords(apart(2.5))).toContain("geht gegenüber der Uhr der Datenbank 2,5\u202fs vor");
   });
 
   it("is said as the server says it where this page does not know it yet", () => {
