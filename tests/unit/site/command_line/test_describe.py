@@ -13,7 +13,7 @@ from vipo_device.descriptions.reader import read
 from vipo_site.cli.main import main
 
 MIXER = DEVICES / "paintMixer02.ttl"
-FIGURE_5 = Path(__file__).parents[2] / "fixtures" / "figure-5.txt"
+FIGURE_5 = Path(__file__).parents[3] / "fixtures" / "figure-5.txt"
 
 
 def test_describe_says_what_a_file_holds(capsys: pytest.CaptureFixture[str]) -> None:
