@@ -52,7 +52,7 @@ def press(page: Page, name: str) -> None:
 @pytest.mark.usefixtures("bad_message")
 def test_an_admin_is_led_to_what_was_set_aside_and_settles_it_by_keyboard(sign_in: SignIn) -> None:
     page = sign_in("admin", f"{SITE}/runs")
-    strip = page.get_by_role("status").filter(has_text="set aside and waits for you: 1.")
+    strip = page.get_by_role("status").filter(has_text="could not be processed wait for you: 1.")
     expect(strip).to_be_visible()
     strip.get_by_role("link", name="Look").press("Enter")
     expect(section(page).get_by_role("heading", name="Set aside")).to_be_focused()
