@@ -20,11 +20,12 @@ A_MINUTE_S = 1.0
 
 
 class Mixer:
-    """Takes `pace` times as long as it should; answers as docs/protocol.md says."""
+    """Takes `pace` times as long as it should; answers as docs/protocol.md says, and does once what is said twice."""
 
     def __init__(self, bus: Bus) -> None:
         self.client: MqttClient = bus.client(MIXER, KEY)
         self.pace, self.heard = 1.0, 0
+        self._known: set[str] = set()
         take_new_keys(MIXER, self.client, lambda key: None)
         self.client.subscribe(f"vipo/v1/dev/{MIXER}/down/mixPaint", 1, self._told)
 
@@ -33,6 +34,9 @@ class Mixer:
 
     def _told(self, _topic: str, payload: bytes, _retained: bool) -> None:
         told = json.loads(payload)
+        if told["id"] in self._known:
+            return  # its answer is on its way
+        self._known.add(told["id"])
         self.heard += 1
         threading.Thread(target=self._mix, args=(told["id"], told["v"]["time"])).start()
 
