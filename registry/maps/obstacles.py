@@ -14,8 +14,8 @@ from registry.audit.record import note_act
 from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.maps.site_maps import get_map
-from registry.models import SimulatedObstacle, Site
-from registry.sites.sites import find_site
+from registry.models import SimulatedObstacle
+from registry.sites.sites import find_site, lock_site
 from registry.sites.views import ObstacleView
 
 MOST_OBSTACLES = 50
@@ -40,7 +40,7 @@ def add_obstacle(*, site: str, x: float, y: float, size_m: float) -> ObstacleVie
     """Put an obstacle on the floor. Raises BadObstacle, NoMap, NotAMember."""
     found = _checked(site, x, y, size_m)
     with transaction.atomic():
-        row = Site.objects.select_for_update().get(pk=find_site(site).pk)
+        row = lock_site(site)
         if row.obstacles.count() >= MOST_OBSTACLES:
             text = f"A site has at most {MOST_OBSTACLES} obstacles. Take one away that nobody needs."
             raise BadObstacle(text, {"why": "many", "most": MOST_OBSTACLES})

@@ -17,8 +17,8 @@ from registry.floorplan.plan import Grid
 from registry.live.fanout import publish
 from registry.maps.names import Naming
 from registry.maps.site_maps import find_map, get_map
-from registry.models import Place, Site
-from registry.sites.sites import find_site, list_places
+from registry.models import Place
+from registry.sites.sites import find_site, list_places, lock_site
 from registry.sites.views import PlaceView
 
 MOST_PLACES = 500
@@ -63,7 +63,7 @@ def add_place(*, site: str, place: PlaceChange, place_id: str = "") -> PlaceView
     """Make a place; its id is made of its name, if none is wished. Raises BadPlace, PlaceTaken, NoMap, NotAMember."""
     version, grid = _map_of(site)
     with transaction.atomic():
-        row = _lock_site(site)
+        row = lock_site(site)
         keys = set(Place.objects.filter(site=row).values_list("key", flat=True))
         key = _naming().new_key(place_id, place.name or "", keys)
         made = Place(site=row, key=key, kind=Place.Kind.POINT, x=0.0, y=0.0)
@@ -78,7 +78,7 @@ def change_place(*, site: str, place_id: str, place: PlaceChange) -> PlaceView:
     """Change what is named of a place. Raises NoSuchPlace, BadPlace, PlaceTaken, NoMap, NotAMember."""
     version, grid = _map_of(site)
     with transaction.atomic():
-        _lock_site(site)
+        lock_site(site)
         row = _lock(site, place_id)
         _change(row, place, grid)
         row.save()
@@ -90,7 +90,7 @@ def change_place(*, site: str, place_id: str, place: PlaceChange) -> PlaceView:
 def remove_place(*, site: str, place_id: str) -> None:
     """Take a place away; programs that name it are told of it. Raises NoSuchPlace, NotAMember."""
     with transaction.atomic():
-        _lock_site(site)
+        lock_site(site)
         row = _lock(site, place_id)
         note_act(site_id=row.site_id, code="place_removed", facts={"place": row.name})
         row.delete()
@@ -109,11 +109,6 @@ def find_place(*, site: str, place_id: str) -> PlaceView:
 def _map_of(site: str) -> tuple[int, Grid]:
     found = get_map(site=site)
     return found.version, found.grid
-
-
-def _lock_site(site: str) -> Site:
-    """Lock the site's row, which whoever changes a place takes first: the record of it refers to that row."""
-    return Site.objects.select_for_update().get(pk=find_site(site).pk)
 
 
 def _lock(site: str, place_id: str) -> Place:

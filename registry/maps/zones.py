@@ -20,8 +20,8 @@ from registry.floorplan.polygons import Outline, area_m2, crosses_itself
 from registry.live.fanout import publish
 from registry.maps.names import Naming
 from registry.maps.site_maps import find_map, get_map
-from registry.models import Site, SiteZone
-from registry.sites.sites import find_site, list_zones
+from registry.models import SiteZone
+from registry.sites.sites import find_site, list_zones, lock_site
 from registry.sites.views import ZoneView
 
 MOST_ZONES = 100
@@ -83,7 +83,7 @@ def add_zone(*, site: str, zone: ZoneChange, zone_id: str = "") -> ZoneView:
     """Make a zone; its id is made of its name, if none is wished. Raises BadZone, ZoneTaken, NoMap, NotAMember."""
     known = get_map(site=site)
     with transaction.atomic():
-        row = _lock_site(site)
+        row = lock_site(site)
         keys = set(SiteZone.objects.filter(site=row).values_list("key", flat=True))
         key = _naming().new_key(zone_id, zone.name or "", keys)
         made = SiteZone(site=row, key=key, rule=SiteZone.Rule.KEEP_OUT, points=[])
@@ -98,7 +98,7 @@ def change_zone(*, site: str, zone_id: str, zone: ZoneChange) -> ZoneView:
     """Change what is named of a zone. Raises NoSuchZone, BadZone, ZoneTaken, NoMap, NotAMember."""
     known = get_map(site=site)
     with transaction.atomic():
-        _lock_site(site)
+        lock_site(site)
         row = _lock(site, zone_id)
         _change(row, zone, known.grid)
         row.save()
@@ -110,7 +110,7 @@ def change_zone(*, site: str, zone_id: str, zone: ZoneChange) -> ZoneView:
 def remove_zone(*, site: str, zone_id: str) -> None:
     """Take a zone away: robots drive there as anywhere. Raises NoSuchZone, NotAMember."""
     with transaction.atomic():
-        _lock_site(site)
+        lock_site(site)
         row = _lock(site, zone_id)
         note_act(site_id=row.site_id, code="zone_removed", facts={"zone": row.name})
         row.delete()
@@ -139,7 +139,7 @@ def close_zone(*, site: str, zone_id: str) -> ZoneView:
 
 def _set_open(site: str, zone_id: str, until: datetime | None, code: str, **facts: int) -> ZoneView:
     with transaction.atomic():
-        _lock_site(site)
+        lock_site(site)
         row = _lock(site, zone_id)
         if row.rule != SiteZone.Rule.RELEASE:
             text = NO_DOOR.format(zone=row.name)
@@ -163,11 +163,6 @@ def find_zone(*, site: str, zone_id: str) -> ZoneView:
 
 def _naming() -> Naming:
     return Naming("zone", MOST_ZONES, BadZone, ZoneTaken)
-
-
-def _lock_site(site: str) -> Site:
-    """Lock the site's row, which whoever changes a zone takes first: the record of it refers to that row."""
-    return Site.objects.select_for_update().get(pk=find_site(site).pk)
 
 
 def _lock(site: str, zone_id: str) -> SiteZone:

@@ -203,6 +203,15 @@ def list_obstacles(*, site: str) -> tuple[ObstacleView, ...]:
     return tuple(ObstacleView(o.pk, o.x, o.y, o.size_m) for o in rows)
 
 
+def lock_site(slug: str) -> Site:
+    """Lock a site's row until the transaction ends. Raises NotAMember.
+
+    Whoever changes a thing of the site for which a line of the record is written takes this first: the line refers to
+    the site's row, so that of two who begin at different ends each would wait for the other.
+    """
+    return Site.objects.select_for_update().get(pk=find_site(slug).pk)
+
+
 def set_site_stop(*, site: str, active: bool, by: str, at: datetime) -> None:
     """Keep for display that the site was stopped or set free; `execution` decides and tells the devices."""
     Site.objects.filter(slug=site).update(stop_active=active, stop_by=by, stop_at=at)
@@ -213,7 +222,7 @@ def set_enrolment_key(*, site: str, key: str) -> None:
     if len(key) < 20:
         raise BadName("An enrolment key needs at least 20 characters; make it at random.")
     with transaction.atomic():
-        row = Site.objects.select_for_update().get(pk=find_site(site).pk)
+        row = lock_site(site)
         if row.join_key_hash != secret_hash(key) or not row.join_broker_hash or not _unsealed(row):
             row.join_key_hash, row.join_broker_hash = secret_hash(key), broker_hash(key)
             row.join_key_sealed, row.join_key_at = _seal().encrypt(key.encode()).decode(), timezone.now()
@@ -238,7 +247,7 @@ def has_enrolment_key(*, site: str) -> bool:
 
 def replace_enrolment_key(*, site: str, key: str) -> str:
     """Set the enrolment key, and return which one holds: of several people at once all are told the same."""
-    row = Site.objects.select_for_update().get(pk=find_site(site).pk)
+    row = lock_site(site)
     just_made = row.join_key_at is not None and timezone.now() - row.join_key_at < AT_ONCE
     if just_made and (known := _unsealed(row)):
         return known

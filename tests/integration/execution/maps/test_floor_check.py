@@ -1,5 +1,6 @@
 """The floor check over HTTP: who may ask, for which widths, and when it is worked out anew."""
 
+import gc
 import json
 
 import pytest
@@ -7,6 +8,7 @@ from django.db import connection
 from django.test.utils import CaptureQueriesContext
 
 from execution.floor import floor_check_routes as routes
+from execution.floor.layouts import get_layout
 from registry import services as registry
 from tests.kit.programs import SITE
 from tests.kit.sign_in import below_role, from_role, sign_in_member
@@ -182,3 +184,13 @@ def test_strangers_ask_for_no_remedies(factory, client):
     asked = {"code": "no_room", "target": "a"}
     assert sign_in_member("stranger", SITE).get(REMEDIES, asked).status_code == 404
     assert client.get(REMEDIES, asked).status_code == 401
+
+
+def test_a_kept_check_keeps_no_floor_of_before(viewer):
+    viewer.get(CHECK)
+    (kept,) = [layout for (site, _), (layout, _) in routes._kept.items() if site == SITE]
+    assert kept() is get_layout(SITE)
+    registry.add_place(site=SITE, place=registry.PlaceChange(name="New one", x=7.0, y=-8.5))
+    viewer.get(CHECK)
+    gc.collect()
+    assert kept() is None
