@@ -35,6 +35,8 @@ export interface SeenMap {
   readonly isNearer: boolean;
   readonly report: (fitted: Fitted) => void;
   readonly surface: RefObject<SVGSVGElement | null>;
+  /** Pixels at the lower edge that are covered by what stands over the map. */
+  readonly below: number;
   readonly handlers: SVGProps<SVGSVGElement>;
 }
 
@@ -64,13 +66,14 @@ export function StaticMap(props: StaticMapProps) {
   const { plan, devices = [], routes = [], focus, named = false, label } = props;
   const [element, { width, height }] = useSize<HTMLDivElement>();
   const [cell] = useState(() => new ViewportCell());
+  const { seen } = props;
+  const below = seen?.below ?? 0;
   const known = useMemo(() => focus ?? (plan ? knownBox(plan) : null), [plan, focus]);
   const { left, top, right, bottom } = known ?? boxOfDevices(devices);
   const fit = useMemo(
-    () => staticView({ left, top, right, bottom }, width, height),
-    [left, top, right, bottom, width, height],
+    () => staticView({ left, top, right, bottom }, width, height, below),
+    [left, top, right, bottom, width, height, below],
   );
-  const { seen } = props;
   const view = seen?.of === fit ? seen.view : fit;
   const report = seen?.report;
   useEffect(
@@ -113,14 +116,14 @@ export function StaticMap(props: StaticMapProps) {
 
 const nowhere = () => false;
 
-function staticView(frame: Box, width: number, height: number): Viewport {
+function staticView(frame: Box, width: number, height: number, below: number): Viewport {
   if (width === 0) return { x: 0, y: 0, zoom: 1 };
   const margin = Math.min(16, width / 20);
   return fitViewport(frame, width, height, {
     left: margin,
     right: margin,
     top: margin,
-    bottom: margin,
+    bottom: margin + below,
   });
 }
 

@@ -7,6 +7,8 @@ import type { Fitted } from "@/map/StaticMap";
 import { kept, zoomedAt } from "./zoomed";
 
 const STEP = 1.4;
+/** So much (pixels) of the pane’s lower edge is covered by the buttons and the layers. */
+const CONTROLS = 44;
 /** How far (pixels) an arrow key moves a map that is seen from nearer. */
 const BY_KEY = 60;
 const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
@@ -77,6 +79,7 @@ export function useZoomedView() {
     surface,
     report,
     of: fit,
+    below: CONTROLS,
     view,
     isNearer,
     zoomIn: () => zoomAt(STEP),
