@@ -65,6 +65,9 @@ def show_editor(page: Page, demo: Demo, camera: Camera, name: str) -> None:
     page.goto(demo.url + paint_order(page))
     step = chip(page, "4a, Pick-and-Drop")
     expect(step).to_be_visible()
+    hidden = page.get_by_role("button", name="Show the drawer")
+    if hidden.is_visible():  # as on a tablet
+        hidden.click()
     expect(page.get_by_text("self.parallel").first).to_be_visible()
     step.click(position={"x": 14, "y": 14})
     expect(page.get_by_role("complementary", name="Selected step")).to_be_visible()

@@ -70,7 +70,7 @@ def test_what_waits_and_what_is_under_way_is_shown_with_its_place_and_cancelled_
     expect(author.get_by_text("It is next.")).to_be_visible()
     author.get_by_role("button", name="Cancel", exact=True).press("Enter")
     expect(author.get_by_role("heading", name="The rehearsal was cancelled")).to_be_visible()
-    again = author.get_by_role("button", name="Rehearse again")
+    again = author.get_by_role("button", name="Simulate again")
     expect(again).to_be_visible()
     assert violations(author) == []
     show(author, program, rehearsals[0])
