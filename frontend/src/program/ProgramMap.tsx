@@ -29,14 +29,13 @@ export interface ProgramMapProps {
   selected?: string | null;
   onSelect?: (step: string | null) => void;
   onSelectDevice?: (device: string) => void;
-  insets?: Insets;
   /** Zoom buttons at the bottom right. */
   controls?: boolean;
   /** More in the map's plane, in drawing pixels. */
   plane?: ReactNode;
 }
 
-const NO_INSETS: Insets = { left: 36, top: 36, right: 24, bottom: 24 };
+const INSETS: Insets = { left: 36, top: 36, right: 24, bottom: 24 };
 const NOBODY: ReadonlyMap<string, OtherPerson> = new Map();
 
 export function ProgramMap(props: ProgramMapProps) {
@@ -72,7 +71,7 @@ export function ProgramMap(props: ProgramMapProps) {
       looks={looks}
       robots={props.robots}
       trails={props.trails}
-      insets={props.insets ?? NO_INSETS}
+      insets={INSETS}
       label={t("map_label")}
       mode="pan"
       under={<Zones document={document} t={t} />}
@@ -81,7 +80,7 @@ export function ProgramMap(props: ProgramMapProps) {
       onDevice={(device) => props.onSelectDevice?.(device)}
       onFloor={() => onSelect?.(null)}
     >
-      {props.controls ? <MapControls plan={plan} scene={scene} insets={props.insets ?? NO_INSETS} /> : null}
+      {props.controls ? <MapControls plan={plan} scene={scene} insets={INSETS} /> : null}
     </MapStage>
   );
 }
