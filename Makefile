@@ -45,7 +45,7 @@ servers:
 
 format: setup-dev
 	$(BIN)/ruff check --fix --quiet $(SOURCES) ; $(BIN)/ruff format --quiet $(SOURCES)
-	cd frontend && npx prettier --log-level warn --write src
+	cd frontend && npx oxfmt src
 
 check: check-static
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check-frontend check-units
@@ -57,7 +57,7 @@ check-static: setup-dev
 	$(BIN)/lint-imports
 
 check-frontend: setup-dev
-	cd frontend && npm run --silent check && npm run --silent test -- --pool=threads
+	cd frontend && npm run --silent check && npm run --silent test
 
 check-units: setup-dev
 	$(BIN)/python -m pytest -q -p no:schemathesis --numprocesses=2 --dist=loadfile --no-loadscope-reorder tests/unit

@@ -154,6 +154,13 @@ export default defineConfig({
   resolve: { alias: { "@": here("./src"), ...PLAIN_LOG } },
   build: { target: "es2022", sourcemap: false, chunkSizeWarningLimit: 1500, rolldownOptions: { output } },
   // For what hangs: beside the other tests, a first drawing and the fetching of texts take seconds.
-  test: { testTimeout: 60_000, hookTimeout: 60_000, expect: { poll: { timeout: 20_000 } } },
+  test: {
+    pool: "threads",
+    isolate: false,
+    setupFiles: "./vitest.setup.ts",
+    testTimeout: 60_000,
+    hookTimeout: 60_000,
+    expect: { poll: { timeout: 20_000 } },
+  },
   server: { proxy: { "/api": backend, "/ws": { target: backend.replace("http", "ws"), ws: true } } },
 });

@@ -18,8 +18,11 @@ export function useAwaitedAdmissions(slug: string): readonly AwaitedAdmission[] 
 /** Let a robot in; whatever comes of it, who waits is asked anew. */
 export function useLetIn(slug: string) {
   const queries = useQueryClient();
-  return ({ zone, robot }: AwaitedAdmission) =>
-    api
-      .post(`/sites/${slug}/zones/${encodeURIComponent(zone)}/admissions`, { robot })
-      .finally(() => queries.invalidateQueries({ queryKey: keys.admissions(slug) }));
+  return async ({ zone, robot }: AwaitedAdmission) => {
+    try {
+      await api.post(`/sites/${slug}/zones/${encodeURIComponent(zone)}/admissions`, { robot });
+    } finally {
+      await queries.invalidateQueries({ queryKey: keys.admissions(slug) });
+    }
+  };
 }

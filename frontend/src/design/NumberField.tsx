@@ -1,5 +1,5 @@
 /** A field for a number, with the decimal sign of the screen's language; point and comma may both be typed or pasted. */
-// eslint-disable-next-line no-restricted-imports -- all others take this one
+// oxlint-disable-next-line no-restricted-imports -- all others take this one
 import { NumberInput, type NumberInputProps } from "@mantine/core";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";

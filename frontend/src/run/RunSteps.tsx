@@ -200,7 +200,7 @@ export function Journal({ events, numberOf, nameOf, label, full = false, onWrite
       <ol
         ref={list}
         // A list that scrolls must be reachable by keyboard.
-        // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
+        // oxlint-disable-next-line jsx-a11y/no-noninteractive-tabindex
         tabIndex={0}
         aria-label={label}
         onScroll={({ currentTarget: element }) => {

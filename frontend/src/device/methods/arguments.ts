@@ -6,7 +6,8 @@ export type Problem = "missing" | "number" | "below" | "above" | "location";
 export type Argument = Scalar | readonly number[];
 
 export type Read =
-  { readonly args: Readonly<Record<string, Argument>> } | { readonly problems: Readonly<Record<string, Problem>> };
+  | { readonly args: Readonly<Record<string, Argument>> }
+  | { readonly problems: Readonly<Record<string, Problem>> };
 
 /** How a form begins: switches are off, everything else is empty. */
 export function emptyForm(method: DeviceMethod): Typed {

@@ -45,7 +45,7 @@ function Stop({ at, stop }: { at: number; stop: TourStop }) {
   return (
     <>
       {ring ? <div className={classes.ring} style={{ ...ring }} aria-hidden="true" /> : null}
-      {/* eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions -- Escape leaves it from each of its buttons */}
+      {/* oxlint-disable-next-line jsx-a11y/no-noninteractive-element-interactions -- Escape leaves it from each of its buttons */}
       <div
         ref={card}
         className={classes.card}

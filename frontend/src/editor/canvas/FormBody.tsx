@@ -36,7 +36,7 @@ export function FormBody({ children }: { children: ReactNode }) {
     if (option && isField(activeElement) && !takesSeveral(activeElement)) leaveUnlessMoved(activeElement);
   };
   return (
-    // eslint-disable-next-line jsx-a11y/no-static-element-interactions -- it hears what its fields hear
+    // oxlint-disable-next-line jsx-a11y/no-static-element-interactions -- it hears what its fields hear
     <div className={classes.body} data-form onKeyDown={onKeyDown} onClick={onClick} {...visit}>
       <Fragment key={round}>{children}</Fragment>
     </div>

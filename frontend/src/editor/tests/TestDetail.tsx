@@ -218,7 +218,7 @@ function Result({ result }: { result: TestResult }) {
     staleWords(result, t),
   ];
   return (
-    // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- it scrolls, so the keyboard has to come to it
+    // oxlint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- it scrolls, so the keyboard has to come to it
     <section className={classes.result} aria-label={t("tests.result")} tabIndex={0}>
       <p>
         <Status status={result.status} /> {facts.filter(Boolean).join(", ")}

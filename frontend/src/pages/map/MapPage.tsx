@@ -147,7 +147,7 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
   useEffect(() => {
     if (mode !== "places") stopPlace(); // who comes back adds nothing
     if (mode !== "zones") stopZone();
-  }, [mode]); // eslint-disable-line react-hooks/exhaustive-deps -- when the mode is another, and only then
+  }, [mode]); // oxlint-disable-line react/exhaustive-deps -- when the mode is another, and only then
   const editZone = (zone: string | null) => {
     zones.select(zone);
     change("zones");

@@ -26,7 +26,7 @@ export function useRemovedMeanwhile(edited: Thing | null, things: readonly Thing
     leave();
     const message = t("place.removedMeanwhile", { name: before.name });
     notifications.show({ message, color: "yellow", autoClose: 12_000 });
-  }, [edited, things]); // eslint-disable-line react-hooks/exhaustive-deps -- when the map or the choice is another
+  }, [edited, things]); // oxlint-disable-line react/exhaustive-deps -- when the map or the choice is another
 }
 
 /** Whether the server has refused because the thing is not there any more. */

@@ -44,11 +44,13 @@ export function EditSurface({ site, map, devices, settings, choose, finish, meas
   return (
     <div ref={pane} className={styles.pane}>
       <FloorCanvas plan={plan} viewport={view.cell} />
+      {/* oxlint-disable-next-line jsx-a11y/no-noninteractive-element-interactions -- an application takes keys */}
       <svg
         ref={surface}
         className={styles.surface}
         data-tool={settings.tool}
         role="application"
+        // oxlint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- an application takes keys
         tabIndex={0}
         aria-label={t("mapEdit.surface", { tool: t(`mapEdit.tool.${settings.tool}`) })}
         aria-describedby="map-edit-keys"

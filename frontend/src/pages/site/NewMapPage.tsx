@@ -98,7 +98,7 @@ function useCells(site: string, choice: MapChoice, isWanted: boolean) {
   const ask = isWanted && isRos ? () => filesForm(files) : null;
   const brought = useBroughtMap(site, [files.yaml, files.image, files.archive], ask);
   const { makeMap } = choice;
-  // eslint-disable-next-line react-hooks/exhaustive-deps -- it is made anew only where what it is made of is another
+  // oxlint-disable-next-line react/exhaustive-deps -- it is made anew only where what it is made of is another
   const own = useMemo((): CellMap | null => (isWanted ? makeMap() : null), [isWanted, picture, reading, drawn?.map]);
   const cells = isRos ? (brought.data ?? null) : own;
   return { cells, error: isRos ? brought.error : null, isReading: isRos && brought.isFetching };

@@ -14,7 +14,7 @@ const NOWHERE: readonly (readonly [number, number])[] = [];
 /** Lines on the floor that are written over, in a material of their own. */
 function useLines(height_m: number, look: ConstructorParameters<typeof LineMaterial>[0], needs: unknown[]) {
   const lines = useMemo(() => new FloorLines(height_m), [height_m]);
-  // eslint-disable-next-line react-hooks/exhaustive-deps -- who calls says what the look depends on
+  // oxlint-disable-next-line react/exhaustive-deps -- who calls says what the look depends on
   const material = useMemo(() => new LineMaterial(look), needs);
   const drawn = useMemo(() => new LineSegments2(lines.geometry, material), [lines, material]);
   drawn.frustumCulled = false;

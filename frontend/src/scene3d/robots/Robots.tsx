@@ -21,7 +21,7 @@ interface AllProps extends RobotsProps {
 
 /** A geometry for as long as it is shown. */
 function useGeometry(make: () => THREE.BufferGeometry, needs: unknown[]): THREE.BufferGeometry {
-  // eslint-disable-next-line react-hooks/exhaustive-deps -- who calls says what it is made of
+  // oxlint-disable-next-line react/exhaustive-deps -- who calls says what it is made of
   const geometry = useMemo(make, needs);
   useEffect(() => () => geometry.dispose(), [geometry]);
   return geometry;

@@ -39,6 +39,7 @@ export function ExpressionInput(props: ExpressionInputProps) {
       <TextInput
         id={id}
         ref={input}
+        // oxlint-disable-next-line jsx-a11y/role-has-required-aria-props -- listLinks gives them
         role="combobox"
         aria-autocomplete="list"
         aria-haspopup="listbox"

@@ -92,6 +92,7 @@ function Row({
   const { t } = useOpenProgram();
   const { disabled } = useStepEditor();
   return (
+    // oxlint-disable-next-line jsx-a11y/no-noninteractive-element-interactions -- keys move it; its buttons do the same
     <li className={classes.item} tabIndex={disabled ? -1 : 0} onKeyDown={disabled ? undefined : onPress}>
       <span className={classes.grow}>{name}</span>
       <IconButton label={t("for_each.up", { name })} disabled={disabled || first} onClick={() => onShift(-1)}>
