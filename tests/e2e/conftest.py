@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,6 +18,7 @@ from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, W
 
 from tests.kit.demo import Demo, running_demo
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import run_forked
 
 CHROMIUM = "/usr/bin/chromium-headless-shell"
 FLAGS = [
@@ -126,7 +126,7 @@ def make_member(demo: Demo, role: str, name: str) -> Any:
     command = [sys.executable, "manage.py", "shell", "--verbosity", "0", "-c", MAKE_MEMBER]
     environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state), "ROLE": role, "NAME": name}
     environment.pop("DJANGO_SETTINGS_MODULE", None)
-    made = subprocess.run(command, cwd=ROOT, env=environment, check=True, capture_output=True, text=True)
+    made = run_forked(command, cwd=ROOT, env=environment, check=True, capture_output=True, text=True)
     common = {"domain": "127.0.0.1", "path": "/", "expires": -1, "httpOnly": True, "secure": False, "sameSite": "Lax"}
     return {"cookies": [{**json.loads(made.stdout), **common}], "origins": []}
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from itertools import count
 
@@ -15,6 +14,7 @@ from tests.e2e.conftest import PATIENCE_MS, SignIn, listen
 from tests.e2e.screens import shoot, themed, violations
 from tests.kit.demo import Demo
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import run_forked
 
 pytestmark = pytest.mark.browser
 NUMBERS = count(1)
@@ -33,7 +33,7 @@ def password(demo: Demo, email: str) -> str:
     command = [sys.executable, "-m", "vipo_site.cli.main", "account", email, "--site", "painting-factory"]
     environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state)}
     environment.pop("DJANGO_SETTINGS_MODULE", None)
-    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
+    done = run_forked(command, cwd=ROOT, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout.splitlines()[1].removeprefix("The password, shown this once: ")
 

@@ -6,7 +6,6 @@ import json
 import os
 import re
 import signal
-import subprocess
 import sys
 from pathlib import Path
 
@@ -29,6 +28,7 @@ from tests.e2e.screens import (
 )
 from tests.kit.demo import Demo, running_demo
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import run_forked
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
@@ -75,7 +75,7 @@ def give_role(demo: Demo, role: str) -> None:
     environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state)}
     environment.pop("DJANGO_SETTINGS_MODULE", None)
     command = [sys.executable, "manage.py", "shell", "--verbosity", "0", "-c", code]
-    subprocess.run(command, cwd=ROOT, env=environment, check=True)
+    run_forked(command, cwd=ROOT, env=environment, check=True)
 
 
 def sign_in_anew(chromium: Browser, demo: Demo, role: str) -> Page:

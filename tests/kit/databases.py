@@ -10,7 +10,6 @@ the word, lets them copy that one and needs no server more.
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -28,6 +27,7 @@ from django.db.models.signals import post_migrate
 from psycopg import sql
 
 from tests.kit.files import ROOT, copy_migrated
+from tests.kit.processes.forked import run_forked
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Postgres, Redis, run_postgres, run_redis
 from vipo_site.settings import postgres
@@ -89,7 +89,7 @@ def migrate(url: str, folder: Path) -> None:
     """Bring a database to the product's tables, which later ones are copied from."""
     command = [sys.executable, "manage.py", "migrate", "-v0", "--skip-checks"]
     environment = served_without_broker(folder, url, "redis://127.0.0.1:1/0")
-    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
+    done = run_forked(command, cwd=ROOT, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
 
 

@@ -15,6 +15,7 @@ from typing import Any
 import httpx
 
 from tests.kit.files import ROOT, copy_migrated
+from tests.kit.processes.forked import ForkedPython, run_forked
 from tests.kit.servers import answers, free_port, wait_ready
 from tests.kit.waiting import wait_for
 
@@ -32,7 +33,7 @@ class Web:
 
     def start(self) -> None:
         with (self.folder / f"web-{self.port}.log").open("ab") as log:
-            self.process = subprocess.Popen(
+            self.process = ForkedPython(
                 [sys.executable, "-m", "tests.kit.web_process", str(self.port)],
                 cwd=ROOT, env=environment(self.folder, self.extra), stdout=log, stderr=log,
             )  # fmt: skip
@@ -96,7 +97,7 @@ def make_people(folder: Path, extra: dict[str, str], role: str, count: int) -> l
 
 
 def _ask(folder: Path, extra: dict[str, str], *arguments: str) -> Any:
-    made = subprocess.run(
+    made = run_forked(
         [sys.executable, "-m", "tests.kit.web_process", *arguments],
         cwd=ROOT, env=environment(folder, extra), capture_output=True, text=True,
     )  # fmt: skip

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import subprocess
 import sys
 
 import pytest
@@ -14,6 +13,7 @@ from tests.e2e.conftest import SignIn
 from tests.e2e.screens import SITE, THIN_SPACE, ask, saved, shoot, tell, themed, violations, write_program
 from tests.kit.demo import Demo
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import run_forked
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
@@ -50,7 +50,7 @@ def add_wait(demo: Demo, run: str, zone: str) -> None:
     command = [sys.executable, "manage.py", "shell", "--verbosity", "0", "-c", WAIT]
     environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state), "RUN": run, "ZONE": zone}
     environment.pop("DJANGO_SETTINGS_MODULE", None)
-    subprocess.run(command, cwd=ROOT, env=environment, check=True, capture_output=True)
+    run_forked(command, cwd=ROOT, env=environment, check=True, capture_output=True)
 
 
 def run_program(author: Page) -> str:

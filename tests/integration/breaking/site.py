@@ -17,6 +17,7 @@ import httpx
 
 from tests.kit.demo import Demo
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import run_forked
 from tests.kit.sign_in import open_page, sign_in
 from tests.kit.waiting import wait_for
 
@@ -60,7 +61,7 @@ class Factory:
 
     def plant(self, documents: dict[str, Any]) -> dict[str, str]:
         """Write programs into the database; return their ids by name."""
-        done = subprocess.run(
+        done = run_forked(
             [sys.executable, "-c", PLANT],
             input=json.dumps(documents).encode(),
             capture_output=True,

@@ -17,6 +17,7 @@ from pytest_django import DjangoDbBlocker
 from execution.frozen_sessions import end_frozen_sessions
 from tests.kit.databases import on_database
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import ForkedPython
 from tests.kit.served import served_without_broker
 from tests.kit.waiting import wait_for
 from vipo_site.settings import postgres
@@ -38,7 +39,7 @@ PREPARE = "CREATE TABLE django_site_of_this_test (number int); INSERT INTO djang
 
 
 def ask(url: str, folder: Path, *statements: str, **limits: str) -> subprocess.Popen[str]:
-    return subprocess.Popen(
+    return ForkedPython(
         [sys.executable, "-c", ASK, *statements],
         cwd=ROOT,
         env=served_without_broker(folder, url, "redis://127.0.0.1:1/0") | {"VIPO_PROCESS": "worker"} | limits,

@@ -28,6 +28,7 @@ from registry.models import Device, DeviceEvent, Site
 from tests.kit.databases import on_database
 from tests.kit.files import MIXER_TEXT, ROOT
 from tests.kit.mqtt import Ear
+from tests.kit.processes.forked import ForkedPython
 from tests.kit.served import settings_for
 from tests.kit.servers import Mosquitto, Postgres, Redis, run_mosquitto, run_postgres, run_redis
 from tests.kit.waiting import wait_for
@@ -56,7 +57,7 @@ class Plant:
         self.ear.forget()
         with self.log.open("ab") as log:
             command = [sys.executable, "manage.py", "gateway"]
-            self.processes.append(subprocess.Popen(command, cwd=ROOT, env=self.environment, stdout=log, stderr=log))
+            self.processes.append(ForkedPython(command, cwd=ROOT, env=self.environment, stdout=log, stderr=log))
 
     def wait_greeting(self) -> None:
         self.ear.wait(lambda heard: heard.topic == "vipo/v1/srv/status" and not heard.retained, 60)

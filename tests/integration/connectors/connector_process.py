@@ -11,6 +11,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import ForkedPython
 from tests.kit.servers import Mosquitto
 
 NOTHING: Mapping[str, str] = MappingProxyType({})
@@ -39,7 +40,7 @@ class ConnectorProcess:
         name, *more = self._arguments
         command = [sys.executable, "manage.py", name, "--site", "hall", *more]
         with self.log.open("ab") as out:
-            self._process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=out, stderr=out)
+            self._process = ForkedPython(command, cwd=ROOT, env=environment, stdout=out, stderr=out)
 
     @property
     def log(self) -> Path:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import copy
 import json
-import subprocess
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -39,6 +38,7 @@ from schemathesis.specs.openapi.checks import (
 from tests.integration.doors.described_web import ROLES
 from tests.kit.api_rights import OPERATIONS
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import ForkedPython, run_forked
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis, answers, free_port, wait_ready
 
@@ -79,12 +79,12 @@ def described(
     environment = served_without_broker(folder, module_database_url, shared_redis.url)
     environment["DJANGO_SETTINGS_MODULE"] = "tests.settings"
     command = [sys.executable, "-m", "tests.integration.doors.described_web"]
-    made = subprocess.run([*command, "prepare", *NAMES], cwd=ROOT, env=environment, capture_output=True, text=True)
+    made = run_forked([*command, "prepare", *NAMES], cwd=ROOT, env=environment, capture_output=True, text=True)
     assert made.returncode == 0, made.stderr
     prepared = json.loads(made.stdout)
     log = folder / "web.log"
     with log.open("ab") as out:
-        process = subprocess.Popen([*command, str(port)], cwd=ROOT, env=environment, stdout=out, stderr=out)
+        process = ForkedPython([*command, str(port)], cwd=ROOT, env=environment, stdout=out, stderr=out)
     try:
         wait_ready(lambda: answers(port), log.read_text, process)
         yield Described(f"http://127.0.0.1:{port}", prepared["sessions"], read_description(prepared["known"]))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -19,6 +18,7 @@ from websockets.exceptions import ConnectionClosed
 from editor.documents.shared_document import empty_document, encode_document
 from editor.rooms import yjs_protocol
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import run_forked
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis
 from tests.kit.web import Web, environment, prepare
@@ -53,7 +53,7 @@ class Form:
 
     def run(self, *arguments: str) -> str:
         """Do something in a process of its own, which shares nothing with the server but the database."""
-        done = subprocess.run(
+        done = run_forked(
             [sys.executable, *arguments],
             cwd=ROOT, env=environment(self.web.folder, self.web.extra), capture_output=True, text=True,
         )  # fmt: skip

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import signal
-import subprocess
 import sys
 import time
 from collections.abc import Iterator
@@ -21,6 +20,7 @@ from editor.rooms.stream import FORMAT, KEPT_BYTES
 from tests.integration.editor.node_clients import node_clients
 from tests.integration.editor.web_pairs import Pair, running_pair
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import run_forked
 from tests.kit.servers import Redis, free_port
 from tests.kit.waiting import wait_for
 from tests.kit.web import Web, environment
@@ -105,7 +105,7 @@ def frozen(server: Redis) -> Iterator[None]:
 
 def set_role(pair: Pair, person: str, role: str) -> None:
     command = [sys.executable, "-m", "tests.integration.editor.set_role", person, role]
-    subprocess.run(command, cwd=ROOT, env=environment(pair.one.folder, pair.one.extra), check=True)
+    run_forked(command, cwd=ROOT, env=environment(pair.one.folder, pair.one.extra), check=True)
 
 
 @pytest.mark.servers

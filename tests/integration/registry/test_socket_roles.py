@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import suppress
@@ -23,6 +22,7 @@ from registry.people.access import ROLES
 from registry.people.wall_screens import COOKIE, key_of
 from tests.kit.api_rights import DIRECTORY, DRAWS, OPERATIONS, RIGHTS, SOCKETS, STREAMED, STREAMS, Right
 from tests.kit.files import ROOT, copy_migrated
+from tests.kit.processes.forked import run_forked
 from tests.kit.waiting import wait_for
 from tests.kit.web import Web, environment
 
@@ -78,7 +78,7 @@ class Plant:
 def plant(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Plant]:
     folder = tmp_path_factory.mktemp("roles")
     copy_migrated(folder / "vipo.sqlite3")
-    done = subprocess.run(
+    done = run_forked(
         [sys.executable, "-c", MAKE, json.dumps(ASKERS)],
         cwd=ROOT, env=environment(folder, {}), capture_output=True, text=True,
     )  # fmt: skip

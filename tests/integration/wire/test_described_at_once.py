@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ import psycopg
 import pytest
 
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import run_forked
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis
 
@@ -29,7 +29,7 @@ def run_together(module: str, folder: Path, database_url: str, redis: Redis) -> 
     """Let a module's threads work at once on the database; return what it tells."""
     environment = served_without_broker(folder, database_url, redis.url)
     command = [sys.executable, "-m", f"tests.integration.wire.{module}"]
-    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
+    done = run_forked(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
     assert (done.returncode, done.stderr) == (0, "")
     return json.loads(done.stdout)
 

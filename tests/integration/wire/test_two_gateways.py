@@ -19,6 +19,7 @@ from registry import services
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
 from tests.kit.files import MIXER_TEXT
 from tests.kit.mqtt import Ear
+from tests.kit.processes.forked import ForkedPython
 from tests.kit.waiting import wait_for
 from vipo_device.protocol.mqtt_client import MqttClient
 
@@ -47,7 +48,7 @@ class Gateways:
 
     def start(self, name: str) -> None:
         with (self._folder / f"{name}.log").open("ab") as log:
-            self.processes[name] = subprocess.Popen(
+            self.processes[name] = ForkedPython(
                 [sys.executable, "manage.py", "gateway"],
                 env={**self._environment, "VIPO_GATEWAY": name},
                 stdout=log,

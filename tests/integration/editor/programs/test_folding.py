@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import os
 import signal
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -31,6 +30,7 @@ from editor.services import create_program
 from registry.services import create_site
 from tests.kit.databases import on_database
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import ForkedPython
 from tests.kit.served import served_without_broker
 from tests.kit.waiting import wait_for
 from vipo_site.settings import postgres
@@ -169,7 +169,7 @@ def test_a_process_that_is_killed_at_any_statement_of_folding_loses_nothing(
     drawing.store(program, 10)
     environment = {**os.environ, **served_without_broker(tmp_path, database_url, "redis://127.0.0.1:1/0")}
     command = [sys.executable, "-c", KILLED, program]
-    with subprocess.Popen(command, cwd=ROOT, env=environment, stdin=PIPE, stdout=PIPE, text=True) as process:
+    with ForkedPython(command, cwd=ROOT, env=environment, stdin=PIPE, stdout=PIPE, text=True) as process:
         assert process.stdin is not None
         assert process.stdout is not None
         while not ended or ended[-1]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from collections.abc import Iterator
 
@@ -11,6 +10,7 @@ import pytest
 from tests.integration.editor.node_clients import NodeClients, node_clients
 from tests.integration.editor.web_pairs import Pair, running_pair
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import run_forked
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Postgres, Redis, run_postgres
 from tests.kit.web import environment
@@ -30,7 +30,7 @@ def pair(tmp_path_factory: pytest.TempPathFactory, postgres: Postgres, shared_re
     told = served_without_broker(folder, postgres.url, shared_redis.url)
     extra = {name: value for name, value in told.items() if name.startswith("VIPO_")}
     migrate = [sys.executable, "manage.py", "migrate", "-v0", "--skip-checks"]
-    subprocess.run(migrate, check=True, cwd=ROOT, env=environment(folder, extra))
+    run_forked(migrate, check=True, cwd=ROOT, env=environment(folder, extra))
     with running_pair(folder, postgres.url, shared_redis) as running:
         yield running
 

@@ -22,6 +22,7 @@ from registry.maps.places import PlaceChange, add_place, change_place
 from tests.integration.execution.engine.hall import answer_open, driving, heating, limited, row, start, told
 from tests.kit.databases import on_database
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import ForkedPython
 from tests.kit.served import WORKER, served_without_broker
 from tests.kit.waiting import wait_for
 from vipo_site.settings import postgres
@@ -41,7 +42,7 @@ def owners(tmp_path, database_url, shared_redis):
             environment = {**served_without_broker(tmp_path, database_url, shared_redis.url), **more}
             log = (tmp_path / f"owner{len(begun)}.log").open("wb")
             with log:
-                process = subprocess.Popen(
+                process = ForkedPython(
                     [sys.executable, *command], cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=log
                 )
             begun.append(process)

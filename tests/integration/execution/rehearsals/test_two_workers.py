@@ -24,6 +24,7 @@ from registry.demo.factory import make_grid, read_plan
 from tests.integration.execution.rehearsals.conftest import ENDLESS, SHORT, queue, row, wait_until
 from tests.kit.databases import on_database
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import ForkedPython
 from tests.kit.programs import SITE
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis
@@ -53,7 +54,7 @@ def start(url: str, tmp_path: Path, shared_redis: Redis) -> Iterator[Start]:
     def start_one(machine: str) -> subprocess.Popen[bytes]:
         environment = {**served_without_broker(tmp_path, url, shared_redis.url), "VIPO_REHEARSALS_AT_ONCE": "1"}
         command = [sys.executable, "-m", "tests.integration.execution.rehearsals.rehearser", machine]
-        processes.append(subprocess.Popen(command, cwd=ROOT, env=environment))
+        processes.append(ForkedPython(command, cwd=ROOT, env=environment))
         return processes[-1]
 
     yield start_one

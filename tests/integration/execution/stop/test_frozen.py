@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -24,6 +23,7 @@ from registry.models import Device, Site
 from tests.kit.databases import on_database
 from tests.kit.files import ROOT
 from tests.kit.mqtt import Ear, Heard
+from tests.kit.processes.forked import ForkedPython
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Mosquitto, Redis, run_mosquitto
 from tests.kit.waiting import wait_for
@@ -51,7 +51,7 @@ class Gateway:
         }
         with self.log.open("wb") as out:
             command = [sys.executable, "manage.py", "gateway"]
-            self.process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=out, stderr=out)
+            self.process = ForkedPython(command, cwd=ROOT, env=environment, stdout=out, stderr=out)
 
     def freeze_after_claim(self) -> None:
         (self.freezing / POINT).write_text("freeze")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta
@@ -19,6 +18,7 @@ from registry import services
 from registry.models import AuditLine, RecoveryCode, SecondFactor, User
 from registry.people import second_factor
 from registry.people.second_factor import WrongCode, check_code, confirm_factor
+from tests.kit.processes.forked import run_forked
 from tests.kit.sign_in import PASSWORD, find_person, post_json, signed_in
 from tests.kit.web import Web, environment, prepare
 from vipo_site.cli.main import main
@@ -213,7 +213,7 @@ print(secret)
 def test_of_seven_who_sign_in_at_once_with_one_code_one_comes_in(tmp_path: Path) -> None:
 
     web = Web(tmp_path, **prepare(tmp_path, {}))
-    made = subprocess.run(
+    made = run_forked(
         [sys.executable, "-c", SET_UP], env=environment(tmp_path, {}), capture_output=True, text=True, check=True
     )
     secret = made.stdout.strip()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import json
 import re
-import subprocess
 import sys
 import time
 from collections import Counter
@@ -21,6 +20,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from registry.people.watch import EVERY_S
 from tests.kit.databases import migrate
 from tests.kit.files import ROOT
+from tests.kit.processes.forked import run_forked
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Postgres, Redis, run_postgres
 from tests.kit.web import Web, environment, prepare
@@ -64,7 +64,7 @@ def plant(tmp_path: Path, shared_redis: Redis) -> Iterator[Plant]:
         told = served_without_broker(tmp_path, server.url, shared_redis.url)
         extra = {name: value for name, value in told.items() if name.startswith("VIPO_")}
         made = prepare(tmp_path, extra)
-        told_sessions = subprocess.run(
+        told_sessions = run_forked(
             [sys.executable, "-c", MAKE_SESSIONS],
             cwd=ROOT, env=environment(tmp_path, extra), capture_output=True, text=True, check=True,
         )  # fmt: skip

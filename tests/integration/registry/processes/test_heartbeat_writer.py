@@ -24,6 +24,7 @@ from registry.processes.heartbeat_writer import HeartbeatWriter
 from registry.processes.heartbeats import FORGOTTEN_AFTER, SILENT_AFTER
 from tests.kit.databases import on_database
 from tests.kit.files import ROOT, copy_migrated
+from tests.kit.processes.forked import ForkedPython
 from tests.kit.served import served_without_broker
 from tests.kit.waiting import wait_for
 from vipo_site.settings import postgres
@@ -48,7 +49,7 @@ def environment(
 
 @contextmanager
 def running(environment: dict[str, str], *command: str) -> Iterator[subprocess.Popen[bytes]]:
-    process = subprocess.Popen([sys.executable, *command], cwd=ROOT, env=environment)
+    process = ForkedPython([sys.executable, *command], cwd=ROOT, env=environment)
     try:
         yield process
     finally:

@@ -19,6 +19,7 @@ from registry import services
 from registry.models import Device
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
 from tests.integration.wire.virtual.mixer import MIXER, Mixer, is_over, tell
+from tests.kit.processes.forked import ForkedPython
 from tests.kit.waiting import wait_for
 from vipo_device.protocol.credentials import own_key
 from vipo_device.protocol.topics import STAND_INS
@@ -33,7 +34,7 @@ def process(bus: Bus, folder: Path, speed: int) -> Iterator[subprocess.Popen[byt
     told = {**kept, "VIPO_STATE_DIR": str(folder), "VIPO_MQTT_PORT": str(bus.server_port)}
     command = [sys.executable, "manage.py", "stand_ins", "--speed", str(speed)]
     with (folder / "stand-ins.log").open("ab") as log:
-        running = subprocess.Popen(command, env=told, stdout=log, stderr=log)
+        running = ForkedPython(command, env=told, stdout=log, stderr=log)
     try:
         yield running
     finally:
