@@ -15,14 +15,14 @@ function runWords(run: string): string {
 /** The sentence for a reason; null where the screens do not know it, so that the server's own is shown. */
 export function waitWords(reason: Reason | null | undefined, nameOf: (device: string) => string): string | null {
   if (!reason) return null;
-  const { device, robot, run, others, zone } = reason.args;
+  const { device, robot, run, others } = reason.args;
   const code = reason.code === "machine_busy" && run ? "machine_busy_for" : reason.code;
   if (!i18next.exists(`run.waits.${code}`)) return null;
   return i18next.t(`run.waits.${code}`, {
+    ...reason.args,
     device: nameOf(String(device ?? "")),
     robot: nameOf(String(robot ?? "")),
     run: runWords(String(run ?? "")),
-    zone: String(zone ?? ""),
     others: String(others ?? "")
       .split(",")
       .map(nameOf)
