@@ -12,7 +12,12 @@ from typing import Any
 import pytest
 from xdist.scheduler import LoadFileScheduling  # type: ignore[import-untyped]
 
-BROWSERS = "tests/e2e"
+HALVES = {
+    "browsers that draw": ("tests/e2e/drawing/", "tests/e2e/sites/", "tests/e2e/together/"),
+    "browsers": ("tests/e2e/",),
+}
+"""Tests in browsers share a demo, which takes long to start, in two processes: in one they would be the last to end."""
+
 TOGETHER = {
     "the demo that nobody ends": (
         "tests/integration/breaking/test_vanishing.py",
@@ -27,7 +32,7 @@ TOGETHER = {
     ),
 }
 FIRST = (
-    BROWSERS,
+    *HALVES,
     "PostgreSQL",
     "the demo that nobody ends",
     "tests/integration/breaking/test_restart.py",
@@ -51,9 +56,9 @@ _GROUPS = {file: name for name, files in TOGETHER.items() for file in files}
 
 
 def group_of(nodeid: str) -> str:
-    """Return what a test stays together with: its file, or a named group of files."""
+    """Return what a test stays together with: its file, a named group of files, or half of the browsers' tests."""
     file = nodeid.partition("::")[0]
-    return BROWSERS if file.startswith(f"{BROWSERS}/") else _GROUPS.get(file, file)
+    return next((half for half, folders in HALVES.items() if file.startswith(folders)), _GROUPS.get(file, file))
 
 
 def rank_of(nodeid: str) -> int:
