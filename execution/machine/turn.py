@@ -18,8 +18,6 @@ LONGEST_WAIT_S = 1e9
 """About thirty years; calendars end soon after."""
 YIELD_S = 1.0
 """How long a thread rests that has used up its share; a loop without a wait cannot stop the others."""
-_LEAVES = (p.Move, p.Pick, p.Drop, p.Cover, p.Call, p.Perform, p.Release, p.Wait, p.WaitUntil, p.Assign, p.AskPerson,
-           p.Notify, p.Fail, p.End)  # fmt: skip
 
 
 Watch = Callable[[int, int, int], None]
@@ -156,7 +154,7 @@ class Turn:
             thread = replace(thread, leaf="")
         thread = self.enter(thread, instruction.enters)
         name = instruction.step
-        if name and isinstance(instruction.do, _LEAVES) and name not in thread.open and name != thread.leaf:
+        if name and isinstance(instruction.do, p.LEAVES) and name not in thread.open and name != thread.leaf:
             self.actions.append(StepEntered(name))
             thread = replace(thread, leaf=name)
         return thread

@@ -56,7 +56,8 @@ class Body:
 
 def _check_node(context: Context, checks: Checks, node: n.Node, memo: Memo | None, seen: object) -> None:
     before = len(context.found)
-    checks[type(node)](context, node)
+    if (check := checks.get(type(node))) is not None:
+        check(context, node)
     if memo is not None and not _looks_around(node):
         memo.put(node, tuple(context.found[before:]), seen)
 

@@ -327,16 +327,11 @@ def _return(context: Context, node: n.Return) -> None:
             check_value(context, node, node.value, "value", context.result, "The result")
 
 
-def _leave(context: Context, node: n.End | n.Break | n.Continue | n.Release) -> None:
-    """What these leave is checked for all of them at once; of a Release, along the ways to it."""
-
-
 CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Move: _move,
     n.Pick: _pick,
     n.Drop: _drop,
     n.Cover: check_cover,
-    n.Release: _leave,
     n.Operate: _operate,
     n.Perform: check_own_method,
     n.Wait: _wait,
@@ -352,12 +347,10 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Set: _set,
     n.Ask: _ask,
     n.Notify: _notify,
-    n.End: _leave,
     n.Fail: _fail,
     n.Return: _return,
-    n.Break: _leave,
-    n.Continue: _leave,
 }
+"""Of each kind of node that can be wrong in itself. What a Release leaves is checked along the paths to it."""
 
 
 def _check_roles(context: Context) -> None:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 from editor.language.checks.context import Context
+from editor.language.constructs.table import FORMS
 from editor.language.expressions.nodes import Constant, Variable
 from editor.language.expressions.value_types import constant_value, is_measured
 from editor.language.expressions.values import parts_of
@@ -11,7 +14,7 @@ from editor.language.tree.program import Tree
 from editor.language.tree.traversal import calls_by_function
 from editor.language.tree.variables import set_by
 
-_TAKE_TIME = frozenset({*n.ACTS, n.Operate, n.Wait, n.WaitUntil, n.Ask})
+_TAKE_TIME = frozenset(node for node in get_args(n.Node) if FORMS[node.__name__][0].takes_time)
 _LEAVE = (n.Break, n.Return, n.End)
 
 

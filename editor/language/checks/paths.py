@@ -82,7 +82,8 @@ class _Looker:
         looked.add(known)
         self.bodies[walk.frame.name].enter(context, node)
         found, context.found, context.known = context.found, [], seen
-        self.checks[type(node)](context, node)
+        if (check := self.checks.get(type(node))) is not None:
+            check(context, node)
         for problem, key in context.found:
             walk.found.setdefault((problem.code, key, problem.field), problem)
         context.found, context.known = found, NOTHING_KNOWN

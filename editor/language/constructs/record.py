@@ -117,6 +117,8 @@ class Construct:
     """Whether each step names its branches itself, which the node has as one row."""
     loops: bool = False
     """Whether the body is done again and again."""
+    takes_time: bool = False
+    """Whether time goes by at it, so that a loop in which it stands does not just turn."""
 
     @property
     def fields(self) -> tuple[Field, ...]:

@@ -26,13 +26,15 @@ _MOVE = Construct(
         ),
     ),
     Look("move", "motion", "pill", "M"),
+    takes_time=True,
 )
 
 
 def _load(kind: str, node: str, place: str, look: Look) -> Construct:
     fields = (ROLE, Field("at", "place", accepts=place, shown=False), OBJECT, QUANTITY)
     script = f'role.{kind}({{"value": quantity, "object": object}})'
-    return Construct(kind, (Form(node, fields, script, 'Write self.robot.pick({"value": 1, "object": "box"}).'),), look)
+    example = 'Write self.robot.pick({"value": 1, "object": "box"}).'
+    return Construct(kind, (Form(node, fields, script, example),), look, takes_time=True)
 
 
 _PICK = _load("pick", "Pick", "gives", Look("pick", "motion", "pill", "K", letters=3))
@@ -53,6 +55,7 @@ _COVER = Construct(
         ),
     ),
     Look("cover", "motion", "pill", rare=True, letters=6),
+    takes_time=True,
 )
 _PICK_AND_DROP = Construct(
     "pick_and_drop",
@@ -82,6 +85,7 @@ _OPERATE = Construct(
         ),
     ),
     Look("operate", "machine", "pill", "O", letters=0),
+    takes_time=True,
 )
 _WAIT_EXAMPLE = "Write self.wait(60), or self.wait(until=self.oven.temperature < 40, timeout=600)."
 _WAIT = Construct(
@@ -97,6 +101,7 @@ _WAIT = Construct(
         Form("Wait", (Field("duration", wanted="time", at="seconds"),), "self.wait(duration)", _WAIT_EXAMPLE),
     ),
     Look("wait", "machine", "pill", "U", letters=5),
+    takes_time=True,
 )
 _IF = Construct(
     "if",
@@ -234,6 +239,7 @@ _ASK = Construct(
         ),
     ),
     Look("ask", "func", "box", "A", rare=True, letters=7),
+    takes_time=True,
 )
 _COMMENT = Construct("comment", (Form("", (Field("text", "text"),)),), Look("comment", "note", "note", "C"))
 

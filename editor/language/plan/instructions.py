@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import field
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 from editor.language.expressions.nodes import AnswerSpec, Expression, PlaceRef, Point, Zone
 from vipo_device.protocol.description import Scalar
@@ -239,6 +239,11 @@ Action = (
     | TryBegin | Caught | TryEnd | LimitBegin | Rethrow | Invoke | Return | Assign | AskPerson | Notify | Fail | End
     | EventEnd
 )  # fmt: skip
+
+LEAVES: Final = (
+    Move, Pick, Drop, Cover, Release, Call, Perform, Wait, WaitUntil, Assign, AskPerson, Notify, Fail, End,
+)  # fmt: skip
+"""What is a step by itself, which a run tells of when it comes to it; all others only decide what comes next."""
 
 
 @dataclass(frozen=True, slots=True)
