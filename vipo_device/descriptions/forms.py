@@ -4,21 +4,34 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Any, Literal, NoReturn, get_args
+from typing import Any, Literal, NamedTuple, NoReturn
 
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.faults import Fault, bare, facts_of, fault
 from vipo_device.protocol.messages import MAX_BYTES, MAX_DEPTH, BadMessage, parse_json
 
 DescriptionForm = Literal["turtle", "n-triples", "json-ld", "td", "paper"]
-FORMS: tuple[DescriptionForm, ...] = get_args(DescriptionForm)
-CONTENT_TYPES: Mapping[DescriptionForm, str] = {
-    "turtle": "text/turtle",
-    "n-triples": "application/n-triples",
-    "json-ld": "application/ld+json",
-    "td": "application/td+json",
-    "paper": "text/plain",
+
+
+class Form(NamedTuple):
+    """A form of descriptions: what people call it within a sentence, its type over HTTP, and whether it is RDF."""
+
+    name: str
+    content_type: str
+    is_rdf: bool = False
+
+
+FORMS: Mapping[DescriptionForm, Form] = {
+    "turtle": Form("Turtle", "text/turtle", is_rdf=True),
+    "n-triples": Form("N-Triples", "application/n-triples", is_rdf=True),
+    "json-ld": Form("JSON-LD", "application/ld+json", is_rdf=True),
+    "td": Form("a Thing Description", "application/td+json"),
+    "paper": Form("the paper's message", "text/plain"),
 }
+CONTENT_TYPES: Mapping[DescriptionForm, str] = {form: record.content_type for form, record in FORMS.items()}
+*_FIRST_NAMES, _LAST_NAME = (record.name for record in FORMS.values())
+ANY_FORM = f"{', '.join(_FIRST_NAMES)} or {_LAST_NAME}"
+"""All forms by their names, for sentences: “Turtle, …, a Thing Description or the paper's message”."""
 NAMESPACES: Mapping[str, str] = {
     "vipo": "urn:vipo:ns#",
     "td": "https://www.w3.org/2019/wot/td#",
@@ -83,7 +96,7 @@ def plain_text(payload: bytes) -> str:
     if len(payload) > MAX_BYTES:
         refuse("too_many_bytes", it=DESCRIPTION, bytes=len(payload), most=MAX_BYTES)
     if _MARKUP.match(payload.removeprefix(b"\xef\xbb\xbf")) or b"<rdf:RDF" in payload:
-        refuse("markup")
+        refuse("markup", accepted=ANY_FORM)
     try:
         text = payload.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping
-from typing import Any, TypeVar, cast
+from collections.abc import Iterator, Mapping
+from typing import Any, cast
 
 from vipo_device.descriptions.forms import paper_key
 from vipo_device.descriptions.json_fields import Fields, read_pose, read_size
-from vipo_device.descriptions.paper_text import KEYS
+from vipo_device.descriptions.paper_text import KEYS, SECTIONS
 from vipo_device.protocol.description import (
     Description,
     DeviceKind,
@@ -31,7 +31,6 @@ MESSAGE_TYPES: Mapping[str, tuple[ParameterSpec, ...]] = {
 }
 """The arguments that a method of the paper's has by its message type, when it lists none."""
 _SPELLINGS: Mapping[str, str] = {paper_key(key): key for key in KEYS}
-Item = TypeVar("Item")
 _ROS_NAME = re.compile(r"/[A-Za-z0-9_ ]{1,100}")
 
 
@@ -161,73 +160,76 @@ def _topic(device_id: str, method: str, said: str, told: list[Fault]) -> str:
 
 def write_message(description: Description) -> str:
     """Return a description in the shape of the paper's Figure 5, with keys of our own for what that does not say."""
+    return "\n".join(_lines(message_of(description))) + "\n"
+
+
+def message_of(description: Description) -> dict[str, Any]:
+    """Return what any form of keys and values says of a description; `describe_message` makes the description of it."""
     d = description
-    lines: list[tuple[str, object]] = [
-        ("id", d.id),
-        ("name", d.name),
-        ("description", d.description),
-        ("kind", d.kind),
-        ("device_class", d.device_class),
-        ("site", d.site),
-        ("location", [d.pose.x, d.pose.y, d.pose.z, d.pose.theta]),
-        ("size", [d.size.x, d.size.y, d.size.z]),
-        ("imgUrl", d.image),
-        ("done", d.done),
-        ("simulated", d.simulated),
-        ("gives", list(d.gives)),
-        ("takes", list(d.takes)),
-        ("capacity", d.capacity),
-        ("radius", d.radius_m),
-        ("speed", d.speed_m_s),
-    ]
-    written = [_line(key, value) for key, value in lines if _is_said(key, value)]
-    written += _section("properties", d.properties, _property_lines)
-    written += _section("methods", d.methods, _method_lines)
-    return "\n".join(written) + "\n"
+    said: dict[str, Any] = {
+        "id": d.id,
+        "name": d.name,
+        "description": d.description,
+        "kind": d.kind,
+        "device_class": d.device_class,
+        "site": d.site,
+        "location": [d.pose.x, d.pose.y, d.pose.z, d.pose.theta],
+        "size": [d.size.x, d.size.y, d.size.z],
+        "imgUrl": d.image,
+        "done": d.done,
+        "simulated": d.simulated,
+        "gives": list(d.gives),
+        "takes": list(d.takes),
+        "capacity": d.capacity,
+        "radius": d.radius_m,
+        "speed": d.speed_m_s,
+    }
+    return {
+        **{key: value for key, value in said.items() if _is_said(key, value)},
+        "properties": [_said_of_property(spec) for spec in d.properties],
+        "methods": [_said_of_method(method) for method in d.methods],
+    }
 
 
 def _is_said(key: str, value: object) -> bool:
     return key in ("id", "name", "kind", "location", "size", "done") or value not in ("", [], 0, None)
 
 
-def _line(key: str, value: object) -> str:
-    text = str(value) if isinstance(value, bool) else json.dumps(value, ensure_ascii=False, allow_nan=False)
-    return f"{key}: {text}"
+def _said_of_property(spec: PropertySpec) -> dict[str, Any]:
+    return _said_of_value(spec) | ({"title": spec.title} if spec.title else {})
 
 
-def _section(key: str, items: tuple[Item, ...], lines_of: Callable[[Item], Iterator[str]]) -> list[str]:
-    if not items:
-        return [f"{key}: []"]
-    return [f"{key}:", *(f"  {line}" for item in items for line in lines_of(item))]
+def _said_of_value(spec: PropertySpec | ParameterSpec) -> dict[str, Any]:
+    texts = {"unit": spec.unit, "options": list(spec.options)}
+    limits = {"minimum": spec.minimum, "maximum": spec.maximum}
+    return {
+        "name": spec.name,
+        "type": spec.type,
+        **{key: value for key, value in texts.items() if value},
+        **{key: limit for key, limit in limits.items() if limit is not None},
+    }
 
 
-def _property_lines(spec: PropertySpec) -> Iterator[str]:
-    yield from _value_lines(spec)
-    if spec.title:
-        yield _line("title", spec.title)
+def _said_of_method(method: MethodSpec) -> dict[str, Any]:
+    return {
+        "name": method.name,
+        "vipo_msg_type": method.message_type,
+        "topic_name": method.topic,
+        **({"title": method.title} if method.title else {}),
+        "parameters": [_said_of_parameter(spec) for spec in method.parameters],
+    }
 
 
-def _value_lines(spec: PropertySpec | ParameterSpec) -> Iterator[str]:
-    yield _line("name", spec.name)
-    yield _line("type", spec.type)
-    for key, value in (("unit", spec.unit), ("options", list(spec.options))):
-        if value:
-            yield _line(key, value)
-    for key, limit in (("minimum", spec.minimum), ("maximum", spec.maximum)):
-        if limit is not None:
-            yield _line(key, limit)
+def _said_of_parameter(spec: ParameterSpec) -> dict[str, Any]:
+    return _said_of_value(spec) | ({} if spec.required else {"required": False})
 
 
-def _method_lines(method: MethodSpec) -> Iterator[str]:
-    yield _line("name", method.name)
-    yield _line("vipo_msg_type", method.message_type)
-    yield _line("topic_name", method.topic)
-    if method.title:
-        yield _line("title", method.title)
-    yield from _section("parameters", method.parameters, _parameter_lines)
-
-
-def _parameter_lines(spec: ParameterSpec) -> Iterator[str]:
-    yield from _value_lines(spec)
-    if not spec.required:
-        yield _line("required", False)
+def _lines(said: Mapping[str, Any]) -> Iterator[str]:
+    """Yield the lines of a message: what a list of objects says stands under its key, set in."""
+    for key, value in said.items():
+        if value and key in SECTIONS:
+            yield f"{key}:"
+            yield from (f"  {line}" for item in value for line in _lines(item))
+        else:
+            text = str(value) if isinstance(value, bool) else json.dumps(value, ensure_ascii=False, allow_nan=False)
+            yield f"{key}: {text}"

@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from vipo_device.descriptions.forms import BadDescription, is_json, plain_text, read_json
+from vipo_device.descriptions.forms import FORMS, BadDescription, is_json, plain_text, read_json
 from vipo_device.descriptions.rdf_reader import read_json_ld, read_turtle
 from vipo_device.descriptions.rdf_writer import graph_of, graph_of_triples
 from vipo_device.descriptions.reader import Reading
@@ -56,9 +56,9 @@ def check_reading(reading: Reading, payload: bytes) -> tuple[Fault, ...]:
     Raises:
         ShaclMissing: pyshacl is not installed.
     """
-    if reading.form in ("td", "paper"):
-        return tuple(_faults(graph_of(reading.description)))
-    return check_rdf(payload)
+    if FORMS[reading.form].is_rdf:
+        return check_rdf(payload)
+    return tuple(_faults(graph_of(reading.description)))
 
 
 def find_validator() -> Callable[..., tuple[bool, Any, str]]:

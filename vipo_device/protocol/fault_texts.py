@@ -6,10 +6,7 @@ from collections.abc import Mapping
 
 _OUTSIDE: Mapping[str, str] = {
     "too_many_bytes": "{it} has {bytes} bytes; {most} is the most.",
-    "markup": (
-        "The description is RDF/XML or HTML, which is not accepted. Send Turtle, N-Triples, JSON-LD, a Thing "
-        "Description or the paper's message."
-    ),
+    "markup": "The description is RDF/XML or HTML, which is not accepted. Send {accepted}.",
     "not_utf8": "{it} is not UTF-8. Save or send it as UTF-8.",
     "nul": "The description holds the character NUL. Remove it.",
     "empty": "The description is empty.",

@@ -9,21 +9,13 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from vipo_device.descriptions.forms import BadDescription, form_of
+from vipo_device.descriptions.forms import FORMS, BadDescription, form_of
 from vipo_device.descriptions.reader import Reading, read, write_description
 from vipo_device.descriptions.shacl import check_rdf, check_reading, find_validator
 from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, PropertySpec, description_to_json
 from vipo_device.protocol.faults import Fault
 from vipo_site.cli.program_file import read_bounded
 from vipo_site.cli.terminal import complain, write, write_json
-
-_NAMES = {
-    "turtle": "Turtle",
-    "n-triples": "N-Triples",
-    "json-ld": "JSON-LD",
-    "td": "Thing Description",
-    "paper": "the paper's message",
-}
 
 
 def describe_file(options: argparse.Namespace) -> int:
@@ -56,7 +48,7 @@ def describe_file(options: argparse.Namespace) -> int:
 def _faults_of_shapes(payload: bytes) -> tuple[Fault, ...]:
     """Return what the shapes add about RDF that cannot be believed; nothing about what is no RDF at all."""
     try:
-        return check_rdf(payload) if form_of(payload) in ("turtle", "n-triples", "json-ld") else ()
+        return check_rdf(payload) if FORMS[form_of(payload)].is_rdf else ()
     except BadDescription:
         return ()
 
@@ -87,7 +79,8 @@ def _as_json(reading: Reading, form: str | None) -> dict[str, Any]:
 
 def _summary(path: Path, reading: Reading) -> Iterator[str]:
     d = reading.description
-    yield f"{path}: {_NAMES[reading.form]}. It describes the {d.kind} {d.id}, “{d.name}”{_class_of(d)}."
+    form = FORMS[reading.form].name.removeprefix("a ")
+    yield f"{path}: {form}. It describes the {d.kind} {d.id}, “{d.name}”{_class_of(d)}."
     yield (
         f"place: {d.pose.x:g}, {d.pose.y:g}, {d.pose.z:g} m, {d.pose.theta:g} rad; "
         f"size: {d.size.x:g} x {d.size.y:g} x {d.size.z:g} m"

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from editor.language.messages.diagnostics import diagnostic_to_json
-from vipo_device.descriptions.forms import FORMS
+from vipo_device.descriptions.forms import ANY_FORM, FORMS
 from vipo_device.protocol.errors import VipoError
 from vipo_site.cli import account, call, devices, history, record, repair, token
 from vipo_site.cli.program_file import FaultyScript
@@ -148,7 +148,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_describe(sub: argparse.ArgumentParser) -> None:
-    sub.add_argument("file", type=Path, help="a description: Turtle, N-Triples, JSON-LD, a TD or the paper's message")
+    sub.add_argument("file", type=Path, help=f"a description: {ANY_FORM}")
     sub.add_argument("--to", choices=FORMS, help="write it in this form")
     sub.add_argument("--shacl", action="store_true", help="hold it against the SHACL shapes, too")
     sub.add_argument("--json", action="store_true", help="write JSON for machines")

@@ -13,6 +13,7 @@ from django.middleware.gzip import GZipMiddleware
 from django.middleware.http import ConditionalGetMiddleware
 from django.utils.cache import set_response_etag
 
+from vipo_device.descriptions.forms import CONTENT_TYPES
 from vipo_device.protocol.texts import find_unfit, refusal_of
 from vipo_site.http.api import problem
 
@@ -47,7 +48,8 @@ UNREADABLE = (
     "The request cannot be read: it is larger than it may be, or asks for a host that VIPO_HOSTS does not name."
 )
 WORTH_COMPRESSING = 1024
-TEXTS = ("json", "xml", "n-triples")
+TEXTS = ("json", "xml")
+DESCRIPTIONS = frozenset(CONTENT_TYPES.values())
 FAILED = "VIPO failed at this; what went wrong stands in the server's log. Look what holds now before you try again."
 
 
@@ -145,7 +147,7 @@ class Compress(GZipMiddleware):
 
 def _is_text(response: HttpResponse) -> bool:
     kind = response.get("Content-Type", "").partition(";")[0].strip()
-    return kind.startswith("text/") or kind.removeprefix("application/").endswith(TEXTS)
+    return kind.startswith("text/") or kind.endswith(TEXTS) or kind in DESCRIPTIONS
 
 
 class TellUnchanged(ConditionalGetMiddleware):

@@ -62,6 +62,7 @@ export type FieldChange = Schemas["ChangeShape"];
 export type ExpectedDevice = Schemas["ExpectedDevice"];
 export type Enrolment = Schemas["Door"];
 export type DescriptionLook = Schemas["LookShape"];
+export type DescriptionForm = NonNullable<DescriptionLook["form"]>;
 
 export type OwnSession = Schemas["OwnSession"];
 export type Factor = Schemas["FactorShape"];

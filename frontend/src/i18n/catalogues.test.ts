@@ -55,6 +55,15 @@ test("each text has the same places for values in both languages", () => {
   expect(different).toEqual([]);
 });
 
+test("every text that stands within another exists", () => {
+  const within = (texts: Texts) => Object.values(texts).flatMap((text) => [...text.matchAll(/\$t\(([^)]*)\)/g)]);
+  for (const texts of [en, de]) {
+    const named = within(texts).map(([, key = ""]) => key);
+    expect(named.filter((key) => !(key in texts))).toEqual([]);
+    expect(named).toContain("pages.devices.anyForm");
+  }
+});
+
 test("no text is empty", () => {
   const empty = (texts: Texts) => Object.keys(texts).filter((key) => !texts[key]?.trim());
   expect([empty(en), empty(de)]).toEqual([[], []]);

@@ -15,6 +15,8 @@ from registry.models import DeviceEvent
 from tests.integration.wire.bus import JOIN, SITE, Bus
 from tests.kit.files import MIXER_TEXT
 from tests.kit.waiting import wait_for
+from vipo_device.descriptions.forms import ANY_FORM
+from vipo_device.protocol.fault_texts import SENTENCES
 from vipo_device.protocol.mqtt_client import MqttClient
 
 pytestmark = pytest.mark.servers
@@ -115,8 +117,7 @@ def test_who_mends_one_thing_hears_of_the_next(bus: Bus, gateway: Gateway) -> No
         wait_for("the refusal", lambda n=number: gateway.complaints.counts.total() == n)
     wait_for("the notes", lambda: len(problems("loud01")) == 6)
     assert problems("loud01")[:-3:-1] == [
-        "desc: The description is RDF/XML or HTML, which is not accepted. Send Turtle, N-Triples, JSON-LD, a Thing "
-        "Description or the paper's message.",
+        f"desc: {SENTENCES['markup'].format(accepted=ANY_FORM)}",
         "desc: The description's context 'http://127.0.0.1:9/context' is not known here. Use 'urn:vipo:context', or "
         "write its prefixes out.",
     ]

@@ -21,14 +21,16 @@ from editor.language.printing.steps import PRINTERS
 from editor.language.reading.steps import READERS
 from editor.language.tree.nodes import Node
 from registry.alerts.causes import CAUSES
+from registry.api.devices import show_rdf
 from scripts.checks_page import read_site
 from scripts.construct_programs import pictures
 from vipo_device.descriptions.forms import FORMS as DESCRIPTION_FORMS
-from vipo_site.cli.describe import _NAMES as FORM_NAMES
+from vipo_device.descriptions.forms import DescriptionForm
 from vipo_site.management.commands import constructs
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "docs" / "changing.md"
+PROTOCOL = ROOT / "docs" / "protocol.md"
 FRONTEND = ROOT / "frontend" / "src"
 KINDS = frozenset(BRANCHES)
 NODES = frozenset(get_args(Node))
@@ -192,9 +194,14 @@ def test_every_form_of_a_description_has_its_names():
         language: json.loads((FRONTEND / "i18n" / language / "screens" / "pages.json").read_text())["devices"]["form"]
         for language in ("en", "de")
     }
-    tables = {"_NAMES in vipo_site/cli/describe.py": FORM_NAMES}
+    tables = {
+        "FORMS in vipo_device/descriptions/forms.py": DESCRIPTION_FORMS,
+        "the docstring of show_rdf in registry/api/devices.py": re.findall(r"`([\w-]+)`", show_rdf.__doc__),
+        "the table of forms in docs/protocol.md": re.findall(r"(?m)^\| `([\w-]+)`: ", PROTOCOL.read_text()),
+    }
     tables |= {f"devices.form in i18n/{language}/screens/pages.json": words for language, words in catalogues.items()}
-    assert [sentence for table, found in tables.items() for sentence in lacking(table, DESCRIPTION_FORMS, found)] == []
+    forms = get_args(DescriptionForm)
+    assert [sentence for table, found in tables.items() for sentence in lacking(table, forms, found)] == []
 
 
 def test_the_words_by_which_the_library_finds_steps_are_those_of_the_editor():

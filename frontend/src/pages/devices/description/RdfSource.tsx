@@ -4,35 +4,36 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
+import type { DescriptionForm } from "@/api/types";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { Panel } from "@/design/Panel";
 import { SourceView } from "./SourceView";
 import type { Dialect } from "./source";
 import styles from "../detail.module.css";
 
-const FORMS = ["turtle", "n-triples", "json-ld", "td", "paper"] as const;
-type Form = (typeof FORMS)[number];
-const DIALECTS: Readonly<Record<Form, Dialect>> = {
+/** How each form is coloured. */
+const DIALECTS: Readonly<Record<DescriptionForm, Dialect>> = {
   turtle: "turtle",
   "n-triples": "turtle",
   "json-ld": "json",
   td: "json",
   paper: "message",
 };
+const FORMS = Object.keys(DIALECTS) as DescriptionForm[];
 
 /** Where a device's description can be read in a form. */
-function rdfPath(slug: string, device: string, format: Form): string {
+function rdfPath(slug: string, device: string, format: DescriptionForm): string {
   return `/sites/${slug}/devices/${encodeURIComponent(device)}/rdf?format=${format}`;
 }
 
 /** JSON is spread over lines; the rest stays as it is. */
-function laidOut(text: string, format: Form): string {
+function laidOut(text: string, format: DescriptionForm): string {
   return DIALECTS[format] === "json" ? JSON.stringify(JSON.parse(text), null, 2) : text;
 }
 
 export function RdfSource({ slug, device }: { slug: string; device: string }) {
   const { t } = useTranslation();
-  const [format, setFormat] = useState<Form>("turtle");
+  const [format, setFormat] = useState<DescriptionForm>("turtle");
   const rdf = useQuery({
     queryKey: keys.rdf(slug, device, format),
     queryFn: async () => laidOut(await api.text(rdfPath(slug, device, format)), format),
@@ -45,7 +46,7 @@ export function RdfSource({ slug, device }: { slug: string; device: string }) {
           size="xs"
           data={FORMS.map((form) => ({ value: form, label: t(`pages.devices.form.${form}`) }))}
           value={format}
-          onChange={(event) => setFormat(event.currentTarget.value as Form)}
+          onChange={(event) => setFormat(event.currentTarget.value as DescriptionForm)}
           aria-label={t("pages.devices.rdfForm")}
         />
       </div>
