@@ -17,6 +17,7 @@ from vipo_device.protocol.topics import split_methods
 
 Status = Literal["idle", "busy", "done", "waiting", "warning", "error", "offline", "pending"]
 _ICONS = {"turtlebot": "turtle"}
+"""What the API calls a class's icon where that is no name of the class; no screen reads it, and no class is added."""
 _MOST_KNOWN = 5000
 _known: dict[str, Description] = {}
 

@@ -1,4 +1,5 @@
 /** VIPO's own icons (`icons/*.svg`), 24 px grid, drawn in the text's colour. */
+import { ownEntry } from "./ownEntry";
 
 const sources = import.meta.glob<string>("../icons/*.svg", { query: "?raw", import: "default", eager: true });
 
@@ -10,12 +11,12 @@ const bodies: Record<string, string> = Object.fromEntries(
 );
 
 export function hasVipoIcon(name: string): boolean {
-  return name in bodies;
+  return Object.hasOwn(bodies, name);
 }
 
 /** What stands inside an icon's svg element, for canvases; empty where there is no such icon. */
 export function iconBody(name: string): string {
-  return bodies[name] ?? "";
+  return ownEntry(bodies, name) ?? "";
 }
 
 /** Decoration only: whoever uses it gives the name in words beside it or in a label. */
@@ -33,7 +34,7 @@ export function VipoIcon({ name, size = 18, x, y }: { name: string; size?: numbe
       strokeLinecap="round"
       strokeLinejoin="round"
       aria-hidden="true"
-      dangerouslySetInnerHTML={{ __html: bodies[name] ?? "" }}
+      dangerouslySetInnerHTML={{ __html: iconBody(name) }}
     />
   );
 }

@@ -38,6 +38,10 @@ test("a unit stands behind a thin space, no unit behind nothing", () => {
   expect(withUnit("62", "")).toBe("62");
 });
 
+test("a unit that nobody knows stays as it is, whatever it is called", () => {
+  expect(["DEG_C", "FURLONG", "constructor"].map(unitSign)).toEqual(["°C", "FURLONG", "constructor"]);
+});
+
 test("spans name at most two units", () => {
   expect([0, 59.6, 66, 3600, 7320].map((seconds) => thin(formatSpan(seconds)))).toEqual([
     "0_s",

@@ -19,4 +19,6 @@ test("what the screens do not know is left to the server's own words", () => {
   expect(refusalWords("not_ready", undefined)).toBeNull();
   expect(refusalWords("not_ready", { why: "something new" })).toBeNull();
   expect(refusalWords("no_way", { why: "errors" })).toBeNull();
+  expect(refusalWords("not_ready", { why: "constructor" })).toBeNull();
+  expect(refusalWords("constructor", {})).toBeNull();
 });

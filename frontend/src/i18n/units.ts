@@ -1,4 +1,6 @@
 /** Units as descriptions name them (QUDT codes) and as people read them. */
+import { ownEntry } from "@/design/ownEntry";
+
 const SIGNS: Readonly<Record<string, string>> = {
   PERCENT: "%",
   DEG_C: "°C",
@@ -22,5 +24,5 @@ const SIGNS: Readonly<Record<string, string>> = {
 
 /** `°C` for `DEG_C`; what is not known stays as it is. */
 export function unitSign(unit: string): string {
-  return SIGNS[unit] ?? unit;
+  return ownEntry(SIGNS, unit) ?? unit;
 }

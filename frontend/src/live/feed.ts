@@ -18,6 +18,7 @@ import type {
   Site,
   SiteStop,
 } from "@/api/types";
+import { ownEntry } from "@/design/ownEntry";
 import { applyAlert } from "./alerts";
 import { LiveCaches } from "./caches";
 import {
@@ -151,7 +152,7 @@ export class SiteFeed {
 
   #device(change: DeviceChange): void {
     recordDevice(change, performance.now());
-    const before = useLiveStore.getState().deviceById[change.id];
+    const before = ownEntry(useLiveStore.getState().deviceById, change.id);
     this.#changes.set(change.id, joinChanges(this.#changes.get(change.id), change));
     this.#flushIn(isUrgent(before, change) ? FAST_MS : SLOW_MS);
   }
@@ -202,7 +203,7 @@ export class SiteFeed {
     const known = useLiveStore.getState().traffic;
     useLiveStore.setState({ traffic: { ...known, ...robots } });
     const waits = (robot: RobotTraffic | undefined) => robot?.why?.code === "not_let_in";
-    if (Object.entries(robots).some(([id, robot]) => waits(robot) !== waits(known[id])))
+    if (Object.entries(robots).some(([id, robot]) => waits(robot) !== waits(ownEntry(known, id))))
       this.#caches.refresh(keys.admissions(this.slug));
   }
 

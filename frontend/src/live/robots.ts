@@ -3,6 +3,7 @@ import { activityWords } from "@/i18n/activity";
 import { waitWords } from "@/i18n/waits";
 import { statusOf } from "@/map/devices/device";
 import { interpolatePose, type RobotSource, type RobotView } from "@/map/robots/robots";
+import { ownEntry } from "@/design/ownEntry";
 import { poseOf } from "./readings";
 import { useLiveStore } from "./store";
 
@@ -22,7 +23,7 @@ function read(now: number, { deviceById, traffic, copies }: ReturnType<typeof us
     if (device.kind !== "robot") continue;
     const pair = poseOf(device.id);
     const pose = pair ? interpolatePose(pair.previous, pair.current, now) : device.location;
-    const path = traffic[device.id];
+    const path = ownEntry(traffic, device.id);
     views.push({
       id: device.id,
       name: device.name,
@@ -32,11 +33,11 @@ function read(now: number, { deviceById, traffic, copies }: ReturnType<typeof us
       x: pose.x,
       y: pose.y,
       theta: pose.theta,
-      copy: copies[device.id],
+      copy: ownEntry(copies, device.id),
       real: device.stands_at,
       route: path?.route,
       reserved: path?.reserved,
-      wait: waitWords(path?.why, (id) => deviceById[id]?.name ?? id) ?? path?.wait ?? null,
+      wait: waitWords(path?.why, (id) => ownEntry(deviceById, id)?.name ?? id) ?? path?.wait ?? null,
     });
   }
   return views;

@@ -4,6 +4,7 @@ import { footprint, isRobot } from "@/map/devices/device";
 import type { MapPlace } from "@/map/floor/floor";
 import { toPixels, type Box } from "@/map/plane/projection";
 import type { PixelPoint } from "@/map/plane/paths";
+import { ownEntry } from "@/design/ownEntry";
 import type { Place, ProgramDocument } from "./document/document";
 import { isPoint } from "./document/wellFormed";
 
@@ -110,5 +111,5 @@ function argumentOf(value: unknown, document: ProgramDocument, functionId: strin
   );
   const args = (call?.params.args ?? {}) as Record<string, unknown>;
   const parameter = document.functions[functionId]?.parameters.find((each) => each.name === name);
-  return args[name] ?? parameter?.default ?? null;
+  return ownEntry(args, name) ?? parameter?.default ?? null;
 }

@@ -1,4 +1,5 @@
 /** Reading a rehearsal's recording at any moment. */
+import { ownEntry } from "@/design/ownEntry";
 
 export type PoseFrame = readonly [x: number, y: number, theta: number];
 
@@ -16,7 +17,7 @@ function turn(from: number, to: number): number {
 
 /** A robot's pose at a time, between the two recorded poses around it; null when nothing was recorded. */
 export function poseAt(frames: Frames, robot: string, t_s: number): PoseFrame | null {
-  const poses = frames.robots[robot];
+  const poses = ownEntry(frames.robots, robot);
   if (!poses || poses.length === 0) return null;
   const position = Math.min(Math.max(t_s / frames.dt_s, 0), poses.length - 1);
   const index = Math.floor(position);
@@ -68,7 +69,7 @@ export function straightened(path: Iterable<readonly number[]>): [number, number
 
 /** The path that a robot drove in the `seconds` before a time. */
 export function trailBefore(frames: Frames, robot: string, t_s: number, seconds: number): [number, number][] {
-  const poses = frames.robots[robot] ?? [];
+  const poses = ownEntry(frames.robots, robot) ?? [];
   const first = Math.max(0, Math.floor((t_s - seconds) / frames.dt_s));
   return straightened(poses.slice(first, Math.floor(t_s / frames.dt_s) + 1));
 }

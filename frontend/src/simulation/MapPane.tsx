@@ -6,6 +6,7 @@ import { IconButton } from "@/design/IconButton";
 import { ProgramMap } from "@/program/ProgramMap";
 import type { RobotSource } from "@/map/robots/robots";
 import { latest, poseAt } from "@/scene3d/frames";
+import { ownEntry } from "@/design/ownEntry";
 import { IncidentMarks } from "./incidents/IncidentMarks";
 import { type Incident, isNow } from "@/scene3d/incidents";
 import { InSmall } from "./incidents/InSmall";
@@ -46,7 +47,7 @@ function useRecordedRobots(devices: Device[], result: RehearsalResult | null, mo
       robots.map((robot) => {
         const pose = result && poseAt(result.frames, robot.id, moment.t_s);
         const [x, y, theta] = pose ?? [robot.location.x, robot.location.y, robot.location.theta];
-        const load = latest(result?.carrying[robot.id], moment.t_s)?.[1] ?? {};
+        const load = latest(ownEntry(result?.carrying, robot.id), moment.t_s)?.[1] ?? {};
         return {
           id: robot.id,
           name: "",
@@ -63,7 +64,7 @@ function useRecordedRobots(devices: Device[], result: RehearsalResult | null, mo
 
 /** The devices as the recording has them: busy or not, and without what they say of themselves right now. */
 function useRecordedDevices(devices: Device[], result: RehearsalResult | null, t_s: number): Device[] {
-  const busy = devices.map((device) => latest(result?.machine_states[device.id], t_s)?.[1] ?? false);
+  const busy = devices.map((device) => latest(ownEntry(result?.machine_states, device.id), t_s)?.[1] ?? false);
   const key = busy.join();
   return useMemo(
     () =>

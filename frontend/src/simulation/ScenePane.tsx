@@ -7,6 +7,7 @@ import { latest } from "@/scene3d/frames";
 import { type Incident, isNow } from "@/scene3d/incidents";
 import type { Moment, SceneRecording } from "@/scene3d/types";
 import { Toggle, View3D } from "@/scene3d/View3D";
+import { ownEntry } from "@/design/ownEntry";
 import { Lidar } from "./lidar/Lidar";
 import styles from "./SimulationScreen.module.css";
 
@@ -29,19 +30,19 @@ function useStateOf({ result, t_s, incidents }: ScenePaneProps) {
   return (device: string): string => {
     const wait = now.find(({ robot }) => robot === device)?.wait;
     if (wait) return t("simulation.waitsFor", { seconds: Math.round(wait.duration_s) });
-    const load = latest(result?.carrying[device], t_s)?.[1] ?? {};
+    const load = latest(ownEntry(result?.carrying, device), t_s)?.[1] ?? {};
     const carried = Object.entries(load).filter(([, count]) => count > 0);
     if (carried.length > 0) {
       return t("simulation.carries", { load: carried.map(([object, count]) => `${count} × ${object}`).join(", ") });
     }
-    return latest(result?.machine_states[device], t_s)?.[1] ? t("simulation.busy") : "";
+    return latest(ownEntry(result?.machine_states, device), t_s)?.[1] ? t("simulation.busy") : "";
   };
 }
 
 /** A rehearsal's result as the scene reads it. */
 function recordingOf(result: RehearsalResult): SceneRecording {
   const routes: SceneRecording["routes"] = {};
-  for (const { t, robot, path } of result.routes) (routes[robot] ??= []).push([t, path]);
+  for (const { t, robot, path } of result.routes) (routes[robot] = ownEntry(routes, robot) ?? []).push([t, path]);
   return { ...result, routes };
 }
 

@@ -12,6 +12,7 @@ import { NumberField } from "@/design/NumberField";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { unitSign } from "@/i18n/units";
 import { problemText } from "@/shell/LoadProblem";
+import { ownEntry } from "@/design/ownEntry";
 import { type Argument, emptyForm, type Problem, readArguments, type Typed } from "./arguments";
 import styles from "./call.module.css";
 import { CallProgress } from "./CallProgress";
@@ -122,7 +123,7 @@ export function TryMethod({ site, device, method, onClose }: TryMethodProps) {
     if ("args" in read) start.mutate({ method: method.name, args: read.args });
   };
   const problemOf = ({ name, minimum, maximum }: MethodParameter) => {
-    const problem = problems[name];
+    const problem = ownEntry(problems, name);
     return problem ? t(`device.try.problem.${problem}`, { minimum, maximum }) : null;
   };
   return (
@@ -139,7 +140,7 @@ export function TryMethod({ site, device, method, onClose }: TryMethodProps) {
             key={parameter.name}
             parameter={parameter}
             choices={choicesOf(parameter)}
-            value={typed[parameter.name] ?? ""}
+            value={ownEntry(typed, parameter.name) ?? ""}
             error={problemOf(parameter)}
             change={(value) => setTyped((before) => ({ ...before, [parameter.name]: value }))}
           />

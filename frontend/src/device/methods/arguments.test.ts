@@ -53,3 +53,9 @@ test.each(["3", "3, x", "1 2 3 4 5"])("%s is no location", (typed) => {
     problems: { to: "location" },
   });
 });
+
+test("a parameter may have the name of what every object has", () => {
+  const one = method({ name: "constructor" });
+  expect(readArguments(one, {})).toEqual({ problems: { constructor: "missing" } });
+  expect(readArguments(one, { constructor: "4" })).toEqual({ args: { constructor: 4 } });
+});

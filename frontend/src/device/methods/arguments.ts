@@ -1,5 +1,6 @@
 /** What people type for a method's parameters, and the arguments that it makes. Pure. */
 import type { DeviceMethod, MethodParameter, Scalar } from "@/api/types";
+import { ownEntry } from "@/design/ownEntry";
 
 export type Typed = Readonly<Record<string, string | number | boolean>>;
 export type Problem = "missing" | "number" | "below" | "above" | "location";
@@ -19,7 +20,7 @@ export function readArguments(method: DeviceMethod, typed: Typed): Read {
   const args: Record<string, Argument> = {};
   const problems: Record<string, Problem> = {};
   for (const parameter of method.parameters) {
-    const value = typed[parameter.name] ?? "";
+    const value = ownEntry(typed, parameter.name) ?? "";
     if (value === "" && parameter.required) problems[parameter.name] = "missing";
     if (value === "") continue;
     const read = readOne(parameter, value);

@@ -1,4 +1,5 @@
 /** Functions made of steps, and calls turned back into the steps of their function. */
+import { ownEntry } from "@/design/ownEntry";
 import { moved, toCentimetre } from "./clipping";
 import type { Decision, Edit } from "./edits";
 import { type Position, type ProgramDocument, type Step, textOf } from "@/program/document/document";
@@ -130,6 +131,6 @@ function argumentsOf(
   const set = new Map<string, unknown>();
   const replace = new Map<string, unknown>();
   for (const { name, default: usual } of document.functions[functionId]?.parameters ?? [])
-    (assigned.has(name) ? set : replace).set(name, args[name] ?? usual ?? null);
+    (assigned.has(name) ? set : replace).set(name, ownEntry(args, name) ?? usual ?? null);
   return { set, replace };
 }

@@ -56,7 +56,7 @@ function renameReads(
 function renameArguments(document: ProgramDocument, functionId: string, before: string, after: string): Edit[] {
   return Object.entries(document.steps).flatMap(([id, step]): Edit[] => {
     const args = (step.params.args ?? {}) as Record<string, unknown>;
-    if (step.kind !== "call" || step.params.function !== functionId || !(before in args)) return [];
+    if (step.kind !== "call" || step.params.function !== functionId || !Object.hasOwn(args, before)) return [];
     const renamed = Object.entries(args).map(([name, value]) => [name === before ? after : name, value] as const);
     return [{ do: "set_param", id, name: "args", value: Object.fromEntries(renamed) }];
   });

@@ -1,5 +1,6 @@
 /** A machine's outline seen from above, with the drawn details of its class; middle at 0, 0. */
 import type { ReactNode } from "react";
+import { ownEntry } from "@/design/ownEntry";
 
 interface Size {
   readonly width: number;
@@ -7,7 +8,7 @@ interface Size {
 }
 
 export function MachineBody({ deviceClass, width, height }: { deviceClass: string } & Size) {
-  const details = DETAILS[deviceClass] ?? plain;
+  const details = ownEntry(DETAILS, deviceClass) ?? plain;
   return (
     <g fill="none" stroke="var(--machine-line)">
       <rect
@@ -26,7 +27,8 @@ export function MachineBody({ deviceClass, width, height }: { deviceClass: strin
   );
 }
 
-const DETAILS: Readonly<Record<string, (size: Size) => ReactNode>> = {
+/** The classes that have details; `BODIES` in `scene3d/machines/bodies.ts` has the same. */
+export const DETAILS: Readonly<Record<string, (size: Size) => ReactNode>> = {
   shelf: (size) => grid(size, 4, 2, (x, y, w, h) => <rect key={`${x} ${y}`} x={x} y={y} width={w} height={h} rx={2} />),
   cans: (size) =>
     grid(size, 6, 2, (x, y, w, h) => (

@@ -37,7 +37,7 @@ const RINGS: Readonly<Record<DeviceStatus, Ring>> = {
 };
 
 export function statusOf(device: { readonly status: string }): DeviceStatus {
-  return device.status in RINGS ? (device.status as DeviceStatus) : "idle";
+  return Object.hasOwn(RINGS, device.status) ? (device.status as DeviceStatus) : "idle";
 }
 
 export function ringOf(status: DeviceStatus): Ring {

@@ -5,6 +5,7 @@ import type { LibraryFunction } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
 import { Chip, type Tone } from "@/design/Chip";
 import { unitSign } from "@/i18n/units";
+import { ownEntry } from "@/design/ownEntry";
 import { nameOf } from "../people";
 import { FitLine } from "./Fit";
 import { FunctionPicture } from "./FunctionPicture";
@@ -24,7 +25,7 @@ export function ParameterType({ parameter }: { parameter: LibraryFunction["param
   const { t } = useTranslation();
   const known = t(`library.type.${parameter.type}`, { defaultValue: parameter.type });
   return (
-    <Chip tone={TONES[parameter.type] ?? "quiet"}>
+    <Chip tone={ownEntry(TONES, parameter.type) ?? "quiet"}>
       {parameter.unit ? `${known}, ${unitSign(parameter.unit)}` : known}
     </Chip>
   );

@@ -1,4 +1,5 @@
 /** The lanes in which a robot covers a zone, as a preview: there and back along its longer side; pure, metres. */
+import { ownEntry } from "@/design/ownEntry";
 import type { Position, ProgramDocument, Step, Value, Zone } from "../document/document";
 import { textOf } from "../document/document";
 
@@ -42,7 +43,7 @@ export function laneWidth(step: Step, document: ProgramDocument, robots: readonl
 function quantityOf(value: Value): number | null {
   if (typeof value !== "object" || value === null || !("quantity" in value)) return null;
   const [amount, unit] = value.quantity;
-  const metres = amount * (LENGTHS_M[unit] ?? 0);
+  const metres = amount * (ownEntry(LENGTHS_M, unit) ?? 0);
   return metres > 0 ? metres : null;
 }
 

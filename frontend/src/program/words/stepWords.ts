@@ -1,4 +1,5 @@
 /** What stands on a step's chip: a noun and an amount, a "?" where a value is still to be entered. */
+import { ownEntry } from "@/design/ownEntry";
 import { type Place, type Step, type Value, textOf } from "../document/document";
 import { type FieldRecord, isStepKind, kindOf } from "../kinds";
 import { isRobot } from "@/map/devices/device";
@@ -115,8 +116,9 @@ function operateText(step: Step, speaker: Speaker): TextPart[] {
   const parts = [...first, plain(method?.title || textOf(step.params.method))];
   const args = (step.params.args ?? {}) as Record<string, Value>;
   for (const parameter of method?.parameters ?? []) {
-    const text = valueText(args[parameter.name] ?? null, speaker);
-    const fixed = typeof args[parameter.name] !== "object";
+    const value = ownEntry(args, parameter.name);
+    const text = valueText(value ?? null, speaker);
+    const fixed = typeof value !== "object";
     if (text !== null) parts.push(plain(`· ${fixed ? withUnit(text, parameter.unit) : text}`));
     else if (parameter.required !== false) parts.push(MISSING);
   }
@@ -166,7 +168,7 @@ function callText(step: Step, speaker: Speaker): TextPart[] {
   const result = step.params.result ? [plain(`${textOf(step.params.result)} =`)] : [];
   const args = (step.params.args ?? {}) as Record<string, Value | Place>;
   const given = definition.parameters.map((parameter) => {
-    const value = args[parameter.name] ?? (parameter.default as Value | Place | undefined) ?? null;
+    const value = ownEntry(args, parameter.name) ?? (parameter.default as Value | Place | undefined) ?? null;
     const text = placeName(value as Place, speaker) ?? valueText(value as Value, speaker);
     return { name: parameter.name, text: text ?? "?", ...swatchOf(value as Value) };
   });

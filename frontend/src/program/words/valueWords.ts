@@ -1,4 +1,5 @@
 /** Values and places as people read them. */
+import { ownEntry } from "@/design/ownEntry";
 import type { Place, ProgramDocument, Value } from "../document/document";
 import { DEFAULT_ROLE, operatedRole } from "../operation";
 import type { Surroundings } from "../surroundings";
@@ -109,13 +110,13 @@ function sayOperation(op: string, args: readonly Value[], speaker: Speaker, arou
     const [first = "?", ...rest] = args.map((each) => sayValue(each, speaker, 0));
     return speaker.t(`value.${op}`, { first, rest: rest.join(", "), all: [first, ...rest].join(", ") });
   }
-  const level = LEVELS[op] ?? COMPARISON;
+  const level = ownEntry(LEVELS, op) ?? COMPARISON;
   const [only] = args;
   if (args.length === 1 && only !== undefined) {
     const inner = sayValue(only, speaker, level);
     return op === "not" ? bracketed(`${speaker.t("value.not")} ${inner}`, level < around) : `−${inner}`;
   }
-  const sign = WORDS.includes(op) ? speaker.t(`value.${op.replace(" ", "_")}`) : (SIGNS[op] ?? op);
+  const sign = WORDS.includes(op) ? speaker.t(`value.${op.replace(" ", "_")}`) : (ownEntry(SIGNS, op) ?? op);
   const sides = args.map((each, index) => sayValue(each, speaker, index === 0 ? level : level + 0.5));
   return bracketed(sides.join(` ${sign} `), level < around && !chains(op, level, around));
 }
@@ -171,7 +172,7 @@ export const UNIT_CHOICES: readonly { readonly value: string; readonly label: st
 
 export function unitText(unit: string | null | undefined): string {
   if (!unit || typeof unit !== "string") return ""; // whatever a value of the document brought
-  return UNITS[unit] ?? ALSO[unit] ?? UNITS[unit.toUpperCase()] ?? unit;
+  return ownEntry(UNITS, unit) ?? ownEntry(ALSO, unit) ?? ownEntry(UNITS, unit.toUpperCase()) ?? unit;
 }
 
 export function withUnit(text: string, unit: string | null | undefined): string {

@@ -12,6 +12,7 @@ import { liveRobots } from "@/live/robots";
 import { useLiveStore } from "@/live/store";
 import { apartOf } from "@/map/robots/robots";
 import { View3D } from "@/scene3d/View3D";
+import { ownEntry } from "@/design/ownEntry";
 import { EVERY_S, LiveRecording, type Seen } from "./liveRecording";
 import styles from "./scene.module.css";
 
@@ -26,13 +27,15 @@ function look(devices: readonly Device[], now_ms: number): Seen {
   const robots: Record<string, Seen["robots"][string]> = {};
   const machines: Record<string, boolean> = {};
   for (const known of devices) {
-    const device = deviceById[known.id] ?? known;
+    const device = ownEntry(deviceById, known.id) ?? known;
     const { x, y, theta } = device.location;
     if (device.kind === "robot") robots[device.id] = { pose: [x, y, theta], carrying: device.carrying, route: [] };
     else machines[device.id] = device.status === "busy";
   }
-  for (const { id, x, y, theta, route = [] } of liveRobots(now_ms))
-    if (robots[id]) robots[id] = { ...robots[id], pose: [x, y, theta], route };
+  for (const { id, x, y, theta, route = [] } of liveRobots(now_ms)) {
+    const robot = ownEntry(robots, id);
+    if (robot) robots[id] = { ...robot, pose: [x, y, theta], route };
+  }
   return { robots, machines };
 }
 
@@ -70,7 +73,7 @@ function useLiveRecording(devices: readonly Device[]): { live: LiveRecording; li
   return { live, lively };
 }
 
-const copyOf = (robot: string) => useLiveStore.getState().copies[robot];
+const copyOf = (robot: string) => ownEntry(useLiveStore.getState().copies, robot);
 
 /** Of each robot that is not where its copy is, how far that is, in words. */
 function copiesApart(devices: readonly Device[], t: TFunction): string[] {

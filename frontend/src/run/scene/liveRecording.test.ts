@@ -101,3 +101,11 @@ test.each([
   live.see(8.1, then);
   expect(live.isLively(8.1)).toBe(false);
 });
+
+test("a robot may have the name of what every object has", () => {
+  const live = new LiveRecording();
+  const named = (robot: Seen["robots"][string]): Seen => ({ robots: { constructor: robot }, machines: {} });
+  live.see(0, named({ pose: [1, 0, 0], carrying: {}, route: [] }));
+  live.see(1, named({ pose: [2, 0, 0], carrying: {}, route: [] }));
+  expect(poseAt(live.recording.frames, "constructor", 1)?.[0]).toBe(2);
+});

@@ -1,6 +1,7 @@
 /** What devices do now, kept as a recording of the last minutes, so that it is drawn as a rehearsal is. */
 import type { PoseFrame } from "@/scene3d/frames";
 import type { Moment, SceneRecording } from "@/scene3d/types";
+import { ownEntry } from "@/design/ownEntry";
 
 /** How devices are at a moment, by their ids: metres, radians; of robots what they carry and where they are going. */
 export interface Seen {
@@ -62,7 +63,8 @@ export class LiveRecording {
   }
 
   private seeRobot(id: string, { pose, carrying, route }: SeenRobot, t_s: number, last: number): boolean {
-    const poses = (this.recording.frames.robots[id] ??= []);
+    const { robots } = this.recording.frames;
+    const poses = (robots[id] = ownEntry(robots, id) ?? []);
     const before = poses.at(-1) ?? pose;
     while (poses.length < last) poses.push(before);
     poses[last] = pose;
@@ -93,7 +95,7 @@ export class LiveRecording {
 }
 
 function note<T>(notes: Record<string, [number, T][]>, id: string, t_s: number, value: T): boolean {
-  const list = (notes[id] ??= []);
+  const list = (notes[id] = ownEntry(notes, id) ?? []);
   if (list.length > 0 && same(list.at(-1)?.[1], value)) return false;
   list.push([t_s, value]);
   return true;

@@ -2,6 +2,7 @@
 import { useFrame } from "@react-three/fiber";
 import { type RefObject, useEffect, useMemo, useRef } from "react";
 import * as THREE from "three";
+import { ownEntry } from "@/design/ownEntry";
 import { latest } from "../frames";
 import type { Palette } from "../palette";
 import type { Moment, SceneDevice, SceneRecording } from "../types";
@@ -66,7 +67,7 @@ export function Lamps({ machines, recording, moment, palette }: LampsProps) {
     shown.current = "";
   }, [spots, top, bottom]);
   useFrame(() => {
-    const busy = machines.map(({ id }) => latest(recording?.machine_states[id], moment.t_s)?.[1] ?? false);
+    const busy = machines.map(({ id }) => latest(ownEntry(recording?.machine_states, id), moment.t_s)?.[1] ?? false);
     if (shown.current === busy.join()) return;
     shown.current = busy.join();
     const lamps = spots.flatMap(({ up, down }, index) => [

@@ -1,4 +1,5 @@
 /** What machines look like, by their class. Pure. */
+import { ownEntry } from "@/design/ownEntry";
 import type { Palette } from "../palette";
 import type { Solid } from "../solids";
 import type { SceneDevice } from "../types";
@@ -106,7 +107,8 @@ function plain(size: Size, palette: Palette): Body {
   return { solids: [box([0, height / 2, 0], [size.x, height, size.y], palette.body)], glowing: [] };
 }
 
-const BODIES: Readonly<Record<string, (size: Size, palette: Palette) => Body>> = {
+/** The classes that have a body of their own; `DETAILS` in `map/devices/MachineBody.tsx` has the same. */
+export const BODIES: Readonly<Record<string, (size: Size, palette: Palette) => Body>> = {
   shelf,
   cans,
   mixer,
@@ -117,8 +119,7 @@ const BODIES: Readonly<Record<string, (size: Size, palette: Palette) => Body>> =
 
 /** The body of a class of machine; a class without a model gets a box of its size. */
 export function bodyOf(deviceClass: string, size: Size, palette: Palette): Body {
-  const make = Object.hasOwn(BODIES, deviceClass) ? BODIES[deviceClass] : undefined;
-  return (make ?? plain)(size, palette);
+  return (ownEntry(BODIES, deviceClass) ?? plain)(size, palette);
 }
 
 export const LAMP_HEIGHT_M = 1.9;

@@ -3,6 +3,7 @@ import { useFrame, useThree } from "@react-three/fiber";
 import { useEffect, useMemo, useRef } from "react";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import { ownEntry } from "@/design/ownEntry";
 import { latest, straightened, trailBefore } from "../frames";
 import { FloorLines } from "../segments";
 import type { RobotsProps } from "./props";
@@ -47,7 +48,7 @@ export function PlannedPaths({ robots, recording, moment, palette }: RobotsProps
   const { lines, drawn } = useLines(0.03, look, [palette]);
   const shown = useRef<(readonly (readonly [number, number])[])[]>([]);
   useFrame(() => {
-    const paths = robots.map(({ id }) => latest(recording.routes[id], moment.t_s)?.[1] ?? NOWHERE);
+    const paths = robots.map(({ id }) => latest(ownEntry(recording.routes, id), moment.t_s)?.[1] ?? NOWHERE);
     const { current: last } = shown;
     if (paths.length === last.length && paths.every((path, index) => path === last[index])) return;
     shown.current = paths;

@@ -1,4 +1,5 @@
 /** What robots carry, as the scene draws it. Pure. */
+import { ownEntry } from "@/design/ownEntry";
 import { latest } from "../frames";
 import type { SceneRecording } from "../types";
 
@@ -6,7 +7,7 @@ export type LoadShape = "box" | "can";
 
 /** What is seen on top of a robot at a moment; null when it carries nothing. */
 export function loadAt(recording: SceneRecording, robot: string, t_s: number): LoadShape | null {
-  const carried = latest(recording.carrying[robot], t_s)?.[1];
+  const carried = latest(ownEntry(recording.carrying, robot), t_s)?.[1];
   if (!carried) return null;
   let shape: LoadShape | null = null;
   for (const object of Object.keys(carried)) {

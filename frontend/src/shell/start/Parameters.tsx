@@ -5,6 +5,7 @@ import type { Device } from "@/api/types";
 import type { MapPlace } from "@/map/floor/floor";
 import type { Parameter } from "@/program/document/document";
 import { unitText } from "@/program/words/stepWords";
+import { ownEntry } from "@/design/ownEntry";
 import { ScalarInput } from "./ScalarInput";
 
 const SCALARS = ["number", "boolean", "text", "object"];
@@ -13,7 +14,7 @@ export type Given = Readonly<Record<string, unknown>>;
 
 /** What is given, with the defaults for the rest; null while something must still be said. */
 export function completed(parameters: readonly Parameter[], given: Given): Given | null {
-  const all = parameters.map(({ name, default: usual }) => [name, given[name] ?? usual ?? null] as const);
+  const all = parameters.map(({ name, default: usual }) => [name, ownEntry(given, name) ?? usual ?? null] as const);
   return all.some(([, value]) => value === null) ? null : Object.fromEntries(all);
 }
 
@@ -33,8 +34,8 @@ export function Parameters({ parameters, given, onGive, errors = {}, ...around }
       key={parameter.name}
       {...around}
       parameter={parameter}
-      value={given[parameter.name] ?? parameter.default ?? null}
-      error={errors[parameter.name]}
+      value={ownEntry(given, parameter.name) ?? parameter.default ?? null}
+      error={ownEntry(errors, parameter.name)}
       onChange={(value) => onGive({ ...given, [parameter.name]: value })}
     />
   ));

@@ -8,6 +8,7 @@ import { ApiProblem } from "@/api/client";
 import { useOnce } from "@/api/once";
 import { NumberField } from "@/design/NumberField";
 import { useEditorText } from "@/program/canvas/useScene";
+import { ownEntry } from "@/design/ownEntry";
 import { problemText } from "../LoadProblem";
 import {
   type Conditions,
@@ -69,7 +70,7 @@ function useProblems(about: Startable, conditions: Conditions) {
   const around = { devices: about.devices, steps: new Set(about.compiled?.order) };
   const faults = conditions.faults.map((draft) => problemsOf(draft, around));
   const missing = Object.values(about.document.parameters).filter(
-    ({ name, default: usual }) => (conditions.parameters[name] ?? usual ?? null) === null,
+    ({ name, default: usual }) => (ownEntry(conditions.parameters, name) ?? usual ?? null) === null,
   );
   const parameters = Object.fromEntries(missing.map(({ name }) => [name, t("start.rehearse.needs_value")]));
   const seed = isSeed(conditions.seed) ? undefined : t("start.rehearse.seed_wrong", { most: LARGEST_SEED });

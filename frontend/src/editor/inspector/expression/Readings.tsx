@@ -1,5 +1,6 @@
 /** The current readings that a value looks at, straight from the live store. */
 import { useLiveStore } from "@/live/store";
+import { ownEntry } from "@/design/ownEntry";
 import { readingsOf } from "../../edits/conditions";
 import type { Value } from "@/program/document/document";
 import { withUnit } from "@/program/words/stepWords";
@@ -27,7 +28,7 @@ export function Reading({ device, name }: { device: string; name: string }) {
 /** A reading as it is now, numbers to a tenth. */
 export function useReading(device: string, name: string) {
   return useLiveStore((live) => {
-    const found = live.deviceById[device]?.properties.find((each) => each.name === name)?.value;
+    const found = ownEntry(live.deviceById, device)?.properties.find((each) => each.name === name)?.value;
     return typeof found === "number" ? Math.round(found * 10) / 10 : (found ?? null);
   });
 }

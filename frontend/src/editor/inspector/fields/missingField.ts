@@ -4,6 +4,7 @@ import type { ProgramDocument, Step } from "@/program/document/document";
 import { type FieldRecord, fieldsOf } from "@/program/kinds";
 import { methodOf } from "@/program/operation";
 import type { Surroundings } from "@/program/surroundings";
+import { ownEntry } from "@/design/ownEntry";
 import { useOpenProgram } from "../../state/context";
 import { useUi } from "../../state/ui";
 
@@ -19,7 +20,7 @@ export function missingField(step: Step, surroundings: Surroundings, document: P
   if (step.kind !== "operate") return null;
   const args = (step.params.args ?? {}) as Record<string, unknown>;
   const { method } = methodOf(step, surroundings, document);
-  const asked = method?.parameters.find(({ name, required }) => required !== false && empty(args[name]));
+  const asked = method?.parameters.find(({ name, required }) => required !== false && empty(ownEntry(args, name)));
   return asked ? `args.${asked.name}` : null;
 }
 

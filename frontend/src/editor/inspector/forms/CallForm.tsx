@@ -1,6 +1,7 @@
 /** A call: which function, its arguments, where its result goes, and the function itself. */
 import { Select } from "@mantine/core";
 import { type Parameter, type Place, type Value, textOf } from "@/program/document/document";
+import { ownEntry } from "@/design/ownEntry";
 import { useOpenProgram } from "../../state/context";
 import { ExpressionField } from "../expression/ExpressionField";
 import { FieldFrame } from "../fields/FieldFrame";
@@ -69,7 +70,7 @@ function ArgumentField({ parameter }: { parameter: Parameter }) {
         label={name}
         field={`args.${name}`}
         places={type === "place"}
-        value={(args[name] as Place | undefined) ?? null}
+        value={(ownEntry(args, name) as Place | undefined) ?? null}
         onChange={give}
       />
     );
@@ -80,7 +81,7 @@ function ArgumentField({ parameter }: { parameter: Parameter }) {
       field={`args.${name}`}
       wanted={type}
       unit={parameter.unit}
-      value={args[name] as Value}
+      value={ownEntry(args, name) as Value}
       onChange={give}
       placeholder={
         typeof parameter.default === "object" || parameter.default === undefined

@@ -4,6 +4,7 @@ import type { Place, Value } from "@/program/document/document";
 import { choices, DEFAULT_ROLE, methodOf, operable, operated, operatedRole } from "@/program/operation";
 import type { MethodParameter } from "@/program/surroundings";
 import { roleName } from "@/program/words/stepWords";
+import { ownEntry } from "@/design/ownEntry";
 import { useOpenProgram } from "../../state/context";
 import { ExpressionField } from "../expression/ExpressionField";
 import { FieldFrame } from "../fields/FieldFrame";
@@ -110,7 +111,7 @@ function ArgumentField({ parameter }: { parameter: MethodParameter }) {
       minimum={minimum}
       maximum={maximum}
       options={options}
-      value={args[name] ?? null}
+      value={ownEntry(args, name) ?? null}
       onChange={(value) => set("args", { ...args, [name]: value })}
     />
   );

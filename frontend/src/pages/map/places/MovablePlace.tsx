@@ -5,6 +5,7 @@ import { useChangePlace, type PlaceKind } from "@/api/places";
 import type { MapPlace, SiteMap } from "@/api/types";
 import { formatNumber } from "@/i18n/format";
 import { toPixels } from "@/map/plane/projection";
+import { ownEntry } from "@/design/ownEntry";
 import { movedByKey, useDraftPoint, useDragging } from "../../devices/movable";
 import { tellRefusal } from "@/shell/refusal";
 import styles from "./places.module.css";
@@ -32,7 +33,7 @@ export function MovablePlace({ slug, map, place, isSelected, onSelect }: Movable
   const { at, keep } = draft;
   const pixel = toPixels(at);
   const dragging = useDragging(draft);
-  const Icon = ICONS[place.kind as PlaceKind] ?? MapPin;
+  const Icon = ownEntry(ICONS, place.kind) ?? MapPin;
   return (
     <g
       transform={`translate(${pixel.x} ${pixel.y})`}
