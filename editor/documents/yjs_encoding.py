@@ -16,7 +16,10 @@ class BadFrame(ValueError):
 
 
 class FrameTooLarge(BadFrame):
-    """The frame is well-formed so far, and larger than is taken."""
+    """The frame is well-formed so far, and a part of it has more bytes, or clients, than are taken."""
+
+    def __init__(self, part: str, has: int, most: int, unit: str = "bytes") -> None:
+        super().__init__(f"{part} has {has} {unit}; {most} is the most. Send less at once.")
 
 
 class Reader:
@@ -78,13 +81,13 @@ class Reader:
                 return
         raise BadFrame("A number in the message is longer than 53 bits.")
 
-    def sized(self, limit: int) -> bytes:
-        """Read a length and that many bytes."""
+    def sized(self, limit: int, part: str = "A part of the message") -> bytes:
+        """Read a length and that many bytes; `part` is what they are called if they are more than `limit`."""
         length = self.integer()
         if self._at + length > len(self._data):
             raise BadFrame("The message ends before it should.")
         if length > limit:
-            raise FrameTooLarge(f"A part of the message has {length} bytes; {limit} are taken.")
+            raise FrameTooLarge(part, length, limit)
         self._at += length
         return self._data[self._at - length : self._at]
 
@@ -104,7 +107,7 @@ def decode_state_vector(data: bytes, most_clients: int | None = None) -> dict[in
     reader = Reader(data)
     count = reader.integer()
     if most_clients is not None and count > most_clients:
-        raise FrameTooLarge(f"The state vector has {count} clients; {most_clients} are taken.")
+        raise FrameTooLarge("The state vector", count, most_clients, "clients")
     if count > len(data):
         raise BadFrame("The state vector is shorter than it says.")
     clocks = {}

@@ -32,8 +32,7 @@ from editor.programs.programs import get_compiled, get_program
 from editor.programs.scripts import draw_script
 from editor.rooms.hub import tell_rooms
 from editor.rooms.ledger import encode_change, encode_stored
-from editor.rooms.receiver import MOST_DOCUMENT_BYTES, MOST_STEPS
-from editor.rooms.refusals import PROGRAM_FULL
+from editor.rooms.receiver import MOST_DOCUMENT_BYTES, MOST_STEPS, PROGRAM_FULL
 from editor.rooms.stream import Note, StreamLost
 
 STORED_WITHIN_S = 4.0

@@ -19,11 +19,15 @@ from editor.rooms.broadcast import Broadcast, post_form
 from editor.rooms.compiled_form import CompiledForm
 from editor.rooms.ledger import Ledger, encode_change
 from editor.rooms.member import KIB, MIB, Close, Member
-from editor.rooms.refusals import INTERRUPTED, PROGRAM_FULL, TOO_MANY_PAGES
+from editor.rooms.refusals import INTERRUPTED, TOO_MANY_PAGES
 from editor.rooms.stream import Note
 
 MOST_DOCUMENT_BYTES = 8 * MIB
 MOST_STEPS = 5000
+PROGRAM_FULL = (
+    f"The program is full: it may have {MOST_DOCUMENT_BYTES // MIB} MiB and {MOST_STEPS:,} steps. "
+    "Remove steps, or make a second program of a part."
+)
 COST_OF_A_HOLE = 50
 """A message that builds on what is not known may have a client send all that it has."""
 SHARE_OF_CUTTING = 0.25

@@ -96,13 +96,13 @@ Message = QuerySaved | SyncStep1 | SyncStep2 | Update | Awareness | QueryAwarene
 def decode_frame(data: bytes) -> Message:
     """Decode a client's frame. Raises BadFrame, and FrameTooLarge for what is merely too large."""
     if len(data) > MOST_FRAME_BYTES:
-        raise FrameTooLarge(f"The message has {len(data)} bytes; {MOST_FRAME_BYTES} are taken.")
+        raise FrameTooLarge("The message", len(data), MOST_FRAME_BYTES)
     reader = Reader(data)
     kind = reader.integer()
     if kind == SYNC:
         message = _decode_sync(reader)
     elif kind == AWARENESS:
-        message = decode_awareness(reader.sized(MOST_AWARENESS_FRAME_BYTES))
+        message = decode_awareness(reader.sized(MOST_AWARENESS_FRAME_BYTES, "What is said of who is here"))
     elif kind == QUERY_AWARENESS:
         message = QueryAwareness()
     elif kind == SAVED:
@@ -118,13 +118,13 @@ def decode_frame(data: bytes) -> Message:
 def _decode_sync(reader: Reader) -> Message:
     kind = reader.integer()
     if kind == STEP_1:
-        state = reader.sized(MOST_STATE_VECTOR_BYTES)
+        state = reader.sized(MOST_STATE_VECTOR_BYTES, "The state vector")
         decode_state_vector(state, MOST_STATE_VECTOR_CLIENTS)
         return SyncStep1(state)
     if kind == STEP_2:
-        return SyncStep2(reader.sized(MOST_FRAME_BYTES))
+        return SyncStep2(reader.sized(MOST_FRAME_BYTES, "The answer to sync step 1"))
     if kind == UPDATE:
-        return Update(reader.sized(MOST_UPDATE_BYTES))
+        return Update(reader.sized(MOST_UPDATE_BYTES, "The update"))
     raise BadFrame(f"There is no sync message of type {kind}.")
 
 
@@ -140,7 +140,11 @@ def decode_awareness(data: bytes) -> Awareness:
 
 
 def _decode_entry(reader: Reader) -> AwarenessEntry:
-    client, clock, raw = reader.integer(), reader.integer(), reader.sized(MOST_AWARENESS_BYTES * 16)
+    client, clock, raw = (
+        reader.integer(),
+        reader.integer(),
+        reader.sized(MOST_AWARENESS_BYTES * 16, "What a client shows"),
+    )
     try:
         state = json.loads(raw.decode(), parse_constant=_refuse_constant)
     except (ValueError, RecursionError) as error:

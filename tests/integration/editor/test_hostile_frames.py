@@ -17,6 +17,7 @@ from editor.documents.yjs_encoding import encode_integer
 from editor.programs.compiled_patch import apply_patch
 from editor.rooms import yjs_protocol
 from tests.kit.web import Web
+from tests.kit.yjs_frames import read_frame, read_update
 
 
 def join(web: Web, person: str | None = "author", program: str | None = None) -> connect:
@@ -99,7 +100,7 @@ async def test_noise_instead_of_a_change_harms_nobody(web: Web) -> None:
         await good.send(yjs_protocol.encode_update(step("later")))
         await good.send(yjs_protocol.encode_step_1(b"\x00"))
         answer = await read_until(good, b"\x00\x01")
-    steps = SharedDocument([yjs_protocol.decode_frame(answer).update]).to_json()["steps"]  # type: ignore[union-attr]
+    steps = SharedDocument([read_update(answer)]).to_json()["steps"]
     assert {"kept", "later"} <= set(steps)
 
 
@@ -110,7 +111,7 @@ async def test_changes_that_never_follow_a_step_2_are_held_and_then_refused(web:
             await socket.send(yjs_protocol.encode_update(step(f"s{number}")))
         await socket.send(yjs_protocol.encode_step_1(b"\x00"))
         answer = await read_until(socket, b"\x00\x01")
-        assert SharedDocument([yjs_protocol.decode_frame(answer).update]).to_json()["steps"] == {}  # type: ignore[union-attr]
+        assert SharedDocument([read_update(answer)]).to_json()["steps"] == {}
         closing = asyncio.create_task(code_of_close(socket))
         with suppress(ConnectionClosed):
             for number in range(600):
@@ -163,11 +164,11 @@ async def test_nobody_speaks_for_another_client(web: Web) -> None:
         await read_until(bad, b"\x01")
         await bad.send(yjs_protocol.encode_awareness([yjs_protocol.AwarenessEntry(7, 99, None)]))
         await bad.send(yjs_protocol.encode_awareness([yjs_protocol.AwarenessEntry(8, 1, {"user": {"name": "Root"}})]))
-        seen = yjs_protocol.decode_frame(await read_until(good, b"\x01"))
+        seen = read_frame(await read_until(good, b"\x01"))
         await bad.send(b"\x03")
         clocks: dict[int, int] = {}
         while 8 not in clocks:  # the good client's own frame may still be on its way to the bad one
-            everybody = yjs_protocol.decode_frame(await read_until(bad, b"\x01"))
+            everybody = read_frame(await read_until(bad, b"\x01"))
             assert isinstance(everybody, yjs_protocol.Awareness)
             clocks |= {e.client: e.clock for e in everybody.entries}
     assert isinstance(seen, yjs_protocol.Awareness)

@@ -14,6 +14,7 @@ from editor.rooms import yjs_protocol
 from editor.rooms.member import BYTES_PER_S
 from editor.rooms.room import MOST_OF_PERSON, MOST_READERS
 from tests.kit.web import Web, make_people
+from tests.kit.yjs_frames import read_frame
 
 EDITS, PER_S = 60, 20
 LATE, WRITERS, TEXTS, TEXT_BYTES = 5, 5, 20, 300_000
@@ -48,7 +49,7 @@ class Peer:
         assert isinstance(frame, bytes)
         self.read_bytes += len(frame)
         if frame[0] in (yjs_protocol.SYNC, yjs_protocol.AWARENESS):
-            message = yjs_protocol.decode_frame(frame)
+            message = read_frame(frame)
             if isinstance(message, yjs_protocol.SyncStep1):
                 await self.socket.send(yjs_protocol.encode_step_2(self.document.get_update(message.state)))
             elif isinstance(message, yjs_protocol.SyncStep2 | yjs_protocol.Update):

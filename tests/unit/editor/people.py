@@ -11,6 +11,7 @@ from editor.rooms import yjs_protocol
 from editor.rooms.member import Member, Person
 from editor.rooms.room import Room
 from editor.rooms.stream import Entry, Note
+from tests.kit.yjs_frames import read_frame
 
 
 def nobody() -> None:
@@ -52,7 +53,7 @@ class Client:
             frame = self.member.outbox.popleft()
             if frame[0] in (yjs_protocol.SAVED, yjs_protocol.REFUSAL):
                 continue
-            message = yjs_protocol.decode_frame(frame)
+            message = read_frame(frame)
             read.append(message)
             if isinstance(message, yjs_protocol.SyncStep1):
                 self.send(yjs_protocol.encode_step_2(self.document.get_update(message.state)))

@@ -73,6 +73,19 @@ def test_a_refusal_says_what_is_wrong(frame: bytes, why: str) -> None:
         yjs_protocol.decode_frame(frame)
 
 
+def test_what_is_too_large_is_named_with_what_may_be_sent() -> None:
+    state = bytes(yjs_protocol.MOST_STATE_VECTOR_BYTES + 1)
+    for frame, told in (
+        (
+            yjs_protocol.encode_step_1(state),
+            "The state vector has 524289 bytes; 524288 is the most. Send less at once.",
+        ),
+        (bytes(yjs_protocol.MOST_FRAME_BYTES + 1), "The message has 10485761 bytes; 10485760 is the most. "),
+    ):
+        with pytest.raises(yjs_encoding.FrameTooLarge, match=told):
+            yjs_protocol.decode_frame(frame)
+
+
 def test_deep_json_is_refused() -> None:
     deep = b"[" * 60_000
     body = b"\x01\x01\x01" + yjs_encoding.encode_integer(len(deep)) + deep

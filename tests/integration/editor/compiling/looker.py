@@ -18,6 +18,7 @@ from editor.programs.compiled_patch import apply_patch
 from editor.rooms import yjs_protocol
 from tests.kit.waiting import PATIENCE_S
 from tests.kit.web import Web
+from tests.kit.yjs_frames import read_frame
 
 AGAIN_AFTER_S = 0.3
 Json = dict[str, Any]
@@ -62,7 +63,7 @@ class Looker:
             self.form = apply_patch(self.form, told) if "base" in told else told
             self.frames.append(len(frame))
         elif frame[0] == yjs_protocol.SYNC:
-            message = yjs_protocol.decode_frame(frame)
+            message = read_frame(frame)
             if isinstance(message, yjs_protocol.Update | yjs_protocol.SyncStep2):
                 self.document.apply(message.update)
         async with self.news:
