@@ -110,6 +110,6 @@ function argumentOf(value: unknown, document: ProgramDocument, functionId: strin
     (step) => step.kind === "call" && step.params.function === functionId,
   );
   const args = (call?.params.args ?? {}) as Record<string, unknown>;
-  const parameter = document.functions[functionId]?.parameters.find((each) => each.name === name);
+  const parameter = ownEntry(document.functions, functionId)?.parameters.find((each) => each.name === name);
   return ownEntry(args, name) ?? parameter?.default ?? null;
 }

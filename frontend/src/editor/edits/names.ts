@@ -1,4 +1,5 @@
 /** A parameter under another name, with everything that reads or gives it. */
+import { ownEntry } from "@/design/ownEntry";
 import type { Edit } from "./edits";
 import { substituted } from "./substitution";
 import { ancestors } from "@/program/document/tree";
@@ -33,7 +34,8 @@ export function changeProgramParameter(document: ProgramDocument, id: string, ne
   const before = document.parameters[id];
   const change: Edit = { do: "set_parameter", id, value: next };
   if (!before || before.name === next.name) return [change];
-  const shadowed = (top: string) => document.functions[top]?.parameters.some((each) => each.name === before.name);
+  const shadowed = (top: string) =>
+    ownEntry(document.functions, top)?.parameters.some((each) => each.name === before.name);
   return [change, ...renameReads(document, before.name, next.name, (top) => !shadowed(top))];
 }
 

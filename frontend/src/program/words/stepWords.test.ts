@@ -57,6 +57,8 @@ test.each<[string, Step["params"], string]>([
     "Notify Painted count boxes",
   ],
   ["notify", { message: "A message that is longer than a chip" }, "Notify A message that is longer…"],
+  ["call", { function: "constructor" }, "?"],
+  ["cover", { zone: "constructor" }, "Cover constructor"],
   ["return", { value: 4 }, "Return 4"],
   ["return", {}, "Return"],
   ["break", {}, "Leave the loop"],

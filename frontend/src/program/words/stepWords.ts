@@ -101,7 +101,7 @@ function fieldPart(field: FieldRecord, step: Step, speaker: Speaker): TextPart |
 }
 
 function zoneName(id: string, { document }: Speaker): string | null {
-  return id ? textOf(document.zones[id]?.name) || id : null;
+  return id ? textOf(ownEntry(document.zones, id)?.name) || id : null;
 }
 
 function partOf(text: string | null): TextPart | null {
@@ -163,7 +163,7 @@ function shortened(text: string, longest = LONGEST): string {
 }
 
 function callText(step: Step, speaker: Speaker): TextPart[] {
-  const definition = speaker.document.functions[String(step.params.function)];
+  const definition = ownEntry(speaker.document.functions, String(step.params.function));
   if (!definition) return [MISSING];
   const result = step.params.result ? [plain(`${textOf(step.params.result)} =`)] : [];
   const args = (step.params.args ?? {}) as Record<string, Value | Place>;

@@ -28,7 +28,7 @@ export function placeName(place: Place | null | undefined, speaker: Speaker): st
 
 /** A robot of the program as people call it. */
 export function roleName(role: string, { document, t }: Speaker): string {
-  return document.roles[role]?.name ?? (role === DEFAULT_ROLE ? t("role.default") : role);
+  return ownEntry(document.roles, role)?.name ?? (role === DEFAULT_ROLE ? t("role.default") : role);
 }
 
 function deviceName(id: string, speaker: Speaker): string {
@@ -91,7 +91,7 @@ type Atom = Exclude<Extract<Value, object>, readonly Value[] | { readonly op: st
 function sayAtom(value: Atom, speaker: Speaker): string {
   if ("param" in value) return value.param;
   if ("quantity" in value) return withUnit(String(value.quantity[0]).replace("-", "−"), value.quantity[1]);
-  if ("zone" in value) return speaker.document.zones[value.zone]?.name ?? value.zone;
+  if ("zone" in value) return ownEntry(speaker.document.zones, value.zone)?.name ?? value.zone;
   if ("at" in value) return sayLocation(value.at, speaker);
   const [device, name] = value.property;
   if (typeof device === "object") return `${"role" in device ? roleName(device.role, speaker) : device.param} ${name}`;
@@ -99,7 +99,7 @@ function sayAtom(value: Atom, speaker: Speaker): string {
 }
 
 function sayLocation(at: Place | { readonly role: string }, speaker: Speaker): string {
-  if ("role" in at) return speaker.document.roles[at.role]?.name ?? speaker.t("role.default");
+  if ("role" in at) return ownEntry(speaker.document.roles, at.role)?.name ?? speaker.t("role.default");
   return placeName(at, speaker) ?? "?";
 }
 

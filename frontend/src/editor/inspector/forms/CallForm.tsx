@@ -15,7 +15,7 @@ export function CallForm() {
   const { t, document } = useOpenProgram();
   const { step } = useStepEditor();
   const functionId = textOf(step.params.function);
-  const definition = document.functions[functionId];
+  const definition = ownEntry(document.functions, functionId);
   return (
     <>
       <WhichFunction functionId={functionId} />
@@ -47,7 +47,7 @@ function WhichFunction({ functionId }: { functionId: string }) {
         <Select
           id={control}
           data={functions.map(([id, each]) => ({ value: id, label: each.name }))}
-          value={document.functions[functionId] ? functionId : null}
+          value={Object.hasOwn(document.functions, functionId) ? functionId : null}
           onChange={(next) => set("function", next)}
           placeholder={t("field.choose")}
           allowDeselect={false}
