@@ -16,8 +16,8 @@ from editor.documents.shared_document import SharedDocument, empty_document, enc
 from editor.documents.yjs_encoding import encode_integer
 from editor.programs.compiled_patch import apply_patch
 from editor.rooms import yjs_protocol
+from tests.kit.drawn.frames import read_frame, read_update
 from tests.kit.web import Web
-from tests.kit.yjs_frames import read_frame, read_update
 
 
 def join(web: Web, person: str | None = "author", program: str | None = None) -> connect:

@@ -13,8 +13,8 @@ from websockets.asyncio.client import ClientConnection, connect
 from editor.rooms import yjs_protocol
 from editor.rooms.member import BYTES_PER_S
 from editor.rooms.room import MOST_OF_PERSON, MOST_READERS
+from tests.kit.drawn.frames import read_frame
 from tests.kit.web import Web, make_people
-from tests.kit.yjs_frames import read_frame
 
 EDITS, PER_S = 60, 20
 LATE, WRITERS, TEXTS, TEXT_BYTES = 5, 5, 20, 300_000

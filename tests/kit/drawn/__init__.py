@@ -1,1 +1,1 @@
-"""Documents that are edited by chance, and what restoring does to them."""
+"""Documents that are edited by chance, what restoring does to them, and how a client hears of what others draw."""

@@ -11,7 +11,7 @@ from editor.rooms import yjs_protocol
 from editor.rooms.member import Member, Person
 from editor.rooms.room import Room
 from editor.rooms.stream import Entry, Note
-from tests.kit.yjs_frames import read_frame
+from tests.kit.drawn.frames import read_frame
 
 
 def nobody() -> None:

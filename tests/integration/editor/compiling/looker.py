@@ -16,9 +16,9 @@ from editor.documents.shared_document import SharedDocument, empty_document, enc
 from editor.documents.yjs_encoding import encode_integer
 from editor.programs.compiled_patch import apply_patch
 from editor.rooms import yjs_protocol
+from tests.kit.drawn.frames import read_frame
 from tests.kit.waiting import PATIENCE_S
 from tests.kit.web import Web
-from tests.kit.yjs_frames import read_frame
 
 AGAIN_AFTER_S = 0.3
 Json = dict[str, Any]
