@@ -78,14 +78,19 @@ def _list_away() -> Iterator[tuple[str, datetime]]:
 def _find_away(
     away: Mapping[str, datetime], there: Mapping[Key, _Open], now: datetime, since: datetime, at_work: Collection[str]
 ) -> Causes:
-    """Who left during work stays so until it is back; nobody has two alerts for one absence."""
+    """Who left during work stays so until it is back; nobody has two alerts for one absence.
+
+    An absence counts from when the device was heard last, also where another process watched then or none did; whom
+    VIPO itself had lost has `START_GRACE` to be heard again.
+    """
     limit = timedelta(seconds=settings.VIPO_OFFLINE_ALERT_S)
+    has_watched = now - since >= START_GRACE
     found: Causes = {}
     for device, seen in away.items():
-        is_settled = now - since >= START_GRACE and now - seen >= BLIP
-        if (device, AT_WORK) in there or (device in at_work and is_settled):
+        absence = now - seen
+        if (device, AT_WORK) in there or (has_watched and device in at_work and absence >= BLIP):
             found[device, AT_WORK] = {}
-        elif (device, OFFLINE) in there or now - max(seen, since) >= limit:
+        elif (device, OFFLINE) in there or (has_watched and absence >= limit):
             found[device, OFFLINE] = {}
     return found
 

@@ -75,6 +75,30 @@ def test_a_long_absence_is_a_warning_and_not_what_the_server_itself_has_lost(mix
     assert alerts() == []
 
 
+def test_a_start_of_the_watch_does_not_begin_an_absence_anew(mixer: str, settings: Any) -> None:
+    settings.VIPO_OFFLINE_ALERT_S = 3600
+    come(online=False)
+    watch(3599, since=NOW + timedelta(seconds=1800))
+    assert alerts() == []
+    watch(3600, since=NOW + timedelta(seconds=1800))
+    assert alerts() == [("offline", "", 1)]
+
+
+def test_right_after_a_start_no_absence_is_told_however_long_it_was(mixer: str, settings: Any) -> None:
+    settings.VIPO_OFFLINE_ALERT_S = 600
+    come(online=False)
+    watch(7259, since=NOW + timedelta(seconds=7200))
+    assert alerts() == []
+    come(boot=2, at=NOW + timedelta(seconds=7259))
+    watch(7260, since=NOW + timedelta(seconds=7200))
+    assert alerts() == []
+    come(boot=2, online=False, at=NOW + timedelta(seconds=7261))
+    watch(7262, since=NOW + timedelta(seconds=7200))
+    assert alerts() == []
+    watch(7861, since=NOW + timedelta(seconds=7200))
+    assert alerts() == [("offline", "", 1)]
+
+
 def test_what_a_device_says_is_an_alert_with_its_words(mixer: str, heard: list[Any]) -> None:
     say(props={"error": "Belt torn", "battery": 12})
     watch(1)

@@ -92,6 +92,16 @@ def test_a_limit_that_env_example_shows_is_that_of_the_settings(name: str) -> No
     assert shown == ("2" if name == "VIPO_REHEARSALS_AT_ONCE" else default)
 
 
+def test_the_absence_that_is_worth_an_alert_is_said_everywhere_as_it_holds() -> None:
+    """The table of time limits is held by test_time_limits.py."""
+    source, pages = (ROOT / "vipo_site" / "settings.py").read_text(), ROOT / "docs"
+    (default,) = re.findall(r'environ\.get\("VIPO_OFFLINE_ALERT_S", "(\d+)"\)', source)
+    assert dict(USED.findall(COMPOSE))["VIPO_OFFLINE_ALERT_S"] == default
+    assert {name: value for _, name, value in NAMED.findall(EXAMPLE)}["VIPO_OFFLINE_ALERT_S"] == default
+    assert f"| `VIPO_OFFLINE_ALERT_S` | `{default}` |" in (pages / "operations.md").read_text()
+    assert f"`VIPO_OFFLINE_ALERT_S` ({int(default) // 60} min)" in (pages / "api.md").read_text()
+
+
 @pytest.mark.parametrize("name", sorted(SERVICES))
 def test_a_service_names_only_what_is_there_and_is_closed(name: str) -> None:
     service = SERVICES[name]
