@@ -65,7 +65,8 @@ export const keys = {
   peopleToMention: (id: string) => ["people-to-mention", id] as const,
   comparison: (id: string) => ["comparison", id] as const,
   reviews: ["review"] as const,
-  reviewRule: (slug: string) => ["review-rule", slug] as const,
+  /** What a site has set, by its address below the site, such as `review-rule`. */
+  setting: (slug: string, address: string) => [address, slug] as const,
   rehearsals: (slug: string) => ["rehearsals", slug] as const,
 };
 

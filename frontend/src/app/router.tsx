@@ -5,6 +5,7 @@
 import type { ComponentType } from "react";
 import { createBrowserRouter, type RouteObject } from "react-router-dom";
 import { loadScreenTexts } from "@/i18n";
+import { SETTINGS_PAGES } from "@/pages/settings/settingsPages";
 import { RequireUser } from "./RequireUser";
 import { RouteProblem } from "./RouteProblem";
 
@@ -34,11 +35,8 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/map", "pages/map/MapPage"],
   ["/sites/:slug/map/new", "pages/site/NewMapPage"],
   ["/sites/:slug/map/edit", "pages/mapEdit/MapEditPage"],
-  ["/sites/:slug/people", "pages/settings/PeoplePage"],
-  ["/sites/:slug/tokens", "pages/tokens/TokensPage"],
   ["/sites/:slug/operations", "pages/operations/OperationsPage"],
-  ["/sites/:slug/retention", "pages/retention/RetentionPage"],
-  ["/sites/:slug/review", "pages/review/ReviewRulePage"],
+  ...SETTINGS_PAGES.map(({ path, file }): [string, string] => [`/sites/:slug/${path}`, file]),
   ["/programs/:id", EDITOR],
   ["/programs/:id/compare", "compare/CompareScreen"],
   ["/sites/:slug/history/:id", "pages/history/HistoryPage"],

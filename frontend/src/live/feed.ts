@@ -104,7 +104,7 @@ export class SiteFeed {
       case "tests":
         return this.#caches.refresh(keys.tests(message.program));
       case "review":
-        this.#caches.refresh(keys.reviewRule(this.slug));
+        this.#caches.refresh(keys.setting(this.slug, "review-rule"));
         return this.#caches.refresh(keys.reviews);
       case "role":
         notifications.show({

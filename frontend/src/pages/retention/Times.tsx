@@ -1,13 +1,13 @@
 /** For how many days a site keeps each kind, with fields to choose others. */
-import { Button, TextInput } from "@mantine/core";
-import { notifications } from "@mantine/notifications";
-import { type FormEvent, useState } from "react";
+import { TextInput } from "@mantine/core";
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import type { Retention } from "@/api/types";
-import { Panel } from "@/design/Panel";
-import { problemText } from "@/shell/LoadProblem";
-import { readDays, useSetKeeping } from "./retention";
-import styles from "./retention.module.css";
+import type { Retention, SetKeeping } from "@/api/types";
+import { formatNumber } from "@/i18n/format";
+import { MOST_DAYS } from "../settings/bounds";
+import { SettingForm } from "../settings/SettingForm";
+import { useSetSetting } from "../settings/siteSetting";
+import { PATH, readDays } from "./retention";
 
 type Kind = Retention["keeping"][number]["kind"];
 type Typed = Record<Kind, string>;
@@ -20,45 +20,34 @@ function typedOf(retention: Retention): Typed {
 
 export function Times({ slug, retention }: { slug: string; retention: Retention }) {
   const { t } = useTranslation();
-  const save = useSetKeeping(slug);
+  const save = useSetSetting<Retention, SetKeeping>({ slug, path: PATH, saved: t("retention.saved") });
   const [typed, setTyped] = useState(() => typedOf(retention));
   const daysOf = (days: number) => (days === 0 ? t("retention.forEver") : t("retention.daysOf", { count: days }));
-  const isWrong = Object.values(typed).some((each) => readDays(each) === undefined);
-  const onSubmit = (event: FormEvent) => {
-    event.preventDefault();
-    const [runs, rehearsals, calls] = [typed.runs, typed.rehearsals, typed.calls].map(readDays);
-    if (runs === undefined || rehearsals === undefined || calls === undefined) return;
-    save.mutate(
-      { runs, rehearsals, calls },
-      {
-        onSuccess: () => notifications.show({ message: t("retention.saved") }),
-        onError: (error) =>
-          notifications.show({ color: "red", message: problemText(error, t("shell.problem.screen")) }),
-      },
-    );
-  };
+  const [runs, rehearsals, calls] = [typed.runs, typed.rehearsals, typed.calls].map(readDays);
+  const chosen =
+    runs === undefined || rehearsals === undefined || calls === undefined ? null : { runs, rehearsals, calls };
+  const wrong = t("retention.wrong", { most: formatNumber(MOST_DAYS) });
   return (
-    <Panel className={styles.times} aria-label={t("retention.times")}>
-      <h2>{t("retention.times")}</h2>
-      <p>{t("retention.intro")}</p>
-      <form onSubmit={onSubmit} className={styles.fields}>
-        {retention.keeping.map(({ kind, server }) => (
-          <TextInput
-            key={kind}
-            label={`${t(`retention.kind.${kind}`)}: ${t("retention.days")}`}
-            description={t("retention.server", { days: daysOf(server) })}
-            placeholder={String(server)}
-            inputMode="numeric"
-            value={typed[kind]}
-            error={readDays(typed[kind]) === undefined ? t("retention.wrong") : null}
-            onChange={(event) => setTyped({ ...typed, [kind]: event.currentTarget.value })}
-          />
-        ))}
-        <Button type="submit" className={styles.save} loading={save.isPending} disabled={isWrong}>
-          {t("retention.save")}
-        </Button>
-      </form>
-      <p>{t("retention.asServer")}</p>
-    </Panel>
+    <SettingForm
+      heading={t("retention.times")}
+      intro={t("retention.intro")}
+      foot={t("retention.asServer")}
+      isSaving={save.isPending}
+      isWrong={!chosen}
+      onSave={() => chosen && save.mutate(chosen)}
+    >
+      {retention.keeping.map(({ kind, server }) => (
+        <TextInput
+          key={kind}
+          label={`${t(`retention.kind.${kind}`)}: ${t("retention.days")}`}
+          description={t("retention.server", { days: daysOf(server) })}
+          placeholder={String(server)}
+          inputMode="numeric"
+          value={typed[kind]}
+          error={readDays(typed[kind]) === undefined ? wrong : null}
+          onChange={(event) => setTyped({ ...typed, [kind]: event.currentTarget.value })}
+        />
+      ))}
+    </SettingForm>
   );
 }

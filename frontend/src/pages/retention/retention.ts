@@ -1,27 +1,8 @@
-/** What a site keeps for how long: read, chosen, and the fields in which people choose it. */
-import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
-import { api } from "@/api/client";
-import type { Retention, SetKeeping } from "@/api/types";
+/** For how many days a site keeps what has ended: where it is set, and the fields in which people choose it. */
+import { MOST_DAYS } from "../settings/bounds";
 
-const keyOf = (slug: string) => ["retention", slug] as const;
-const pathOf = (slug: string) => `/sites/${encodeURIComponent(slug)}/retention`;
-/** A hundred years. */
-const MOST_DAYS = 36_500;
-
-export const useRetention = (slug: string | undefined) =>
-  useQuery({
-    queryKey: keyOf(slug ?? ""),
-    queryFn: () => api.get<Retention>(pathOf(slug ?? "")),
-    enabled: slug !== undefined,
-  });
-
-export function useSetKeeping(slug: string) {
-  const queries = useQueryClient();
-  return useMutation({
-    mutationFn: (chosen: SetKeeping) => api.put<Retention>(pathOf(slug), chosen),
-    onSuccess: (retention) => queries.setQueryData(keyOf(slug), retention),
-  });
-}
+/** Where the site's API has it. */
+export const PATH = "retention";
 
 /** Days as they were typed: null for an empty field, undefined for what is no whole number of days. */
 export function readDays(typed: string): number | null | undefined {

@@ -2,14 +2,12 @@
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
-import type { AskedReview, Review, ReviewRule } from "@/api/types";
+import type { AskedReview, Review } from "@/api/types";
 import type { Fact } from "@/design/FactList";
 
 export type Verdict = "approved" | "changes" | "withdrawn";
-export type LeastRole = ReviewRule["least_role"];
 
 const pathOf = (program: string) => `/programs/${encodeURIComponent(program)}/review`;
-const rulePath = (slug: string) => `/sites/${encodeURIComponent(slug)}/review-rule`;
 
 /** The review of a version, or of what is drawn now (null); undefined asks for nothing. */
 export const useReview = (program: string, version: number | null | undefined) =>
@@ -49,20 +47,6 @@ export function useVerdict(program: string, version: number) {
   return useMutation({
     mutationFn: (said: { verdict: Verdict; note: string }) => api.post<Review>(pathOf(program), { version, ...said }),
     onSuccess: () => queries.invalidateQueries({ queryKey: keys.reviews }),
-  });
-}
-
-export const useReviewRule = (slug: string) =>
-  useQuery({ queryKey: keys.reviewRule(slug), queryFn: () => api.get<ReviewRule>(rulePath(slug)) });
-
-export function useSetReviewRule(slug: string) {
-  const queries = useQueryClient();
-  return useMutation({
-    mutationFn: (rule: ReviewRule) => api.put<ReviewRule>(rulePath(slug), rule),
-    onSuccess: (rule) => {
-      queries.setQueryData(keys.reviewRule(slug), rule);
-      return queries.invalidateQueries({ queryKey: keys.reviews });
-    },
   });
 }
 
