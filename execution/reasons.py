@@ -1,7 +1,8 @@
 """Why runs and calls end, wait for people or fail: which sentence it is, for screens in other languages; pure.
 
 Reasons go through the machine, the floor and the database as English sentences, beside the words of devices, which are
-kept as they are. Each of VIPO's own has a code and a pattern here, and is taken apart by it, in old rows, too.
+kept as they are. Each of VIPO's own has a code and a pattern here, and is taken apart by it, in old rows, too. It ends
+with a full stop; those that say why a run was paused or cancelled stand behind a colon and have none.
 """
 
 from __future__ import annotations

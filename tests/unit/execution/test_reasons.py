@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from datetime import UTC, datetime
 
 import pytest
@@ -16,18 +16,19 @@ from execution.views import view_event
 from tests.kit.files import ROOT
 
 SOURCES = sorted((ROOT / "execution").rglob("*.py"))
-GIVERS = {"Failure", "Wake", "EvaluationError", "NoReading", "NoSuchSpot", "finish", "_give_up"}
+ASKERS = {"CancelAsked", "PauseAsked"}
+GIVERS = ASKERS | {"Failure", "Wake", "EvaluationError", "NoReading", "NoSuchSpot", "finish", "_give_up"}
 OTHERS = {"rehearsal.py"}
 """Rehearsals give up with errors that have codes of their own."""
 
 
-def given_reasons() -> Iterator[str]:
-    """Give the sentences with which the code gives reasons, with `7` for what it fills in."""
+def given_reasons(givers: Collection[str]) -> Iterator[str]:
+    """Give the sentences with which the code gives reasons to some of these, with `7` for what it fills in."""
     for path in SOURCES:
         calls = [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Call)]
         for call in calls if path.name not in OTHERS else []:
             name = getattr(call.func, "id", getattr(call.func, "attr", ""))
-            for text in map(sentence_of, call.args if name in GIVERS else []):
+            for text in map(sentence_of, call.args if name in givers else []):
                 if " " in text:
                     yield text
 
@@ -38,15 +39,53 @@ def is_foreign(reason: str) -> bool:
 
 
 def sentence_of(node: ast.expr) -> str:
-    if isinstance(node, ast.JoinedStr):
-        return "".join(str(part.value) if isinstance(part, ast.Constant) else "7" for part in node.values)
-    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, str) else ""
+    """Return a text as it is written, `SENTENCES["…"]` or `SENTENCES["…"].format(…)`; empty for anything else."""
+    match node:
+        case ast.Constant(value=str(text)):
+            return text
+        case ast.JoinedStr(values=parts):
+            return "".join(str(part.value) if isinstance(part, ast.Constant) else "7" for part in parts)
+        case ast.Subscript(value=ast.Name(id="SENTENCES"), slice=ast.Constant(value=str(code))):
+            return filled(SENTENCES[code])
+        case ast.Call(func=ast.Attribute(value=inner, attr="format")):
+            return sentence_of(inner)
+    return ""
+
+
+def filled(sentence: str) -> str:
+    return re.sub(r"\{\w+\}", "7", sentence)
+
+
+def test_reasons_are_seen_in_each_way_in_which_the_code_writes_them() -> None:
+    written = (
+        '"Nobody came."',
+        'f"{by} paused it"',
+        'SENTENCES["approval_gone"]',
+        'SENTENCES["set_aside"].format(error=why)',
+        "reason",
+    )
+    assert [sentence_of(ast.parse(code, mode="eval").body) for code in written] == [
+        "Nobody came.",
+        "7 paused it",
+        SENTENCES["approval_gone"],
+        filled(SENTENCES["set_aside"]),
+        "",
+    ]
 
 
 def test_every_reason_in_the_code_has_a_code() -> None:
-    reasons = list(given_reasons())
+    reasons = list(given_reasons(GIVERS))
     assert len(reasons) > 35
     assert [reason for reason in reasons if is_foreign(reason)] == []
+
+
+def test_a_reason_is_a_sentence_with_a_full_stop_unless_it_says_why_a_run_was_paused_or_cancelled() -> None:
+    """Those stand behind a colon: “The run is paused: Ada paused it”. What ends with others' words has their end."""
+    behind_colon = set(given_reasons(ASKERS))
+    assert len(behind_colon) == 5
+    assert {filled(text) for text in SENTENCES.values() if not re.search(r"[.}]$", text)} == {
+        text for text in behind_colon if not text.endswith("7")
+    }
 
 
 @pytest.mark.parametrize("code", SENTENCES)
