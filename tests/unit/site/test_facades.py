@@ -3,6 +3,7 @@
 import importlib
 import inspect
 import re
+import tomllib
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
@@ -84,6 +85,23 @@ def test_no_app_gets_past_the_borders_by_a_models_name() -> None:
         path for package in PACKAGES for path in (ROOT / package).rglob("*.py") if path.parent.name != "migrations"
     ]
     assert [str(path.relative_to(ROOT)) for path in sources if asks in path.read_text()] == []
+
+
+def protected_routes() -> re.Pattern[str]:
+    """Return what the modules are called that only the site and the routes of an app may import."""
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"]["contracts"]
+    (found,) = (each for each in contracts if each["name"] == "The site alone mounts routers and sockets")
+    of_any = {r"\*\*": r"[\w.]+", r"\*": r"\w+"}
+    names = (re.sub(r"\\\*(?:\\\*)?", lambda star: of_any[star[0]], re.escape(n)) for n in found["protected_modules"])
+    return re.compile(rf"(?:{'|'.join(names)})(?:\.[\w.]+)?")
+
+
+def test_each_module_of_routes_is_kept_from_other_apps_by_the_contracts() -> None:
+    sources = [path for app in APPS for path in (ROOT / app).rglob("*.py") if "Router(" in path.read_text()]
+    modules = [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in sources]
+    assert len(modules) > 30
+    assert [module for module in modules if not protected_routes().fullmatch(module)] == []
+    assert not protected_routes().fullmatch("execution.floor.new_routes")
 
 
 def crowded(modules: Iterable[Path]) -> dict[str, int]:
