@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 
 from django.conf import settings
+from django.db import transaction
 
 from execution.errors import BadKeeping
 from execution.models import Keeping
@@ -51,6 +52,8 @@ def get_keeping(*, site: str) -> KeepingView:
 def set_keeping(*, site: str, chosen: dict[str, int | None]) -> KeepingView:
     """Choose for how many days a site keeps each kind: 0 for ever, None as the server's settings say.
 
+    A choice that is another than before is in the record, with the times that hold from then on.
+
     Raises:
         BadKeeping: a number of days that is below 0 or beyond a hundred years.
     """
@@ -58,8 +61,13 @@ def set_keeping(*, site: str, chosen: dict[str, int | None]) -> KeepingView:
         if days is not None and not 0 <= days <= MOST_DAYS:
             raise BadKeeping(f"Choose 1 to {MOST_DAYS} days, or 0 to keep everything for ever.")
     columns = {f"{kind}_days": chosen[kind] for kind in KINDS if kind in chosen}
-    Keeping.objects.update_or_create(site_id=registry.get_site_id(site=site), defaults=columns)
-    return get_keeping(site=site)
+    with transaction.atomic():
+        site_id = registry.get_site_id(site=site)
+        row, _ = Keeping.objects.select_for_update().get_or_create(site_id=site_id)
+        if any(getattr(row, column) != days for column, days in columns.items()):
+            Keeping.objects.filter(pk=row.pk).update(**columns)
+            registry.note_act(site_id=site_id, code="keeping_set", facts=get_keeping(site=site).days)
+        return get_keeping(site=site)
 
 
 def count_in_trouble() -> int:

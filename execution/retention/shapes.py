@@ -7,9 +7,10 @@ from typing import Annotated, Literal
 from ninja import Field, Schema
 from pydantic import Strict
 
+from execution.retention.periods import MOST_DAYS
 from registry.requests import Asked
 
-Days = Annotated[int, Strict(), Field(ge=0, le=36_500)]
+Days = Annotated[int, Strict(), Field(ge=0, le=MOST_DAYS)]
 Kind = Literal["runs", "rehearsals", "calls"]
 
 

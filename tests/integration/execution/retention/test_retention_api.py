@@ -20,7 +20,7 @@ from tests.integration.execution.retention.histories import (
     make_rehearsal,
     make_run,
 )
-from tests.kit.sign_in import signed_in
+from tests.kit.sign_in import find_person, signed_in
 
 pytestmark = [pytest.mark.django_db(transaction=True), pytest.mark.usefixtures("hall", "folder")]
 ADDRESS = "/api/sites/hall/retention"
@@ -70,6 +70,18 @@ def test_an_admin_chooses_times_and_nobody_chooses_nonsense() -> None:
         answer = admin.put(ADDRESS, chosen | wrong, content_type="application/json")
         assert answer.status_code == 422, wrong
     assert Keeping.objects.values_list("runs_days", "rehearsals_days", "calls_days").get() == (90, None, 0)
+
+
+def test_a_choice_of_times_is_in_the_record_once_and_a_refused_one_is_not() -> None:
+    admin = signed_in("admin")
+    chosen = {"runs": 90, "rehearsals": None, "calls": 0}
+    for each in (chosen, chosen, chosen | {"runs": -1}, {"runs": None, "rehearsals": None, "calls": None}):
+        admin.put(ADDRESS, each, content_type="application/json")
+    lines = admin.get("/api/sites/hall/audit?kind=runs").json()
+    assert [(line["code"], line["actor"], line["facts"]) for line in lines] == [
+        ("keeping_set", find_person("admin").display_name, {"runs": 30, "rehearsals": 10, "calls": 30}),
+        ("keeping_set", find_person("admin").display_name, {"runs": 90, "rehearsals": 10, "calls": 0}),
+    ]
 
 
 def test_what_keeps_the_archive_from_growing_is_told_admins_alone() -> None:
