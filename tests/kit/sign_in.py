@@ -46,7 +46,7 @@ def signed_in(name: str, **options: Any) -> Client:
     return client
 
 
-def sign_in_member(role: str, site: str) -> Client:
+def join_and_sign_in(role: str, site: str) -> Client:
     """Make a person of this role at the site, a `stranger` of none, and return their browser."""
     add_person(role, site if role in ROLES else "")
     return signed_in(role)

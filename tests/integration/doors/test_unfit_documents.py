@@ -11,7 +11,7 @@ from editor import services as editor
 from execution.models import Run
 from tests.integration.execution.conftest import factory as factory
 from tests.kit.programs import SITE, TASK, document, step
-from tests.kit.sign_in import sign_in_member
+from tests.kit.sign_in import join_and_sign_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -22,7 +22,7 @@ def test_a_program_with_unfit_texts_is_listed_kept_as_a_version_and_run(factory:
     note = step("comment", order="0V", text=f"a comment{unfit}")
     drawn = document({**TASK["steps"], "said": said, "note": note})
     program = str(editor.create_program(site=SITE, name="Task", document=drawn).id)
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     assert client.get(f"/api/sites/{SITE}/programs").status_code == 200
     answer = client.post(f"/api/programs/{program}/runs", json.dumps({}), content_type="application/json")
     assert answer.status_code == 202, answer.json()

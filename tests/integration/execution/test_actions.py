@@ -15,7 +15,7 @@ from execution.models import Command
 from registry import services as registry
 from registry.models import Device
 from tests.kit.programs import SITE
-from tests.kit.sign_in import EVERYBODY, ROLES, find_person, from_role, post_json, sign_in_member
+from tests.kit.sign_in import EVERYBODY, ROLES, find_person, from_role, join_and_sign_in, post_json
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -30,7 +30,7 @@ def impatient(monkeypatch):
 
 def program(*scopes):
     """Return a client with a token of the operator's, and no cookie."""
-    sign_in_member("operator", SITE)
+    join_and_sign_in("operator", SITE)
     now = datetime.now(UTC)
     _, text = registry.create_token(
         user=find_person("operator"), site=SITE, name="A program", scopes=scopes, days=1, now=now
@@ -117,7 +117,7 @@ def test_arguments_that_do_not_fit_are_refused_before_anything_moves(factory, bo
 
 @pytest.mark.parametrize("role", EVERYBODY)
 def test_operators_and_above_may_invoke_and_members_may_ask(factory, role):
-    client = sign_in_member(role, SITE)
+    client = join_and_sign_in(role, SITE)
     allowed = role in from_role("operator")
     refused = 202 if allowed else {"stranger": 404, "nobody": 401}.get(role, 403)
     assert post_json(client, MIX, {"time": 2}).status_code == refused

@@ -12,7 +12,7 @@ from editor.documents.store import Change, append_changes
 from execution import services
 from execution.models import Rehearsal, Run
 from tests.kit.programs import SITE, TASK
-from tests.kit.sign_in import ROLES, below_role, post_json, sign_in_member
+from tests.kit.sign_in import ROLES, below_role, join_and_sign_in, post_json
 from tests.kit.sites import NOW
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -53,8 +53,8 @@ def all_calls(program, run, rehearsal):
 
 @pytest.mark.parametrize("role", ["stranger", *ROLES])
 def test_each_call_is_open_to_its_role_and_above(program, role):
-    operator = sign_in_member("operator", SITE) if role != "operator" else None
-    client = sign_in_member(role, SITE)
+    operator = join_and_sign_in("operator", SITE) if role != "operator" else None
+    client = join_and_sign_in(role, SITE)
     starter = operator or client
     run = post_json(starter, f"/api/programs/{program}/runs").json()["id"]
     rehearsal = post_json(starter, f"/api/programs/{program}/rehearsals").json()["id"]
@@ -81,7 +81,7 @@ def test_nobody_who_is_not_signed_in_gets_an_answer(program):
 
 
 def test_what_does_not_exist_is_not_found(factory):
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     for path in (f"/runs/{uuid4()}", f"/rehearsals/{uuid4()}", f"/runs/{uuid4()}/events", "/sites/nowhere/runs"):
         assert client.get(f"/api{path}").status_code == 404
     assert post(client, f"/programs/{uuid4()}/runs") == 404
@@ -89,7 +89,7 @@ def test_what_does_not_exist_is_not_found(factory):
 
 def test_a_program_with_errors_is_not_started_and_the_answer_says_why(factory):
     program = editor.create_program(site=SITE, name="Empty").id
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     answer = client.post(f"/api/programs/{program}/runs", "{}", content_type="application/json")
     assert (answer.status_code, answer.json()["code"]) == (422, "not_ready")
     assert answer.json()["detail"].startswith("The program has one error and cannot be carried out.")
@@ -99,7 +99,7 @@ def test_a_program_with_errors_is_not_started_and_the_answer_says_why(factory):
 
 
 def test_a_version_of_before_is_run_and_one_that_is_not_there_is_absent(factory, program):
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     version = editor.pin_version(program_id=program, user=None)
     assert (version.number, version.cause) == (1, "")
     later = encode_document({**empty_document(), "steps": {"later": {"kind": "wait", "place": None, "params": {}}}})
@@ -117,7 +117,7 @@ def test_a_version_of_before_is_run_and_one_that_is_not_there_is_absent(factory,
 
 
 def test_routes_that_do_not_exist_are_null_among_others(factory):
-    client = sign_in_member("viewer", SITE)
+    client = join_and_sign_in("viewer", SITE)
     pairs = [
         {"from": {"device": "itemInventory01"}, "to": {"device": "paintMachine01"}},
         {"from": [2.3, -8.0], "to": {"device": "nothing"}},
@@ -132,7 +132,7 @@ def test_routes_that_do_not_exist_are_null_among_others(factory):
 
 
 def test_a_run_over_http_reaches_its_end(factory, program):
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     run = post_json(client, f"/api/programs/{program}/runs").json()
     assert (run["status"], run["program"]["name"], run["version"]) == ("pending", "Task", 1)
     factory.go(lambda: client.get(f"/api/runs/{run['id']}").json()["status"] == "finished")

@@ -21,7 +21,7 @@ from registry import services as registry
 from registry.demo.devices import DEVICES
 from registry.models import Device
 from tests.kit.programs import SITE, describe_anew
-from tests.kit.sign_in import EVERYBODY, ROLES, from_role, post_json, sign_in_member
+from tests.kit.sign_in import EVERYBODY, ROLES, from_role, join_and_sign_in, post_json
 from vipo_site.cli.main import main
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -54,7 +54,7 @@ def test_a_call_is_carried_out_and_its_outcome_can_be_read(factory):
 
 @pytest.mark.parametrize("role", EVERYBODY)
 def test_operators_and_above_may_call_and_every_member_may_follow(factory, role):
-    client = sign_in_member(role, SITE)
+    client = join_and_sign_in(role, SITE)
     allowed = role in from_role("operator")
     refused = 200 if allowed else {"stranger": 404, "nobody": 401}.get(role, 403)
     assert ask(client).status_code == (202 if allowed else refused)
@@ -71,7 +71,7 @@ def test_operators_and_above_may_call_and_every_member_may_follow(factory, role)
 
 def test_what_is_under_way_is_listed_oldest_first_and_what_is_over_is_not(factory):
     first, second = call(time=2), call("paintMachine01", "paint", time=1)
-    client = sign_in_member("viewer", SITE)
+    client = join_and_sign_in("viewer", SITE)
 
     def listed():
         return [each["id"] for each in client.get(f"/api/sites/{SITE}/calls").json()]
@@ -104,19 +104,19 @@ def test_what_is_under_way_is_listed_oldest_first_and_what_is_over_is_not(factor
     ],
 )
 def test_what_the_description_does_not_allow_is_refused_by_name(factory, body, told):
-    answer = ask(sign_in_member("operator", SITE), body)
+    answer = ask(join_and_sign_in("operator", SITE), body)
     assert (answer.status_code, answer.json()["code"], answer.json()["detail"]) == (422, "bad_arguments", told)
     assert Command.objects.count() == 0
 
 
 def test_of_many_misfits_the_first_are_named(factory):
-    answer = ask(sign_in_member("operator", SITE), {"method": "mixPaint", "args": {f"x{n}": n for n in range(5_000)}})
+    answer = ask(join_and_sign_in("operator", SITE), {"method": "mixPaint", "args": {f"x{n}": n for n in range(5_000)}})
     assert answer.status_code == 422
     assert answer.json()["detail"].count("mixPaint takes no argument") == 5
 
 
 def test_a_device_that_is_not_there_is_not_found(factory):
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     assert ask(client, path=f"/api/sites/{SITE}/devices/nothing/call").json()["code"] == "no_such_device"
     assert client.get(f"/api/sites/{SITE}/calls/{uuid4()}").status_code == 404
 
@@ -130,7 +130,7 @@ def test_a_device_that_is_not_there_is_not_found(factory):
 )
 def test_a_device_that_cannot_act_now_is_not_asked(factory, changes, told):
     Device.objects.filter(id="paintMixer01").update(**changes)
-    answer = ask(sign_in_member("operator", SITE))
+    answer = ask(join_and_sign_in("operator", SITE))
     assert (answer.status_code, answer.json()["code"], answer.json()["detail"]) == (409, "not_possible_now", told)
     assert Command.objects.count() == 0
 
@@ -143,10 +143,10 @@ def test_nothing_is_called_while_the_site_is_stopped_and_a_stop_ends_what_is_und
     factory.work()
     told = Command.objects.filter(method__in=["pause", "cancel"])
     assert {(c.device, c.arguments["command"]) for c in told} == {("paintMixer01", str(made.id))}
-    answer = ask(sign_in_member("operator", SITE), path=f"/api/sites/{SITE}/devices/curingOven01/call")
+    answer = ask(join_and_sign_in("operator", SITE), path=f"/api/sites/{SITE}/devices/curingOven01/call")
     assert answer.status_code == 422
     body = {"method": "curePaint", "args": {"time": 2}}
-    answer = ask(sign_in_member("author", SITE), body, f"/api/sites/{SITE}/devices/curingOven01/call")
+    answer = ask(join_and_sign_in("author", SITE), body, f"/api/sites/{SITE}/devices/curingOven01/call")
     assert (answer.status_code, answer.json()["detail"]) == (409, "The site is stopped. Reset the stop first.")
     services.reset_stop(site=SITE, by="Ada")
     factory.go(lambda: state(made).is_over, dt_s=10.0)
@@ -167,7 +167,7 @@ def test_a_call_that_went_out_a_moment_ago_and_is_not_marked_yet_is_taken_back_a
 
 def test_a_device_does_one_thing_at_a_time(factory):
     call(time=2)
-    answer = ask(sign_in_member("operator", SITE))
+    answer = ask(join_and_sign_in("operator", SITE))
     told = "Paint Mixer A still carries out mixPaint. Wait until it is done."
     assert (answer.status_code, answer.json()["detail"]) == (409, told)
 
@@ -205,7 +205,7 @@ def test_a_robot_explores_only_while_no_run_is_open_and_no_run_starts_meanwhile(
 def test_what_a_run_holds_is_not_lent_and_the_answer_says_which_run(factory):
     run = factory.start(CURE)
     factory.go(lambda: Command.objects.filter(method="mixPaint").exists())
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     answer = ask(client)
     told = "Paint Mixer A is held by run 1 of “Task”. Wait until it is over, or cancel it."
     assert (answer.status_code, answer.json()["detail"]) == (409, told)
@@ -241,7 +241,7 @@ def test_a_run_whose_device_is_taken_out_ends_and_the_floor_goes_on(factory, met
 def test_a_method_whose_topic_is_not_confirmed_says_so(factory):
     said = (DEVICES / "paintMixer01.ttl").read_text().replace("vipo/v1/dev/paintMixer01/down/mixPaint", "plant/mix")
     registry.ingest_description(device_id="paintMixer01", payload=said.encode(), at=datetime.now(UTC))
-    answer = ask(sign_in_member("operator", SITE))
+    answer = ask(join_and_sign_in("operator", SITE))
     assert (answer.status_code, answer.json()["code"]) == (409, "not_possible_now")
     told = "mixPaint waits until an admin confirms its topic plant/mix on Paint Mixer A's page."
     assert answer.json()["detail"] == told
@@ -267,7 +267,7 @@ def test_a_device_that_says_it_fills_the_whole_floor_does_not_end_its_traffic(fa
 
 def test_a_robot_drives_only_in_programs(factory):
     path = f"/api/sites/{SITE}/devices/robot01/call"
-    answer = ask(sign_in_member("operator", SITE), {"method": "move", "args": {}}, path)
+    answer = ask(join_and_sign_in("operator", SITE), {"method": "move", "args": {}}, path)
     assert answer.status_code == 409
     assert answer.json()["detail"].startswith("TurtleBot 1 drives only in a program, where its way is kept free")
 

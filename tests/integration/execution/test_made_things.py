@@ -16,7 +16,7 @@ from registry.floorplan.map_server import write_pgm, write_yaml
 from tests.kit import demo_floor
 from tests.kit.api_rights import OPERATIONS
 from tests.kit.programs import SITE, TASK, document
-from tests.kit.sign_in import PASSWORD, find_person, post_json, sign_in_member
+from tests.kit.sign_in import PASSWORD, find_person, join_and_sign_in, post_json
 from tests.unit.robot_agent.agent import RobotGrid, write_grid
 from vipo_site.http.location_header import MADE
 
@@ -29,7 +29,7 @@ FILE_OF_TESTS = "version: 1\nprogram: a.json\ntests:\n- {name: It ends, then: [e
 
 @pytest.fixture
 def admin(factory: Any) -> Client:
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     registry.set_site_quota(email=find_person("admin").email, sites=3)
     grid = demo_floor.grid()
     said = RobotGrid(grid.width, grid.height, grid.resolution_m, (grid.origin_x_m, grid.origin_y_m, 0.0), grid.cells)

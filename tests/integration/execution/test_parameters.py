@@ -11,7 +11,7 @@ from django.test import Client
 from editor import services as editor
 from execution.models import Rehearsal, Run
 from tests.kit.programs import OVEN, SITE, TASK
-from tests.kit.sign_in import sign_in_member
+from tests.kit.sign_in import join_and_sign_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 PARAMETERS = {
@@ -55,13 +55,13 @@ def send(client: Client, path: str, body: str) -> Any:
 )  # fmt: skip
 def test_what_does_not_fit_is_refused_by_name(program: str, kind: str, name: str, value: Any, told: str) -> None:
     body = json.dumps({"parameters": {**FITTING, name: value}})
-    answer = send(sign_in_member("operator", SITE), f"/programs/{program}/{kind}", body)
+    answer = send(join_and_sign_in("operator", SITE), f"/programs/{program}/{kind}", body)
     assert (answer.status_code, answer.json()["code"], answer.json()["detail"]) == (422, "not_ready", told)
     assert (Run.objects.count(), Rehearsal.objects.count()) == (0, 0)
 
 
 def test_what_is_left_out_has_its_default_and_names_are_those_of_the_document(program: str) -> None:
-    answer = send(sign_in_member("operator", SITE), f"/programs/{program}/runs", json.dumps({"parameters": FITTING}))
+    answer = send(join_and_sign_in("operator", SITE), f"/programs/{program}/runs", json.dumps({"parameters": FITTING}))
     assert answer.status_code == 202, answer.json()
     kept = Run.objects.get().parameters
     assert kept == {
@@ -89,6 +89,6 @@ def test_what_is_left_out_has_its_default_and_names_are_those_of_the_document(pr
 def test_what_a_rehearsal_is_asked_with_is_read_with_suspicion(
     program: str, body: str, status: int, named: str
 ) -> None:
-    answer = send(sign_in_member("operator", SITE), f"/programs/{program}/rehearsals", body)
+    answer = send(join_and_sign_in("operator", SITE), f"/programs/{program}/rehearsals", body)
     assert (answer.status_code, named in answer.json()["detail"]) == (status, True), answer.json()
     assert Rehearsal.objects.count() == 0

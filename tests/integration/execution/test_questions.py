@@ -9,7 +9,7 @@ from editor.language.plan.instructions import AskPerson, Assign, Branch, End, In
 from execution import services
 from execution.models import InboxEvent, Question, Run, RunEvent
 from tests.kit.programs import SITE, run_status
-from tests.kit.sign_in import post_json, sign_in_member
+from tests.kit.sign_in import join_and_sign_in, post_json
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -75,7 +75,7 @@ def test_of_many_who_answer_exactly_one_is_first_and_the_run_hears_one_answer(fa
 )
 def test_an_answer_that_does_not_fit_is_refused_and_the_question_stays_open(factory, answer, value, why):
     run, question = open_question(factory, answer)
-    reply = send(sign_in_member("operator", SITE), question, value)
+    reply = send(join_and_sign_in("operator", SITE), question, value)
     assert (reply.status_code, reply.json()["code"], reply.json()["detail"]) == (422, "answer_not_fitting", why)
     assert Question.objects.get(id=question).state == "open"
     assert run_status(run) == "running"
@@ -84,7 +84,7 @@ def test_an_answer_that_does_not_fit_is_refused_and_the_question_stays_open(fact
 @pytest.mark.parametrize(("role", "code"), [("stranger", 404), ("viewer", 403), ("operator", 200), ("admin", 200)])
 def test_operators_and_above_answer_viewers_only_look(factory, role, code):
     _, question = open_question(factory)
-    client = sign_in_member(role, SITE)
+    client = join_and_sign_in(role, SITE)
     assert client.get(f"/api/sites/{SITE}/questions").status_code == (404 if role == "stranger" else 200)
     assert send(client, question, True).status_code == code
     assert Question.objects.get(id=question).state == ("answered" if code == 200 else "open")
@@ -93,10 +93,10 @@ def test_operators_and_above_answer_viewers_only_look(factory, role, code):
 def test_a_second_answer_hears_who_was_first(factory):
     _, question = open_question(factory)
     services.answer_question(question_id=question, value=True, by="Ada")
-    reply = send(sign_in_member("operator", SITE), question, False)
+    reply = send(join_and_sign_in("operator", SITE), question, False)
     assert (reply.status_code, reply.json()["detail"]) == (409, "Ada has answered already: yes.")
     assert Question.objects.get(id=question).value is True
-    assert send(sign_in_member("admin", SITE), uuid4(), True).status_code == 404
+    assert send(join_and_sign_in("admin", SITE), uuid4(), True).status_code == 404
 
 
 def test_a_question_that_nobody_answers_in_time_is_withdrawn_and_the_step_times_out(factory):

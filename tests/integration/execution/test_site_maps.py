@@ -19,7 +19,7 @@ from registry.live import fanout
 from registry.models import Device, SiteMap
 from tests.kit import demo_floor
 from tests.kit.programs import ANY, CARRY, SITE, TASK, run_status
-from tests.kit.sign_in import ROLES, post_json, sign_in_member
+from tests.kit.sign_in import ROLES, join_and_sign_in, post_json
 from tests.unit.robot_agent.agent import RobotGrid, write_grid
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -62,7 +62,7 @@ def walled(x1, y1, x2, y2):
 
 def test_a_robots_map_becomes_the_sites_and_the_one_before_can_be_chosen_again(factory):
     say_map(widened())
-    client, news = sign_in_member("admin", SITE), []
+    client, news = join_and_sign_in("admin", SITE), []
     before = client.get(f"/api/sites/{SITE}/map").json()
     devices = client.get(f"/api/sites/{SITE}/devices").json()
     stop = fanout.listen(lambda _, message: news.append(message))
@@ -92,7 +92,7 @@ def test_runs_go_on_over_the_new_map(factory):
     factory.go(lambda: not Command.objects.filter(status__in=Command.OPEN).exists())
     commands = set(Command.objects.values_list("id", flat=True))
     say_map(widened())
-    assert use(sign_in_member("admin", SITE)).json() == {"version": 2}
+    assert use(join_and_sign_in("admin", SITE)).json() == {"version": 2}
     second = factory.start(drive_to("paintInventory01"))
     factory.go(lambda: run_status(second) == "finished")
     assert Command.objects.exclude(id__in=commands).exists()
@@ -106,7 +106,7 @@ def test_a_stop_goes_on_over_the_new_map(factory):
     services.press_stop(site=SITE, by="Ada")
     factory.work()
     say_map(widened())
-    assert use(sign_in_member("admin", SITE)).status_code == 201
+    assert use(join_and_sign_in("admin", SITE)).status_code == 201
     factory.work()
     state = FloorState.objects.get(site__slug=SITE).state
     assert (state["stopped"], services.is_stopped(site=SITE)) == (True, True)
@@ -114,7 +114,7 @@ def test_a_stop_goes_on_over_the_new_map(factory):
 
 def test_nothing_changes_while_a_run_is_open_or_a_device_is_at_work(factory):
     say_map(widened())
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     run = factory.start(CARRY)
     refused = use(client)
     assert (refused.status_code, refused.json()["code"]) == (409, "not_possible_now")
@@ -132,7 +132,7 @@ def test_nothing_changes_while_a_run_is_open_or_a_device_is_at_work(factory):
 def test_what_was_not_looked_at_is_not_taken(factory):
     say_map(widened())
     say_map(widened(), 2)
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     for answer in (use(client, version=1), use(client, version=2, replaces=0)):
         assert (answer.status_code, answer.json()["code"]) == (409, "map_changed")
     assert use(client, version=2, replaces=7).json()["detail"].startswith("Somebody has changed the site's map")
@@ -145,14 +145,14 @@ def test_what_was_not_looked_at_is_not_taken(factory):
 
 def test_a_map_that_is_too_long_for_planning_is_refused(factory):
     say_map(Grid(5000, 2, 0.05, 0.0, 0.0, bytes(10_000)))
-    answer = use(sign_in_member("admin", SITE))
+    answer = use(join_and_sign_in("admin", SITE))
     assert (answer.status_code, answer.json()["code"]) == (422, "bad_map")
     assert SiteMap.objects.count() == 1
 
 
 def test_programs_are_checked_anew_on_the_new_map(factory):
     program = editor.create_program(site=SITE, name="Task", document=TASK).id
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     assert errors(client, program) == 0
     x, y = next((d.pose.x, d.pose.y) for d in demo_floor.devices() if d.id == "paintMachine01")
     say_map(walled(x - 3.0, y - 3.0, x + 3.0, y + 3.0))
@@ -170,7 +170,7 @@ def errors(client, program):
 def test_the_difference_says_what_would_change_and_whom_it_would_trouble(factory):
     x, y = next((d.pose.x, d.pose.y) for d in demo_floor.devices() if d.id == "paintMachine01")
     say_map(walled(x - 1.0, y - 1.0, x + 1.0, y + 1.0))
-    told = sign_in_member("viewer", SITE).get(f"/api/sites/{SITE}/devices/robot01/map/difference").json()
+    told = join_and_sign_in("viewer", SITE).get(f"/api/sites/{SITE}/devices/robot01/map/difference").json()
     assert (told["version"], told["replaces"]) == (1, 1)
     assert told["floor_lost_m2"] == told["walls_gained_m2"] > 3
     assert (told["floor_gained_m2"], told["walls_lost_m2"]) == (0, 0)
@@ -182,7 +182,7 @@ def test_the_difference_says_what_would_change_and_whom_it_would_trouble(factory
 @pytest.mark.parametrize("role", ["nobody", "stranger", *ROLES])
 def test_each_call_is_open_to_its_role_and_above(factory, role):
     say_map(PLAN)
-    client = sign_in_member(role, SITE)
+    client = join_and_sign_in(role, SITE)
     robot = f"/api/sites/{SITE}/devices/robot01/map"
     shown = [robot, f"{robot}/cells", f"{robot}.yaml", f"{robot}.pgm", f"{robot}/difference"]
     seen = [client.get(path).status_code for path in (*shown, f"/api/sites/{SITE}/map/versions")]
@@ -195,7 +195,7 @@ def test_each_call_is_open_to_its_role_and_above(factory, role):
 
 def test_a_robots_map_is_shown_as_the_sites_is(factory):
     say_map(PLAN)
-    client = sign_in_member("viewer", SITE)
+    client = join_and_sign_in("viewer", SITE)
     robot = f"/api/sites/{SITE}/devices/robot01/map"
     told = client.get(robot).json()
     assert (told["device"], told["version"], told["width"], told["resolution_m"]) == ("robot01", 1, PLAN.width, 0.05)
@@ -220,7 +220,7 @@ def test_only_the_newest_fifty_versions_are_kept(factory, monkeypatch):
 
 
 def test_the_body_of_a_change_is_checked(factory):
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     for body in ({}, {"device": 3}, {"device": "x" * 65, "version": 1, "replaces": 0}):
         assert post_json(client, f"/api/sites/{SITE}/map/from-device", body).status_code == 422
     assert json.loads(use(client).content)["code"] == "no_robot_map"
@@ -240,7 +240,7 @@ def bring(client, grid, tag=f'"{SITE}-1"', source="edit", path="map/upload"):
 
 
 def test_a_map_that_somebody_has_changed_becomes_the_sites_and_is_exact_to_the_cell(factory):
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     assert client.get(f"/api/sites/{SITE}/map/cells")["ETag"] == f'"{SITE}-1"'
     changed = walled(7, -8, 7.5, -7.5)
     assert bring(client, changed).json() == {"version": 2}
@@ -250,7 +250,7 @@ def test_a_map_that_somebody_has_changed_becomes_the_sites_and_is_exact_to_the_c
 
 
 def test_of_two_who_change_the_map_the_second_is_told_and_nothing_is_lost(factory):
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     theirs = walled(7, -8, 7.5, -7.5)
     assert bring(client, theirs).status_code == 201
     second = bring(client, widened())
@@ -260,7 +260,7 @@ def test_of_two_who_change_the_map_the_second_is_told_and_nothing_is_lost(factor
 
 
 def test_who_changes_the_map_must_say_which(factory):
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     missing = bring(client, widened(), tag="")
     assert (missing.status_code, missing.json()["code"]) == (428, "map_tag_needed")
     none = client.post(f"/api/sites/{SITE}/map/upload", packed(widened()), headers={"If-None-Match": "*"})
@@ -268,14 +268,14 @@ def test_who_changes_the_map_must_say_which(factory):
 
 
 def test_a_site_without_a_map_gets_its_first(factory):
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     SiteMap.objects.all().delete()
     first = client.post(f"/api/sites/{SITE}/map/upload", packed(PLAN), headers={"If-None-Match": "*"})
     assert (first.status_code, registry.get_map(site=SITE).grid) == (201, PLAN)
 
 
 def test_the_map_is_not_changed_by_hand_under_a_run(factory):
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     factory.start(CARRY)
     refused = bring(client, widened())
     assert (refused.status_code, refused.json()["args"]["runs"]) == (409, "1")
@@ -283,7 +283,7 @@ def test_the_map_is_not_changed_by_hand_under_a_run(factory):
 
 
 def test_before_a_map_is_saved_it_is_said_which_places_and_programs_it_troubles(factory):
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     registry.add_place(site=SITE, place=registry.PlaceChange(name="Table", kind="point", x=7.2, y=-7.8))
     step = {"kind": "move", "pos": [7.2, -7.8], "params": {"role": "robot", "to": {"point": [7.2, -7.8]}}}
     steps = {"s1": {**step, "place": ["program", "body", "0V"]}}
@@ -298,7 +298,7 @@ def test_before_a_map_is_saved_it_is_said_which_places_and_programs_it_troubles(
 
 
 def test_an_earlier_version_can_be_looked_at(factory):
-    client = sign_in_member("admin", SITE)
+    client = join_and_sign_in("admin", SITE)
     assert bring(client, walled(7, -8, 7.5, -7.5)).status_code == 201
     old = f"/api/sites/{SITE}/map/versions/1"
     shown = client.get(old).json()

@@ -14,7 +14,7 @@ from editor.documents.shared_document import ROOTS
 from editor.documents.store import Change, append_changes, compact_document
 from editor.models import Program
 from registry import services as registry
-from tests.kit.sign_in import find_person, sign_in_member
+from tests.kit.sign_in import find_person, join_and_sign_in
 
 pytestmark = pytest.mark.django_db
 ODD: dict[str, dict[str, Any]] = {
@@ -36,7 +36,7 @@ ODD: dict[str, dict[str, Any]] = {
 @pytest.fixture
 def client() -> Client:
     registry.create_site(name="Hall", slug="hall")
-    return sign_in_member("author", "hall")
+    return join_and_sign_in("author", "hall")
 
 
 def program_with(odd: dict[str, Any]) -> str:

@@ -17,7 +17,7 @@ from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.maps import drawings
 from tests.kit import demo_floor
 from tests.kit.programs import SITE
-from tests.kit.sign_in import sign_in_member
+from tests.kit.sign_in import join_and_sign_in
 
 pytestmark = pytest.mark.django_db
 AT = f"/api/sites/{SITE}/map"
@@ -25,7 +25,7 @@ AT = f"/api/sites/{SITE}/map"
 
 @pytest.fixture
 def admin(factory: Any) -> Client:
-    return sign_in_member("admin", SITE)
+    return join_and_sign_in("admin", SITE)
 
 
 def file(drawing: Any) -> SimpleUploadedFile:

@@ -14,7 +14,7 @@ from django.test import Client
 from execution.floor.exports import routes
 from registry import services as registry
 from tests.kit.programs import SITE
-from tests.kit.sign_in import find_person, post_json, sign_in_member
+from tests.kit.sign_in import find_person, join_and_sign_in, post_json
 
 pytestmark = pytest.mark.django_db
 AT = f"/api/sites/{SITE}/map"
@@ -23,7 +23,7 @@ GATE = {"name": "Gate", "rule": "keep_out", "points": [[15.0, -12.5], [16.5, -12
 
 @pytest.fixture
 def viewer(factory: Any) -> Client:
-    return sign_in_member("viewer", SITE)
+    return join_and_sign_in("viewer", SITE)
 
 
 def test_a_viewer_takes_the_floor_along_in_each_form(viewer: Client) -> None:
@@ -44,7 +44,7 @@ def test_a_viewer_takes_the_floor_along_in_each_form(viewer: Client) -> None:
 
 def test_a_zone_that_is_made_is_in_the_next_export(viewer: Client) -> None:
     before = viewer.get(f"{AT}.lif.json").json()["layouts"][0]
-    assert post_json(sign_in_member("admin", SITE), f"/api/sites/{SITE}/zones", GATE).status_code == 201
+    assert post_json(join_and_sign_in("admin", SITE), f"/api/sites/{SITE}/zones", GATE).status_code == 201
     after = viewer.get(f"{AT}.lif.json").json()["layouts"][0]
     gone = {node["nodeId"] for node in before["nodes"]} - {node["nodeId"] for node in after["nodes"]}
     assert "dock1" in gone
@@ -54,7 +54,7 @@ def test_a_zone_that_is_made_is_in_the_next_export(viewer: Client) -> None:
 
 def test_a_site_without_a_map_says_so(factory: Any) -> None:
     registry.create_site(name="Bare", slug="bare")
-    client = sign_in_member("viewer", "bare")
+    client = join_and_sign_in("viewer", "bare")
     for form in ("lif.json", "building.yaml", "nav2.zip"):
         answer = client.get(f"/api/sites/bare/map.{form}")
         assert (answer.status_code, answer.json()["code"]) == (404, "no_map")
@@ -63,7 +63,7 @@ def test_a_site_without_a_map_says_so(factory: Any) -> None:
 def test_a_map_without_places_and_devices_is_exported_as_it_is(factory: Any) -> None:
     registry.create_site(name="Bare", slug="bare")
     registry.save_map(site="bare", grid=registry.get_map(site=SITE).grid)
-    client = sign_in_member("viewer", "bare")
+    client = join_and_sign_in("viewer", "bare")
     layout = client.get("/api/sites/bare/map.lif.json").json()["layouts"][0]
     assert (layout["nodes"], layout["edges"], layout["stations"]) == ([], [], [])
     level = yaml.safe_load(client.get("/api/sites/bare/map.building.yaml").content)["levels"]["L1"]

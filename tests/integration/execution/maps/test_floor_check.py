@@ -11,7 +11,7 @@ from execution.floor import floor_check_routes as routes
 from execution.floor.layouts import get_layout
 from registry import services as registry
 from tests.kit.programs import SITE
-from tests.kit.sign_in import below_role, from_role, sign_in_member
+from tests.kit.sign_in import below_role, from_role, join_and_sign_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 CHECK = f"/api/sites/{SITE}/floor-check"
@@ -25,7 +25,7 @@ def _forgetful():
 
 @pytest.fixture
 def viewer(factory):
-    return sign_in_member("viewer", SITE)
+    return join_and_sign_in("viewer", SITE)
 
 
 def test_the_painting_factory_is_sound_for_its_own_robots(viewer):
@@ -79,17 +79,17 @@ def test_zones_for_so_many_robots_have_their_width(viewer):
 
 @pytest.mark.parametrize("role", from_role("viewer"))
 def test_every_role_may_ask(factory, role):
-    assert sign_in_member(role, SITE).get(CHECK).status_code == 200
+    assert join_and_sign_in(role, SITE).get(CHECK).status_code == 200
 
 
 def test_a_stranger_learns_nothing_nor_does_who_is_not_signed_in(factory, client):
-    assert sign_in_member("stranger", SITE).get(CHECK).status_code == 404
+    assert join_and_sign_in("stranger", SITE).get(CHECK).status_code == 404
     assert client.get(CHECK).status_code == 401
 
 
 def test_a_site_without_a_map_says_so(db):
     registry.create_site(name="Bare", slug="bare")
-    answer = sign_in_member("viewer", "bare").get("/api/sites/bare/floor-check")
+    answer = join_and_sign_in("viewer", "bare").get("/api/sites/bare/floor-check")
     assert (answer.status_code, answer.json()["code"]) == (404, "no_map")
 
 
@@ -111,7 +111,7 @@ REMEDIES = f"{CHECK}/remedies"
 
 @pytest.fixture
 def admin(factory):
-    return sign_in_member("admin", SITE)
+    return join_and_sign_in("admin", SITE)
 
 
 def put_spare_dock(at_m=0.5):
@@ -176,13 +176,13 @@ def test_a_question_for_remedies_that_says_too_little_or_too_much_is_refused(adm
 
 @pytest.mark.parametrize("role", below_role("admin"))
 def test_only_who_may_move_things_asks_for_remedies(factory, role):
-    answer = sign_in_member(role, SITE).get(REMEDIES, {"code": "no_room", "target": "a"})
+    answer = join_and_sign_in(role, SITE).get(REMEDIES, {"code": "no_room", "target": "a"})
     assert answer.status_code == 403
 
 
 def test_strangers_ask_for_no_remedies(factory, client):
     asked = {"code": "no_room", "target": "a"}
-    assert sign_in_member("stranger", SITE).get(REMEDIES, asked).status_code == 404
+    assert join_and_sign_in("stranger", SITE).get(REMEDIES, asked).status_code == 404
     assert client.get(REMEDIES, asked).status_code == 401
 
 

@@ -17,7 +17,7 @@ from execution.models import Archive, Run, RunEvent
 from registry import services as registry
 from registry.floorplan.plan import Grid
 from registry.models import Site, SiteMap
-from tests.kit.sign_in import from_role, sign_in_member
+from tests.kit.sign_in import from_role, join_and_sign_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 USE = "/api/sites/hall/floor-use"
@@ -50,7 +50,7 @@ def gate(db: None) -> str:
 
 @pytest.fixture
 def viewer(gate: str) -> Client:
-    return sign_in_member("viewer", "hall")
+    return join_and_sign_in("viewer", "hall")
 
 
 class Written:
@@ -222,7 +222,7 @@ def test_what_was_driven_before_the_map_lay_as_it_does_is_not_drawn_on_it(viewer
 
 def test_a_site_without_a_map_says_so(db: None) -> None:
     registry.create_site(name="Bare", slug="bare")
-    answer = sign_in_member("viewer", "bare").get("/api/sites/bare/floor-use")
+    answer = join_and_sign_in("viewer", "bare").get("/api/sites/bare/floor-use")
     assert (answer.status_code, answer.json()["code"]) == (404, "no_map")
 
 
@@ -254,11 +254,11 @@ def test_what_is_out_of_bounds_is_refused_by_its_name(viewer: Client, asked: str
 
 @pytest.mark.parametrize("role", from_role("viewer"))
 def test_every_role_may_ask(gate: str, role: str) -> None:
-    assert sign_in_member(role, "hall").get(USE).status_code == 200
+    assert join_and_sign_in(role, "hall").get(USE).status_code == 200
 
 
 def test_a_stranger_learns_nothing_nor_does_who_is_not_signed_in(gate: str, client: Client) -> None:
-    assert sign_in_member("stranger", "hall").get(USE).status_code == 404
+    assert join_and_sign_in("stranger", "hall").get(USE).status_code == 404
     assert client.get(USE).status_code == 401
     assert routes._kept == {}
 

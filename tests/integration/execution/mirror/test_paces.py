@@ -19,7 +19,7 @@ from registry import services as registry
 from registry.audit.queries import list_audit
 from simulation.mirror.device_copy import Job, Measured
 from tests.kit.programs import SITE, TASK
-from tests.kit.sign_in import EVERYBODY, from_role, post_json, sign_in_member
+from tests.kit.sign_in import EVERYBODY, from_role, join_and_sign_in, post_json
 
 pytestmark = pytest.mark.django_db(transaction=True)
 OVEN, ROBOT = "curingOven01", "robot01"
@@ -92,7 +92,7 @@ def test_of_each_method_the_newest_are_kept(factory: Any) -> None:
 
 def test_a_pace_is_taken_over_used_and_given_up(factory: Any) -> None:
     measure(1.2, 5)
-    operator = sign_in_member("operator", SITE)
+    operator = join_and_sign_in("operator", SITE)
     (found,) = operator.get(PACES).json()
     assert (found["method"], found["count"], found["usual"], found["can_be_taken"]) == ("curePaint", 5, 1.2, True)
     before = digests_of(SITE)
@@ -115,14 +115,14 @@ def test_a_pace_is_taken_over_used_and_given_up(factory: Any) -> None:
 )
 def test_what_says_too_little_is_not_taken_over(factory: Any, pace: float, count: int, why: str) -> None:
     measure(pace, count)
-    operator = sign_in_member("operator", SITE)
+    operator = join_and_sign_in("operator", SITE)
     assert operator.get(PACES).json()[0]["can_be_taken"] is False
     refused = operator.put(CURE)
     assert (refused.status_code, refused.json()["args"]["why"]) == (409, why)
 
 
 def test_what_was_never_measured_or_is_not_there_cannot_be_taken_over(factory: Any) -> None:
-    operator = sign_in_member("operator", SITE)
+    operator = join_and_sign_in("operator", SITE)
     assert operator.get(PACES).json() == []
     assert operator.put(CURE).status_code == 404
     assert operator.put(f"/api/sites/{SITE}/devices/nobody/paces/move").status_code == 404
@@ -130,7 +130,7 @@ def test_what_was_never_measured_or_is_not_there_cannot_be_taken_over(factory: A
 
 def test_a_rehearsal_takes_measured_times_and_says_so(factory: Any) -> None:
     program = editor.create_program(site=SITE, name="Task", document=TASK).id
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     usual = post_json(client, f"/api/programs/{program}/rehearsals", {}).json()
     measure(1.5, 6, device=ROBOT, method="move")
     assert client.put(f"/api/sites/{SITE}/devices/{ROBOT}/paces/move").status_code == 200
@@ -144,7 +144,7 @@ def test_a_rehearsal_takes_measured_times_and_says_so(factory: Any) -> None:
 @pytest.mark.parametrize("role", EVERYBODY)
 def test_who_may_look_may_read_and_operators_decide(factory: Any, role: str) -> None:
     measure(1.2, 5)
-    client = sign_in_member(role, SITE)
+    client = join_and_sign_in(role, SITE)
     assert (client.get(PACES).status_code == 200) == (role in from_role("viewer"))
     for ask in (client.put, client.delete):
         assert (ask(CURE).status_code < 400) == (role in from_role("operator"))

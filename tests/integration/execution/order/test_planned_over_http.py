@@ -8,7 +8,7 @@ import pytest
 from editor import services as editor
 from execution.models import Run
 from tests.kit.programs import SITE, TASK
-from tests.kit.sign_in import sign_in_member
+from tests.kit.sign_in import join_and_sign_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -30,7 +30,7 @@ def program(factory):
 
 @pytest.fixture
 def operator():
-    return sign_in_member("operator", SITE)
+    return join_and_sign_in("operator", SITE)
 
 
 def test_terms_are_kept_and_shown_to_who_may_look(factory, program, operator):
@@ -40,7 +40,7 @@ def test_terms_are_kept_and_shown_to_who_may_look(factory, program, operator):
     run = answer.json()
     told = {"priority": "high", "not_before": begin, "deadline": due}
     assert told.items() <= run.items()
-    viewer = sign_in_member("viewer", SITE)
+    viewer = join_and_sign_in("viewer", SITE)
     assert told.items() <= viewer.get(f"/api/runs/{run['id']}").json().items()
     (listed,) = viewer.get(f"/api/sites/{SITE}/runs").json()
     assert (listed["status"], listed["started_at"]) == ("pending", None)
@@ -53,11 +53,11 @@ def test_a_run_without_terms_is_as_ever(factory, program, operator):
 
 
 def test_a_viewer_plans_nothing_and_cancels_nothing(factory, program, operator):
-    viewer = sign_in_member("viewer", SITE)
+    viewer = join_and_sign_in("viewer", SITE)
     assert start(viewer, program, not_before=later(hours=1)).status_code == 403
     run = start(operator, program, not_before=later(hours=1)).json()["id"]
     assert viewer.post(f"/api/runs/{run}/cancel").status_code == 403
-    assert sign_in_member("author", SITE).post(f"/api/runs/{run}/cancel").status_code == 200
+    assert join_and_sign_in("author", SITE).post(f"/api/runs/{run}/cancel").status_code == 200
     factory.work()
     assert [row.status for row in Run.objects.all()] == ["cancelled"]
 

@@ -16,7 +16,7 @@ from registry import services as registry
 from registry.models import Device
 from tests.integration.execution.program_tests.conftest import FAILS, PASSES, UNUSABLE, add, put
 from tests.kit.programs import SITE, document, step
-from tests.kit.sign_in import add_person, post_json, sign_in_member, signed_in
+from tests.kit.sign_in import add_person, join_and_sign_in, post_json, signed_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 NOTICES = "name: It waits\nthen:\n  - ends: well\n  - step: {step: pause, times: 1}\n"
@@ -24,7 +24,7 @@ NOTICES = "name: It waits\nthen:\n  - ends: well\n  - step: {step: pause, times:
 
 @pytest.fixture
 def client(program: Any) -> Client:
-    return sign_in_member("author", SITE)
+    return join_and_sign_in("author", SITE)
 
 
 def shown(client: Client, program: Any) -> dict[str, Any]:
@@ -181,7 +181,7 @@ def test_only_what_tests_have_missed_can_be_meant_so_and_only_authors_say_it(cli
     assert say(client, program, unknown).status_code == 404
     turned, *_ = carry_out(client, program, changes=True)["changes"]["unnoticed"]
     for role in ("operator", "viewer"):
-        assert say(sign_in_member(role, SITE), program, turned).status_code == 403
+        assert say(join_and_sign_in(role, SITE), program, turned).status_code == 403
     add_person("stranger")
     assert say(signed_in("stranger"), program, turned).status_code == 404
     assert say(Client(), program, turned).status_code == 401

@@ -12,13 +12,13 @@ from execution.program_tests import stored_tests
 from execution.trials.trial_file import read_trials
 from tests.integration.execution.program_tests.conftest import FAILS, PASSES, add, put
 from tests.kit.programs import SITE
-from tests.kit.sign_in import EVERYBODY, from_role, post_json, sign_in_member, signed_in
+from tests.kit.sign_in import EVERYBODY, from_role, join_and_sign_in, post_json, signed_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
 
 def test_a_test_is_kept_listed_and_read_as_it_was_written(program):
-    client = sign_in_member("author", SITE)
+    client = join_and_sign_in("author", SITE)
     made = add(client, program, PASSES)
     assert (made["name"], made["text"], made["tag"]) == ("It ends", PASSES, '"1"')
     [listed] = client.get(f"/api/programs/{program}/tests").json()["tests"]
@@ -29,7 +29,7 @@ def test_a_test_is_kept_listed_and_read_as_it_was_written(program):
 
 
 def test_of_two_who_write_one_test_the_second_is_told(program):
-    client = sign_in_member("author", SITE)
+    client = join_and_sign_in("author", SITE)
     path = f"/api/programs/{program}/tests/{add(client, program, PASSES)['id']}"
     first = put(client, path, PASSES.replace("It ends", "It ends well"), '"1"')
     assert (first.status_code, first["ETag"]) == (200, '"2"')
@@ -57,7 +57,7 @@ def test_of_two_who_write_one_test_the_second_is_told(program):
     ],
 )
 def test_what_is_no_test_is_refused_with_its_line_and_kept_nowhere(program, text, line, why):
-    client = sign_in_member("author", SITE)
+    client = join_and_sign_in("author", SITE)
     refused = post_json(client, f"/api/programs/{program}/tests", {"text": text})
     assert refused.status_code == 422
     if len(text) <= stored_tests.MOST_TEXT:
@@ -70,13 +70,13 @@ def test_what_is_no_test_is_refused_with_its_line_and_kept_nowhere(program, text
 
 
 def test_a_text_that_is_a_test_has_no_fault(program):
-    client = sign_in_member("author", SITE)
+    client = join_and_sign_in("author", SITE)
     assert post_json(client, f"/api/programs/{program}/tests/look", {"text": PASSES}).json() == {"fault": None}
     assert ProgramTest.objects.count() == 0
 
 
 def test_a_name_stands_once_and_there_is_an_end_to_tests(program, monkeypatch):
-    client = sign_in_member("author", SITE)
+    client = join_and_sign_in("author", SITE)
     add(client, program, PASSES)
     other = add(client, program, FAILS)
     assert post_json(client, f"/api/programs/{program}/tests", {"text": PASSES}).json()["code"] == "test_name_taken"
@@ -89,7 +89,7 @@ def test_a_name_stands_once_and_there_is_an_end_to_tests(program, monkeypatch):
 
 
 def test_a_file_is_brought_in_whole_or_not_at_all_and_goes_out_as_vipo_test_reads_it(program):
-    client = sign_in_member("author", SITE)
+    client = join_and_sign_in("author", SITE)
     path = f"/api/programs/{program}/tests"
     file = (
         "version: 1\nprogram: ../a.json\ntests:\n"
@@ -117,7 +117,7 @@ def test_a_file_is_brought_in_whole_or_not_at_all_and_goes_out_as_vipo_test_read
 
 
 def test_a_first_test_is_a_test_and_its_name_is_free(program):
-    client = sign_in_member("author", SITE)
+    client = join_and_sign_in("author", SITE)
     path = f"/api/programs/{program}/tests"
     first = client.get(f"{path}/first").json()
     assert first == {"text": "name: All goes well\nthen:\n- ends: well\n", "of_rehearsal": False}
@@ -128,8 +128,8 @@ def test_a_first_test_is_a_test_and_its_name_is_free(program):
 
 @pytest.mark.parametrize("who", EVERYBODY)
 def test_who_may_draw_writes_tests_and_who_may_look_reads_them(program, who):
-    made = add(sign_in_member("author", SITE), program, PASSES)
-    client = signed_in(who) if who in ("author", "nobody") else sign_in_member(who, SITE)
+    made = add(join_and_sign_in("author", SITE), program, PASSES)
+    client = signed_in(who) if who in ("author", "nobody") else join_and_sign_in(who, SITE)
     path = f"/api/programs/{program}/tests"
     outside = {"stranger": 404, "nobody": 401}.get(who)
     writes = 200 if who in from_role("author") else 403
@@ -150,7 +150,7 @@ def test_who_may_draw_writes_tests_and_who_may_look_reads_them(program, who):
 
 
 def test_a_test_of_another_program_is_not_there(program):
-    client = sign_in_member("author", SITE)
+    client = join_and_sign_in("author", SITE)
     other = editor.create_program(site=SITE, name="Other").id
     made = add(client, program, PASSES)
     assert client.get(f"/api/programs/{other}/tests/{made['id']}").status_code == 404

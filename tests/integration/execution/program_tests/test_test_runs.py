@@ -14,14 +14,14 @@ from execution.rehearsals import test_results, worker
 from execution.ticker import ticker
 from tests.integration.execution.program_tests.conftest import FAILS, PASSES, UNUSABLE, add, put, waiting_program
 from tests.kit.programs import SITE
-from tests.kit.sign_in import post_json, sign_in_member
+from tests.kit.sign_in import join_and_sign_in, post_json
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
 
 @pytest.fixture
 def client(program):
-    return sign_in_member("author", SITE)
+    return join_and_sign_in("author", SITE)
 
 
 def overview(client, program):

@@ -13,7 +13,7 @@ from execution.rehearsals import test_results, worker
 from registry import services as registry
 from tests.integration.execution.program_tests.conftest import add
 from tests.kit.programs import SITE, document, step
-from tests.kit.sign_in import add_person, post_json, sign_in_member, signed_in
+from tests.kit.sign_in import add_person, join_and_sign_in, post_json, signed_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 F = ("f", "body")
@@ -37,7 +37,7 @@ def save(content: dict[str, Any], site: str = SITE, who: str = "author") -> dict
 
 @pytest.fixture
 def client(factory):
-    return sign_in_member("author", SITE)
+    return join_and_sign_in("author", SITE)
 
 
 @pytest.fixture
@@ -142,7 +142,7 @@ def test_a_run_of_tests_is_read_by_members_alone(client, program, library) -> No
     registry.create_site(name="Shed", slug="shed")
     add_person("elsewhere")
     path = f"/api/programs/{program}/test-runs"
-    assert sign_in_member("viewer", SITE).get(f"{path}/{started}").status_code == 200
+    assert join_and_sign_in("viewer", SITE).get(f"{path}/{started}").status_code == 200
     assert signed_in("elsewhere").get(f"{path}/{started}").status_code == 404
     assert client.get(f"{path}/{uuid4()}").status_code == 404
     other = editor.create_program(site=SITE, name="Other", document=document({})).id

@@ -7,7 +7,7 @@ import pytest
 from editor import services as editor
 from execution.models import Rehearsal, Run
 from tests.kit.programs import SITE, TASK
-from tests.kit.sign_in import post_json, sign_in_member
+from tests.kit.sign_in import join_and_sign_in, post_json
 
 pytestmark = pytest.mark.django_db(transaction=True)
 DEAD = {"version": 1, "faults": [{"fault": "dead", "device": "robot01", "at_s": 5.0}]}
@@ -19,7 +19,7 @@ def program(factory):
 
 
 def test_faults_reach_the_rehearsal_that_they_were_asked_for(program):
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     assert post_json(client, f"/api/programs/{program}/rehearsals", {"faults": DEAD}).status_code == 202
     assert post_json(client, f"/api/programs/{program}/rehearsals", {}).status_code == 202
     jobs = Rehearsal.objects.order_by("created_at").values_list("job", flat=True)
@@ -27,7 +27,7 @@ def test_faults_reach_the_rehearsal_that_they_were_asked_for(program):
 
 
 def test_how_a_rehearsal_was_asked_for_is_told_with_it(program):
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     asked = {"seed": 7, "driver": "kinematic", "faults": DEAD}
     made = post_json(client, f"/api/programs/{program}/rehearsals", asked).json()
     told = {"version": 1, "seed": 7, "driver": "kinematic", "parameters": {}, "faults": DEAD["faults"], "paces": {}}
@@ -39,7 +39,7 @@ def test_how_a_rehearsal_was_asked_for_is_told_with_it(program):
 def test_a_refusal_says_which_fault_it_is_about(program):
     faults = [*DEAD["faults"], {"fault": "dead", "device": "nobody"}]
     refused = post_json(
-        sign_in_member("operator", SITE),
+        join_and_sign_in("operator", SITE),
         f"/api/programs/{program}/rehearsals",
         {"faults": {"version": 1, "faults": faults}},
     )
@@ -56,17 +56,17 @@ def test_a_refusal_says_which_fault_it_is_about(program):
 )
 def test_faults_that_make_no_sense_are_refused_with_a_sentence(program, fault, why):
     asked = {"faults": {"version": 1, "faults": [fault]}}
-    refused = post_json(sign_in_member("operator", SITE), f"/api/programs/{program}/rehearsals", asked)
+    refused = post_json(join_and_sign_in("operator", SITE), f"/api/programs/{program}/rehearsals", asked)
     assert (refused.status_code, refused.json()["code"]) == (422, "bad_faults")
     assert why in refused.json()["detail"]
     assert Rehearsal.objects.count() == 0
 
 
 def test_who_may_not_rehearse_may_not_ask_for_faults(program):
-    refused = post_json(sign_in_member("viewer", SITE), f"/api/programs/{program}/rehearsals", {"faults": DEAD})
+    refused = post_json(join_and_sign_in("viewer", SITE), f"/api/programs/{program}/rehearsals", {"faults": DEAD})
     assert (refused.status_code, Rehearsal.objects.count()) == (403, 0)
 
 
 def test_a_run_of_real_devices_takes_no_faults(program):
-    refused = post_json(sign_in_member("operator", SITE), f"/api/programs/{program}/runs", {"faults": DEAD})
+    refused = post_json(join_and_sign_in("operator", SITE), f"/api/programs/{program}/runs", {"faults": DEAD})
     assert (refused.status_code, Run.objects.count()) == (422, 0)

@@ -14,7 +14,7 @@ from execution.rehearsals import worker
 from registry import services as registry
 from tests.integration.execution.rehearsals.conftest import SHORT, queue, row
 from tests.kit.programs import SITE, TASK
-from tests.kit.sign_in import ROLES, below_role, find_person, post_json, sign_in_member
+from tests.kit.sign_in import ROLES, below_role, find_person, join_and_sign_in, post_json
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -26,7 +26,7 @@ def program(factory):
 
 def test_a_person_may_have_so_many_and_is_told_what_to_do(program, settings):
     settings.VIPO_REHEARSALS_OF_PERSON = 2
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     first, _ = (post_json(client, f"/api/programs/{program}/rehearsals").json() for _ in range(2))
     refused = post_json(client, f"/api/programs/{program}/rehearsals")
     assert (refused.status_code, refused.json()["code"], refused["Retry-After"]) == (429, "too_many_rehearsals", "30")
@@ -35,7 +35,7 @@ def test_a_person_may_have_so_many_and_is_told_what_to_do(program, settings):
     assert Rehearsal.objects.count() == 2
     assert post_json(client, f"/api/rehearsals/{first['id']}/cancel").status_code == 200
     assert post_json(client, f"/api/programs/{program}/rehearsals").status_code == 202
-    other = sign_in_member("admin", SITE)
+    other = join_and_sign_in("admin", SITE)
     assert post_json(other, f"/api/programs/{program}/rehearsals").status_code == 202
 
 
@@ -75,7 +75,7 @@ def test_places_are_told_in_the_order_in_which_they_are_taken(factory):
 
 
 def test_a_list_has_those_that_are_not_over_without_their_programs(program):
-    client, operator = sign_in_member("viewer", SITE), sign_in_member("operator", SITE)
+    client, operator = join_and_sign_in("viewer", SITE), join_and_sign_in("operator", SITE)
     waits, over = (post_json(operator, f"/api/programs/{program}/rehearsals").json()["id"] for _ in range(2))
     Rehearsal.objects.filter(id=over).update(status="done")
     [shown] = client.get(f"/api/sites/{SITE}/rehearsals").json()
@@ -87,16 +87,16 @@ def test_a_list_has_those_that_are_not_over_without_their_programs(program):
 
 @pytest.mark.parametrize("role", ["stranger", *ROLES])
 def test_an_operator_may_cancel_anybodys_and_others_their_own(program, role):
-    starter = sign_in_member("operator" if role != "operator" else "admin", SITE)
+    starter = join_and_sign_in("operator" if role != "operator" else "admin", SITE)
     rehearsal = post_json(starter, f"/api/programs/{program}/rehearsals").json()["id"]
-    client = sign_in_member(role, SITE)
+    client = join_and_sign_in(role, SITE)
     wanted = 404 if role == "stranger" else 403 if role in below_role("operator") else 200
     assert post_json(client, f"/api/rehearsals/{rehearsal}/cancel").status_code == wanted
     assert row(rehearsal).status == ("cancelled" if wanted == 200 else "queued")
 
 
 def test_who_was_made_a_viewer_may_still_cancel_what_they_have_started(program):
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     rehearsal = post_json(client, f"/api/programs/{program}/rehearsals").json()["id"]
     person = find_person("operator")
     registry.set_member(site=SITE, email=person.email, role="viewer")

@@ -23,7 +23,7 @@ from registry.models import Site
 from simulation.world import Fault
 from tests.kit import demo_floor
 from tests.kit.programs import SITE
-from tests.kit.sign_in import sign_in_member
+from tests.kit.sign_in import join_and_sign_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 SHELF, MIXER = PlaceRef(device="paintInventory01"), PlaceRef(device="paintMixer02")
@@ -56,7 +56,7 @@ def rehearsal(factory, result) -> Rehearsal:
 
 
 def fetch(rehearsal: Rehearsal, form: str, role: str = "viewer") -> Any:
-    return sign_in_member(role, SITE).get(f"/api/rehearsals/{rehearsal.pk}/recording?form={form}")
+    return join_and_sign_in(role, SITE).get(f"/api/rehearsals/{rehearsal.pk}/recording?form={form}")
 
 
 def test_json_has_a_format_a_version_and_all_that_is_known(rehearsal, result):
@@ -125,7 +125,7 @@ def test_what_has_no_recording_is_refused_with_a_sentence(rehearsal):
 
 
 def test_a_stranger_does_not_learn_that_it_exists(rehearsal):
-    client = sign_in_member("stranger", SITE)
+    client = join_and_sign_in("stranger", SITE)
     answers = [client.get(f"/api/rehearsals/{each}/recording?form=json") for each in (rehearsal.pk, uuid4())]
     assert [(answer.status_code, answer.json()["detail"]) for answer in answers] == [
         (404, "There is no such rehearsal. It may have been deleted with its program.")

@@ -7,7 +7,7 @@ from execution.rehearsals import worker
 from registry import services as registry
 from tests.integration.execution.rehearsals.conftest import SHORT, queue, row
 from tests.kit.programs import SITE
-from tests.kit.sign_in import from_role, sign_in_member
+from tests.kit.sign_in import from_role, join_and_sign_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 POINTS = ((8.0, -10.0), (14.0, -10.0), (14.0, -6.0), (8.0, -6.0))
@@ -21,7 +21,7 @@ def draw(name="Corridor", **changes):
 
 @pytest.fixture
 def viewer(factory):
-    return sign_in_member("viewer", SITE)
+    return join_and_sign_in("viewer", SITE)
 
 
 def test_a_rehearsal_that_is_done_counts_until_its_zone_is_drawn_otherwise(viewer):
@@ -42,11 +42,11 @@ def test_a_rehearsal_that_is_done_counts_until_its_zone_is_drawn_otherwise(viewe
 @pytest.mark.parametrize("role", from_role("viewer"))
 def test_every_role_may_ask(factory, role):
     draw()
-    assert len(sign_in_member(role, SITE).get(COSTS).json()) == 1
+    assert len(join_and_sign_in(role, SITE).get(COSTS).json()) == 1
 
 
 def test_a_stranger_learns_nothing_and_other_zones_cost_nothing(viewer):
     keep_out = registry.ZoneChange(name="Spill", rule="keep_out", points=POINTS)
     registry.add_zone(site=SITE, zone=keep_out)
     assert viewer.get(COSTS).json() == []
-    assert sign_in_member("stranger", SITE).get(COSTS).status_code == 404
+    assert join_and_sign_in("stranger", SITE).get(COSTS).status_code == 404

@@ -22,7 +22,7 @@ from registry.models import AuditLine
 from tests.integration.execution.conftest import SITE
 from tests.kit import demo_floor
 from tests.kit.programs import run_status
-from tests.kit.sign_in import below_role, from_role, post_json, sign_in_member
+from tests.kit.sign_in import below_role, from_role, join_and_sign_in, post_json
 
 pytestmark = pytest.mark.django_db(transaction=True)
 AWAITED = f"/api/sites/{SITE}/admissions"
@@ -61,7 +61,7 @@ def test_a_robot_waits_is_let_in_and_its_run_ends(waiting: Any) -> None:
     step = services.get_run(run_id=waiting.run).run.steps["s1"]
     assert step["status"] == "waiting"
     assert step["why"] == {"code": "not_let_in", "args": {"robot": "robot01", "zone": "The shelf", "zone_id": "shelf"}}
-    operator = sign_in_member("operator", SITE)
+    operator = join_and_sign_in("operator", SITE)
     assert operator.get(AWAITED).json() == shown()
     answer = post_json(operator, LET_IN, {"robot": "robot01"})
     assert answer.status_code == 204
@@ -77,7 +77,7 @@ def test_a_robot_waits_is_let_in_and_its_run_ends(waiting: Any) -> None:
 
 @pytest.mark.parametrize("role", below_role("operator"))
 def test_who_may_not_run_programs_sees_who_waits_and_lets_nobody_in(waiting: Any, role: str) -> None:
-    client = sign_in_member(role, SITE)
+    client = join_and_sign_in(role, SITE)
     assert len(client.get(AWAITED).json()) == 1
     assert post_json(client, LET_IN, {"robot": "robot01"}).status_code == 403
     waiting.work()
@@ -86,11 +86,11 @@ def test_who_may_not_run_programs_sees_who_waits_and_lets_nobody_in(waiting: Any
 
 @pytest.mark.parametrize("role", from_role("operator"))
 def test_who_may_run_programs_lets_robots_in(waiting: Any, role: str) -> None:
-    assert post_json(sign_in_member(role, SITE), LET_IN, {"robot": "robot01"}).status_code == 204
+    assert post_json(join_and_sign_in(role, SITE), LET_IN, {"robot": "robot01"}).status_code == 204
 
 
 def test_strangers_learn_nothing_and_let_nobody_in(waiting: Any) -> None:
-    stranger = sign_in_member("stranger", SITE)
+    stranger = join_and_sign_in("stranger", SITE)
     assert stranger.get(AWAITED).status_code == 404
     assert post_json(stranger, LET_IN, {"robot": "robot01"}).status_code == 404
     waiting.work()
@@ -110,7 +110,7 @@ def test_strangers_learn_nothing_and_let_nobody_in(waiting: Any) -> None:
     ],
 )
 def test_what_cannot_be_is_refused(waiting: Any, path: str, body: dict[str, Any], status: int) -> None:
-    assert post_json(sign_in_member("operator", SITE), path, body).status_code == status
+    assert post_json(join_and_sign_in("operator", SITE), path, body).status_code == status
     waiting.work()
     assert len(shown()) == 1
 

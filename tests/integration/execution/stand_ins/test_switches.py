@@ -15,7 +15,7 @@ from registry import services as registry
 from registry.models import AuditLine, Device
 from tests.integration.execution.test_calls import CURE
 from tests.kit.programs import CARRY, SITE
-from tests.kit.sign_in import EVERYBODY, ROLES, from_role, sign_in_member
+from tests.kit.sign_in import EVERYBODY, ROLES, from_role, join_and_sign_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 MIXER = "paintMixer01"
@@ -38,7 +38,7 @@ def finish(factory, run):
 
 @pytest.mark.parametrize("role", EVERYBODY)
 def test_operators_and_above_switch_and_every_member_sees_it(factory, role):
-    client = sign_in_member(role, SITE)
+    client = join_and_sign_in(role, SITE)
     allowed = role in from_role("operator")
     refused = {"stranger": 404, "nobody": 401}.get(role, 403)
     assert client.put(PATH).status_code == (200 if allowed else refused)
@@ -52,7 +52,7 @@ def test_operators_and_above_switch_and_every_member_sees_it(factory, role):
 
 
 def test_what_is_not_there_or_not_approved_is_not_simulated(factory):
-    client = sign_in_member("operator", SITE)
+    client = join_and_sign_in("operator", SITE)
     assert client.put(f"/api/sites/{SITE}/devices/nobody/stand-in").status_code == 404
     Device.objects.filter(pk=MIXER).update(lifecycle="pending")
     answer = client.put(PATH)
@@ -63,7 +63,7 @@ def test_what_is_not_there_or_not_approved_is_not_simulated(factory):
 def test_a_device_that_a_run_holds_is_not_switched_and_the_answer_says_which(factory):
     run = factory.start(CURE)
     factory.go(lambda: Command.objects.filter(method="mixPaint").exists())
-    answer = sign_in_member("operator", SITE).put(PATH)
+    answer = join_and_sign_in("operator", SITE).put(PATH)
     told = "Paint Mixer A is held by run 1 of “Task”. Wait until it is over, or cancel it."
     assert (answer.status_code, answer.json()["detail"]) == (409, told)
     finish(factory, run)
