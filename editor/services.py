@@ -1,6 +1,6 @@
 """What the other apps may ask of the editor; everything else in this app is its own affair."""
 
-from editor.comments.mail import is_mail_due, send_due_mail
+from editor.comments.mail import COMMENT_MAIL
 from editor.comments.threads import Moment, Words, start_thread_at
 from editor.documents.repair import Mending, mend_program, restore_rows, show_mending
 from editor.documents.store import Change, get_document
@@ -48,6 +48,7 @@ from editor.programs.views import AuthorView, ProgramView, VersionView, WholeVer
 from editor.reviews.gate import Permit, admit_start, is_admitted
 
 __all__ = [
+    "COMMENT_MAIL",
     "AuthorView",
     "BadRequest",
     "Change",
@@ -90,7 +91,6 @@ __all__ = [
     "get_version",
     "has_versions_to_test",
     "is_admitted",
-    "is_mail_due",
     "list_program_troubles",
     "list_programs",
     "list_versions",
@@ -107,7 +107,6 @@ __all__ = [
     "search_library",
     "seed_library",
     "seed_programs",
-    "send_due_mail",
     "show_mending",
     "start_thread_at",
     "take_version_to_test",

@@ -10,7 +10,6 @@ from typing import Any
 from celery import current_task, shared_task
 from celery.signals import worker_init, worker_process_init, worker_shutting_down
 
-from editor import services as editor
 from execution import mailbox
 from execution.engine.drive import drive_site as drive
 from execution.engine.drive import leave
@@ -20,6 +19,7 @@ from execution.program_tests.test_runs import queue_named_versions
 from execution.rehearsals import worker
 from execution.retention import upkeep
 from execution.runs.runs import site_of_run
+from execution.ticker.mail import send_due_mail
 from vipo_device.kit.log_ids import LogId, bind_ids
 
 
@@ -94,5 +94,5 @@ def archive_old(_hint: str) -> None:
 
 @shared_task(name=mailbox.SEND_MAIL, ignore_result=True)  # type: ignore[untyped-decorator]
 def send_mail(_hint: str) -> int:
-    """Send people by e-mail what was written to them and what they have not read; the database knows to whom."""
-    return editor.send_due_mail(now=datetime.now(UTC))
+    """Send what waits to be told by e-mail; the database knows what, and to whom."""
+    return send_due_mail(datetime.now(UTC))

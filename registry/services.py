@@ -140,7 +140,7 @@ from registry.processes.findings import Finding, find_trouble
 from registry.processes.heartbeat_writer import HeartbeatWriter, ProcessKind
 from registry.processes.heartbeats import ProcessView, list_processes, prune_processes, read_time
 from registry.sites.invitations import prune_invitations
-from registry.sites.mail import can_mail, send_mail
+from registry.sites.mail import MailQueue, can_mail
 from registry.sites.members import PersonView, list_people, remove_member, set_member
 from registry.sites.quota import set_site_quota
 from registry.sites.sites import (
@@ -183,6 +183,7 @@ __all__ = [
     "IsSimulated",
     "Listed",
     "Login",
+    "MailQueue",
     "MapChanged",
     "MapFiles",
     "MapVersionView",
@@ -375,7 +376,6 @@ __all__ = [
     "run_query",
     "save_map",
     "save_places",
-    "send_mail",
     "session_of_socket",
     "set_enrolment_key",
     "set_member",

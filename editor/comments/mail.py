@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Iterable, Sequence
 from datetime import datetime, timedelta
-from typing import Any
 
-from django.contrib.auth import get_user_model
-from django.db.models import Q, QuerySet
+from django.db.models import QuerySet
 
 from editor.models import Comment, CommentNotice, ThreadReading
 from registry import services as registry
 
-log = logging.getLogger(__name__)
-
 GATHERED_FOR = timedelta(minutes=10)
 """So long who is called has to read it on the screen, and what comes in meanwhile goes into the same message."""
-TAKEN_FOR = timedelta(minutes=10)
-"""After so long what a process has taken and not sent is taken by another one, or tried again."""
-TOLD_WITHIN = timedelta(days=1)
-"""What could not be sent within that is not sent any more."""
-MOST_PEOPLE, MOST_COMMENTS, MOST_LETTERS = 50, 30, 400
-"""In one pass, in one message, and of one comment."""
+MOST_COMMENTS, MOST_LETTERS = 30, 400
+"""In one message, and of one comment."""
 
 
 def note_comment(comment: Comment, origin: str) -> None:
@@ -45,49 +36,25 @@ def note_people(comment: Comment, people: Iterable[int], origin: str, at: dateti
     CommentNotice.objects.bulk_create(rows, ignore_conflicts=True)
 
 
-def is_mail_due(*, now: datetime) -> bool:
-    """Tell whether somebody has waited long enough for what was written to them."""
-    return _due(now).exists()
+def _list_rows() -> QuerySet[CommentNotice]:
+    return CommentNotice.objects.select_related("comment__author", "comment__thread__program__site")
 
 
-def send_due_mail(*, now: datetime) -> int:
-    """Send everybody who has waited long enough all that they have not read, in one message each; return how many.
-
-    Several processes may do this at once: each person is taken by one of them. What cannot be sent is tried again.
-    """
-    waiting = _due(now).values_list("person", flat=True).distinct()[:MOST_PEOPLE]
-    return sum(_send_to(person, now) for person in list(waiting))
+def _write_letter(rows: Sequence[CommentNotice], person: int) -> tuple[str, str] | None:
+    told = _worth_telling(rows, person)
+    return (_subject(len(told)), _text(told)) if told else None
 
 
-def _due(now: datetime) -> QuerySet[CommentNotice]:
-    return _free(now).filter(made_at__lte=now - GATHERED_FOR)
+COMMENT_MAIL = registry.MailQueue(list_rows=_list_rows, waits=GATHERED_FOR, write_letter=_write_letter)
+"""What somebody has not read comes to them, in one message."""
 
 
-def _free(now: datetime) -> QuerySet[CommentNotice]:
-    return CommentNotice.objects.filter(Q(taken_at=None) | Q(taken_at__lte=now - TAKEN_FOR))
-
-
-def _send_to(person: int, now: datetime) -> bool:
-    if not _free(now).filter(person=person).update(taken_at=now):
-        return False  # another process was first
-    mine = CommentNotice.objects.filter(person=person, taken_at=now)
-    mine.filter(made_at__lte=now - TOLD_WITHIN).delete()
-    rows = mine.select_related("comment__author", "comment__thread__program__site")
-    found = list(rows.order_by("made_at", "pk"))
-    user = get_user_model().objects.get(pk=person)
-    told = _worth_telling(found, user) if user.is_active and user.wants_mail else []
-    if told and not registry.send_mail(to=user.email, subject=_subject(len(told)), text=_text(told)):
-        return False  # it stays taken for a while, and is tried again
-    CommentNotice.objects.filter(pk__in=[row.pk for row in found]).delete()
-    return bool(told)
-
-
-def _worth_telling(rows: Sequence[CommentNotice], user: Any) -> list[CommentNotice]:
+def _worth_telling(rows: Sequence[CommentNotice], person: int) -> list[CommentNotice]:
     """Return what this person has not read, at sites of which they are a member."""
     threads = {row.comment.thread_id for row in rows}
-    read = dict(ThreadReading.objects.filter(person=user, thread__in=threads).values_list("thread_id", "read_to"))
+    read = dict(ThreadReading.objects.filter(person=person, thread__in=threads).values_list("thread_id", "read_to"))
     sites = {row.comment.thread.program.site.slug for row in rows}
-    mine = {site for site in sites if user.pk in {member.id for member in registry.list_people(site=site)}}
+    mine = {site for site in sites if person in {member.id for member in registry.list_people(site=site)}}
     return [
         row
         for row in rows

@@ -27,6 +27,7 @@ from execution.retention.upkeep import ask_for_archiving
 from execution.runs.terms import call_late
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
+from execution.ticker.mail import is_mail_due
 from registry import services as registry
 
 TICK_SITES_S = 0.5
@@ -65,7 +66,7 @@ class Ticker:
                 mailbox.hint_now(view.site)
             registry.flush_samples()
             watch_alerts(now=now, since=self._leads_since)
-        if self._is_due("mail", MAIL_S, now) and editor.is_mail_due(now=now):
+        if self._is_due("mail", MAIL_S, now) and is_mail_due(now):
             mailbox.send_hint(mailbox.SEND_MAIL, "")
         if self._is_due("prune", PRUNE_S, now):
             mailbox.forget_taken(now - KEPT_FOR)

@@ -39,7 +39,7 @@ class UserManager(BaseUserManager["User"]):
 class User(AbstractBaseUser):
     """A person; signs in by e-mail, and may make so many sites as `site_quota` says.
 
-    `wants_mail` is whether what others write to them comes by e-mail, too.
+    `wants_mail` is whether they want mail of any `MailQueue`.
     """
 
     email = models.EmailField(unique=True)

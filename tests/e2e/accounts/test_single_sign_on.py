@@ -264,7 +264,7 @@ def test_comments_by_mail_are_switched_off_by_keyboard_and_stay_so(
     page = open_page(chromium, faults)
     come_in(page, place, "author")
     page.goto(f"{place.url}/account")
-    switch = page.get_by_role("switch", name="Comments that call me")
+    switch = page.get_by_role("switch", name="E-mail to me")
     expect(switch).to_be_checked()
     with page.expect_response(re.compile("/api/me/mail$")):
         switch.press("Space")

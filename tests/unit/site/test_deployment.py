@@ -72,7 +72,7 @@ def test_a_setting_is_given_to_the_processes_of_the_deployment(name: str) -> Non
 
 
 def test_whoever_sends_mail_knows_the_mail_server() -> None:
-    """The web processes invite people; the worker of upkeep tells them of comments."""
+    """The web processes invite people; the worker of upkeep sends all other mail."""
     upkeep = {name for name, service in SERVICES.items() if "upkeep" in " ".join(service.get("command", ()))}
     senders = {name for name, service in SERVICES.items() if "VIPO_MAIL_HOST" in service.get("environment", {})}
     assert senders == {"web-1", "web-2"} | upkeep

@@ -1,4 +1,4 @@
-/** Whether what others write to me comes by e-mail; nothing where the server sends none. */
+/** Whether I want the mail that the server sends me by itself; nothing where it sends none. */
 import { Switch } from "@mantine/core";
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { useTranslation } from "react-i18next";
@@ -24,7 +24,7 @@ export function Mail() {
       <div className={styles.form}>
         <h2>{t("pages.account.mail")}</h2>
         <Switch
-          label={t("pages.account.mailComments")}
+          label={t("pages.account.mailSwitch")}
           description={t("pages.account.mailText")}
           checked={choose.isPending ? choose.variables : mail.wanted}
           onChange={(event) => choose.mutate(event.currentTarget.checked)}

@@ -47,7 +47,7 @@ def write(program: str, who: str, text: str = "Why?", thread: str = "", **body: 
 
 
 def send(after: timedelta) -> int:
-    return services.send_due_mail(now=datetime.now(UTC) + after)
+    return services.COMMENT_MAIL.send_due(now=datetime.now(UTC) + after)
 
 
 def told() -> list[tuple[list[str], str]]:
@@ -110,6 +110,12 @@ def test_a_server_without_mail_keeps_nothing(program: str, settings: Any) -> Non
     write(program, "commenter", mentions=[find_person("author").pk])
     assert not CommentNotice.objects.exists()
     assert signed_in("author").get("/api/me/mail").json() == {"wanted": True, "can_mail": False}
+
+
+def test_what_waits_is_dropped_where_the_server_sends_no_mail_any_more(program: str, settings: Any) -> None:
+    write(program, "commenter", mentions=[find_person("author").pk])
+    settings.EMAIL_HOST = ""
+    assert (send(LATER), told(), CommentNotice.objects.count()) == (0, [], 0)
 
 
 def test_what_cannot_be_sent_is_tried_again_for_a_day(program: str, monkeypatch: pytest.MonkeyPatch) -> None:
