@@ -1,11 +1,13 @@
-"""What requests say and how operations describe themselves: the base of all that is asked, and parts of lists."""
+"""What requests say, how operations describe themselves, answers that are files, and parts of lists."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Annotated, Any
+from unicodedata import category
 
 from django.http import HttpRequest, HttpResponse
+from django.utils.http import content_disposition_header
 from ninja import Field, Schema
 from ninja.schema import DjangoGetter
 from pydantic import AfterValidator, ConfigDict, GetCoreSchemaHandler, Strict, ValidationError, model_validator
@@ -31,6 +33,27 @@ def _type_of(content_type: str) -> str | list[str]:
     if content_type == "application/ld+json":
         return ["object", "array"]
     return "object" if content_type.endswith(("json", "yaml")) else "string"
+
+
+_NOT_IN_NAMES = frozenset('"*/:;<>?\\|%')
+_MOST_NAME = 150
+
+
+def as_file(name: str) -> dict[str, str]:
+    """Return the header that makes an answer a file of this name, as RFC 6266 writes it.
+
+    What a header, a file system or a reader could stumble over becomes `_`: quotes, folders, signs that are not shown.
+    """
+    fit = "".join(
+        "_" if each in _NOT_IN_NAMES or (category(each)[0] in "CZ" and each != " ") else each for each in name
+    )
+    value = content_disposition_header(as_attachment=True, filename=fit[-_MOST_NAME:].strip(" .") or "file")
+    assert value is not None  # it is an attachment
+    return {"Content-Disposition": value}
+
+
+def _is_unfit_in_name(sign: str) -> bool:
+    return sign in _NOT_IN_NAMES or (category(sign)[0] in "CZ" and sign != " ")
 
 
 def refuses(*statuses: int) -> dict[str, Any]:

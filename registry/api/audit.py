@@ -14,7 +14,7 @@ from registry.audit import queries
 from registry.audit.codes import Kind
 from registry.people.access import require
 from registry.people.open_sessions import name_browser
-from registry.requests import Asked, PartAsked, sends, signed_in, tell_rest
+from registry.requests import Asked, PartAsked, as_file, sends, signed_in, tell_rest
 
 router = Router(tags=["registry"])
 
@@ -67,11 +67,8 @@ def list_audit(
 def export_audit(request: HttpRequest, slug: str, asked: Query[AuditOfKind]) -> StreamingHttpResponse:
     """Give the record as a table (CSV), the newest first."""
     require(signed_in(request), slug, "admin")
-    answer = StreamingHttpResponse(
-        queries.write_table(site=slug, kind=asked.kind), content_type="text/csv; charset=utf-8"
-    )
-    answer["Content-Disposition"] = f'attachment; filename="{slug}-audit.csv"'
-    return answer
+    lines = queries.write_table(site=slug, kind=asked.kind)
+    return StreamingHttpResponse(lines, content_type="text/csv; charset=utf-8", headers=as_file(f"{slug}-audit.csv"))
 
 
 def _to_json(view: queries.AuditView) -> dict[str, Any]:

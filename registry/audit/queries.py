@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from itertools import chain, islice
 from typing import Any
 
 from django.db.models import QuerySet
@@ -15,9 +14,9 @@ from django.db.models import QuerySet
 from registry.audit.codes import Kind
 from registry.bounds.pagination import FIRST, Listed, Page, take_page
 from registry.models import AuditLine
+from vipo_device.protocol.csv_lines import csv_line
 
 COLUMNS = ("at", "kind", "code", "actor_kind", "actor", "address", "agent", "facts")
-_RUNS_AS_FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,19 +50,19 @@ def count_audit(*, site: str, kind: Kind | None = None) -> int:
 
 
 def write_table(*, site: str, kind: Kind | None = None) -> Iterator[str]:
-    """Yield the record as lines of CSV with a head, the newest first, read bit by bit."""
-    yield csv_line(COLUMNS)
-    for row in _rows(site, kind).order_by("-at", "-pk").iterator(chunk_size=500):
-        facts = json.dumps(row.facts, ensure_ascii=False, sort_keys=True)
-        at = row.at.astimezone(UTC).isoformat(timespec="seconds")
-        yield csv_line((at, row.kind, row.code, row.actor_kind, row.actor, row.address, row.agent, facts))
+    """Return the record as lines of CSV with a head, the newest first, read bit by bit.
+
+    The first part is read at once: what cannot be read is told before an answer has begun.
+    """
+    rows = _rows(site, kind).order_by("-at", "-pk").iterator(chunk_size=500)
+    first = list(islice(rows, 1))
+    return chain([csv_line(COLUMNS)], map(_line, chain(first, rows)))
 
 
-def csv_line(fields: tuple[str, ...]) -> str:
-    """Return a line of CSV; a field that a spreadsheet would carry out as a formula begins with an apostrophe."""
-    text = io.StringIO()
-    csv.writer(text).writerow(f"'{field}" if field.startswith(_RUNS_AS_FORMULA) else field for field in fields)
-    return text.getvalue()
+def _line(row: AuditLine) -> str:
+    facts = json.dumps(row.facts, ensure_ascii=False, sort_keys=True)
+    at = row.at.astimezone(UTC).isoformat(timespec="seconds")
+    return csv_line((at, row.kind, row.code, row.actor_kind, row.actor, row.address, row.agent, facts))
 
 
 def _rows(site: str, kind: Kind | None) -> QuerySet[AuditLine]:

@@ -17,7 +17,7 @@ from execution.floor.exports.road_map import RoadMap, make_road_map
 from execution.floor.layouts import get_layout
 from execution.traffic.layout import Layout
 from registry import services as registry
-from registry.requests import sends, signed_in
+from registry.requests import as_file, sends, signed_in
 from registry.services import require
 
 router = Router(tags=["execution"])
@@ -77,6 +77,4 @@ def _roads_of(site: str) -> tuple[Layout, RoadMap]:
 
 
 def _download(body: bytes, name: str, content_type: str) -> HttpResponse:
-    response = HttpResponse(body, content_type=content_type)
-    response["Content-Disposition"] = f'attachment; filename="{name}"'
-    return response
+    return HttpResponse(body, content_type=content_type, headers=as_file(name))

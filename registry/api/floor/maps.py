@@ -18,7 +18,7 @@ from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.floorplan.plan import Grid
 from registry.floorplan.zone_masks import write_nav2_archive
 from registry.people.access import require
-from registry.requests import sends, signed_in
+from registry.requests import as_file, sends, signed_in
 from registry.shapes import MapShape, Origin
 
 router = Router(tags=["registry"])
@@ -205,9 +205,7 @@ def _yaml(grid: Grid, name: str) -> HttpResponse:
 
 
 def _download(body: bytes, name: str, content_type: str) -> HttpResponse:
-    response = HttpResponse(body, content_type=content_type)
-    response["Content-Disposition"] = f'attachment; filename="{name}"'
-    return response
+    return HttpResponse(body, content_type=content_type, headers=as_file(name))
 
 
 @router.get("/sites/{slug}/map/versions", response=list[MapVersionShape])

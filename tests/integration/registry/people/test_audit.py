@@ -8,8 +8,9 @@ from datetime import UTC, datetime, timedelta
 from typing import Any
 
 import pytest
-from django.db import DatabaseError, transaction
+from django.db import DatabaseError, connection, transaction
 from django.test import Client
+from django.test.utils import CaptureQueriesContext
 from pytest_django import Settings
 
 from editor import services as editor
@@ -202,6 +203,17 @@ def test_the_record_is_taken_away_as_a_table_that_no_spreadsheet_carries_out(fre
     rows = list(csv.reader(io.StringIO(answer.getvalue().decode())))
     assert rows[0] == ["at", "kind", "code", "actor_kind", "actor", "address", "agent", "facts"]
     assert [row[1:5] for row in rows[1:]] == [["stops", "stop_reset", "person", '\'=HYPERLINK("http://bad")']]
+
+
+def test_the_table_is_read_before_its_answer_begins(fresh: str) -> None:
+    note(3)
+    admin = signed_in("admin")
+    with CaptureQueriesContext(connection) as before:
+        answer = admin.get(f"{SITE}/audit.csv")
+    with CaptureQueriesContext(connection) as after:
+        assert len(list(csv.reader(io.StringIO(answer.getvalue().decode())))) == 4
+    assert [*filter(lambda asked: "registry_auditline" in asked["sql"], before.captured_queries)] != []
+    assert after.captured_queries == []
 
 
 def test_lines_are_kept_as_long_as_the_server_says(fresh: str, settings: Settings) -> None:
