@@ -44,9 +44,7 @@ def as_file(name: str) -> dict[str, str]:
 
     What a header, a file system or a reader could stumble over becomes `_`: quotes, folders, signs that are not shown.
     """
-    fit = "".join(
-        "_" if each in _NOT_IN_NAMES or (category(each)[0] in "CZ" and each != " ") else each for each in name
-    )
+    fit = "".join("_" if _is_unfit_in_name(sign) else sign for sign in name)
     value = content_disposition_header(as_attachment=True, filename=fit[-_MOST_NAME:].strip(" .") or "file")
     assert value is not None  # it is an attachment
     return {"Content-Disposition": value}

@@ -1,6 +1,6 @@
 """Make the pictures of docs/language/images: one small program for each construct, as the editor draws it.
 
-python scripts/construct_pictures.py [kind …]; needs the built frontend.
+python -m scripts.construct_pictures [kind …]; needs a frontend that was built since the last `make constructs`.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ from tests.e2e.conftest import CHROMIUM, FLAGS, sign_in_by_form, wait_for_device
 from tests.kit.demo import Demo, running_demo  # noqa: E402
 
 IMAGES = ROOT / "docs" / "language" / "images"
+BUILT = ROOT / "frontend" / "dist" / "index.html"
+CONSTRUCTS = ROOT / "frontend" / "src" / "program" / "constructs.json"
 PIXELS_PER_METRE = 46
 WIDEST_PIXELS = 900
 WINDOW = {"width": 1500, "height": 1000}
@@ -82,6 +84,8 @@ def main() -> None:
     """Start a demo of its own, take the pictures, stop it."""
     IMAGES.mkdir(parents=True, exist_ok=True)
     asked = sys.argv[1:]
+    if not BUILT.exists() or BUILT.stat().st_mtime < CONSTRUCTS.stat().st_mtime:
+        sys.exit("The built frontend is older than the kinds of steps: run `make frontend`, then this again.")
     wanted = {kind: picture for kind, picture in pictures().items() if not asked or kind in asked}
     expect.set_options(timeout=60_000)
     with tempfile.TemporaryDirectory() as folder, running_demo(Path(folder)) as demo:

@@ -210,6 +210,15 @@ def test_the_words_by_which_the_library_finds_steps_are_those_of_the_editor():
 
 
 @pytest.mark.parametrize("language", ["en", "de"])
+def test_each_reason_to_wait_has_its_sentence_in_every_language(language):
+    traffic = "".join(path.read_text() for path in sorted((ROOT / "execution" / "traffic").glob("*.py")))
+    codes = re.findall(r"""\.wait\(\s*task,\s*"(\w+)\"""", traffic)
+    words = json.loads((FRONTEND / "i18n" / language / "run.json").read_text())["waits"]
+    assert len(codes) > 10
+    assert lacking(f"waits in i18n/{language}/run.json", codes, words) == []
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
 def test_each_alert_has_its_sentence_on_pages_and_those_for_viewers_on_wall_screens(language):
     words = FRONTEND / "i18n" / language
     on_pages = json.loads((words / "alerts.json").read_text())["what"]
