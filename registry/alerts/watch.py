@@ -15,7 +15,7 @@ from django.conf import settings
 from django.db.models import Q
 
 from registry.alerts.alerts import Raised, end_alerts, raise_alerts, reword_alert
-from registry.alerts.causes import CAUSES, LOW_BATTERY_PERCENT, AlertCode
+from registry.alerts.causes import CAUSES, LOW_BATTERY_PERCENT, AlertCode, is_battery_low
 from registry.models import Device, DeviceAlert, DeviceEvent
 
 CALM = timedelta(seconds=10)
@@ -100,14 +100,25 @@ def _find_told() -> Causes:
     told = Q(properties__has_key="error") | Q(properties__has_key="warning")
     rows = Device.objects.filter(told | Q(properties__battery__lt=LOW_BATTERY_PERCENT), online=True)
     found: Causes = {}
+    low: dict[str, Any] = {}
     for device, said in rows.filter(lifecycle="approved").values_list("pk", "properties"):
         for code in ("error", "warning"):
             if trouble := said.get(code):
                 found[device, code] = {} if trouble is True else {"why": str(trouble)[:MOST_CHARACTERS]}
-        charge = said.get("battery")
-        if isinstance(charge, int | float) and charge < LOW_BATTERY_PERCENT:
+        if is_battery_low(said.get("battery"), ""):
+            low[device] = said["battery"]
+    for device, unit in _battery_units(low):
+        if is_battery_low(low[device], unit):
             found[device, "battery_low"] = {}
     return found
+
+
+def _battery_units(devices: Collection[str]) -> Iterator[tuple[str, str]]:
+    """Yield in which unit each of some devices says how full its battery is; empty where it has none."""
+    rows = Device.objects.filter(pk__in=devices).values_list("pk", "description") if devices else ()
+    for device, description in rows:
+        said = (description or {}).get("properties", ())
+        yield device, next((each.get("unit", "") for each in said if each["name"] == "battery"), "")
 
 
 def _find_pending(now: datetime) -> Causes:

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field, replace
 from datetime import datetime
 from typing import Any, Literal
 
-from registry.alerts.causes import LOW_BATTERY_PERCENT
+from registry.alerts.causes import is_battery_low
 from registry.devices.activity import NOT_TRUSTED, NOTHING, Activity, Seen, activity_of
 from registry.models import Device
 from vipo_device.descriptions.forms import CONTENT_TYPES
@@ -164,8 +164,8 @@ def status_of(view: DeviceView) -> Status:
         return "error"
     if not view.done:
         return "busy"
-    battery = view.readings.get("battery")
-    low = isinstance(battery, int | float) and battery < LOW_BATTERY_PERCENT
+    spec = view.canonical.property("battery")
+    low = is_battery_low(view.readings.get("battery"), spec.unit if spec else "")
     return "warning" if low or view.readings.get("warning") else "idle"
 
 

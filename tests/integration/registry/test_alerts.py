@@ -24,6 +24,7 @@ from registry.services import BadDevice
 from tests.kit.sign_in import below_role, from_role, signed_in
 from tests.kit.sites import MIXER, NOW, ROBOT, come, describe, say
 from vipo_device.descriptions.reader import write_description
+from vipo_device.protocol.description import PropertySpec
 from vipo_site.cli.main import main
 
 LONG_AGO = NOW - timedelta(days=1)
@@ -115,6 +116,16 @@ def test_what_a_device_says_is_an_alert_with_its_words(mixer: str, heard: list[A
     say(seq=3, props={"error": "", "warning": True, "battery": "full"}, at=NOW + timedelta(seconds=31))
     watch(32)
     assert alerts() == [("warning", "", 1)]
+
+
+@pytest.mark.parametrize(("unit", "told"), [("PERCENT", ["battery_low"]), ("V", [])])
+def test_a_battery_that_is_said_in_volts_is_not_taken_for_a_share(unit: str, told: list[str], mixer: str) -> None:
+    battery = PropertySpec("battery", "number", unit)
+    describe(replace(MIXER, properties=(*MIXER.properties, battery)))
+    say(props={"battery": 12.6})
+    watch(1)
+    assert [code for code, _, _ in alerts()] == told
+    assert services.get_device(site="hall", device_id=mixer).status == ("warning" if told else "idle")
 
 
 def test_who_changes_its_mind_all_the_time_has_one_alert(mixer: str) -> None:

@@ -13,9 +13,9 @@ const method = (name: string, title: string) => ({
   message_type: "",
   parameters: [],
 });
-const holding = (name: string, value: number | string) =>
+const holding = (name: string, value: number | string, unit = "") =>
   [
-    { name, title: "", type: "number", unit: "", minimum: null, maximum: null, options: [], value },
+    { name, title: "", type: "number", unit, minimum: null, maximum: null, options: [], value },
   ] satisfies Device["properties"];
 
 const oven = device("oven01", { name: "Curing Oven", methods: [method("cure", "Cure")] });
@@ -52,6 +52,8 @@ test("methods are listed once, by the alphabet", () => {
 
 test("a battery is read only where it is a number", () => {
   expect(batteryOf(device("a", { properties: holding("battery", 84) }))).toBe(84);
+  expect(batteryOf(device("a", { properties: holding("battery", 84, "PERCENT") }))).toBe(84);
+  expect(batteryOf(device("a", { properties: holding("battery", 12.6, "V") }))).toBeNull();
   expect(batteryOf(device("a", { properties: holding("battery", "full") }))).toBeNull();
   expect(batteryOf(oven)).toBeNull();
 });

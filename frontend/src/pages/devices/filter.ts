@@ -39,10 +39,12 @@ export function methodNames(devices: readonly Device[]): string[] {
   return [...new Set(devices.flatMap((device) => device.methods.map((method) => method.name)))].sort();
 }
 
-/** Per cent, when the device tells its battery. */
+const SHARES: ReadonlySet<string> = new Set(["", "PERCENT", "NUM", "UNITLESS"]);
+
+/** Per cent, when the device tells how full its battery is; null where it tells volts. */
 export function batteryOf(device: Device): number | null {
-  const value = device.properties.find((property) => property.name === "battery")?.value;
-  return typeof value === "number" ? value : null;
+  const battery = device.properties.find((property) => property.name === "battery");
+  return typeof battery?.value === "number" && SHARES.has(battery.unit) ? battery.value : null;
 }
 
 /** 0 to 1 of the job at hand; null when it has none or does not say. */
