@@ -11,6 +11,7 @@ const ROOMS = [
   ["api"],
   ["i18n"],
   ["design"],
+  ["offline"],
 ];
 const EDITOR = [
   ["parts"],

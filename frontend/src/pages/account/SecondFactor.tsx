@@ -2,7 +2,6 @@
 import { Button, Modal, PasswordInput, TextInput } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
-import { CircleAlert } from "lucide-react";
 import { useState, type FormEvent, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { api, ApiProblem } from "@/api/client";
@@ -12,9 +11,10 @@ import { SecretField } from "@/design/SecretField";
 import { takeKeyboard } from "@/design/takeKeyboard";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatMoment } from "@/i18n/format";
-import { LoadProblem, problemText } from "@/shell/LoadProblem";
+import { LoadProblem } from "@/shell/LoadProblem";
 import pages from "../pages.module.css";
 import styles from "./account.module.css";
+import { Told } from "./Told";
 import { useWaysIn } from "./waysIn";
 
 const PATH = "/me/second-factor";
@@ -37,17 +37,6 @@ function useProven<Told>(path: string, onTold: (told: Told, proof: Proof) => voi
       onTold(told, proof);
     },
   });
-}
-
-function Refused({ error }: { error: Error | null }) {
-  const { t } = useTranslation();
-  if (!error) return null;
-  return (
-    <p className={styles.refused} role="alert">
-      <CircleAlert size={16} aria-hidden="true" />
-      {problemText(error, t("shell.problem.screen"))}
-    </p>
-  );
 }
 
 interface ProofFormProps {
@@ -106,7 +95,7 @@ function ProofForm({ code, go, error, busy, children, password, onSend, onClose 
           onChange={(event) => setProof({ ...proof, code: event.target.value })}
         />
       ) : null}
-      <Refused error={error} />
+      <Told error={error} done="" />
       <div className={pages.buttons}>
         <Button variant="default" onClick={onClose}>
           {t("factor.cancel")}

@@ -1,7 +1,7 @@
 /** How one signs in: accounts elsewhere that are linked, linking one, and taking a link away. */
 import { Button, Modal, PasswordInput } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { CircleAlert, Link2 } from "lucide-react";
+import { Link2 } from "lucide-react";
 import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
@@ -11,22 +11,12 @@ import { Panel } from "@/design/Panel";
 import { useNow } from "@/design/useNow";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatAgo, formatMoment } from "@/i18n/format";
-import { LoadProblem, problemText } from "@/shell/LoadProblem";
+import { LoadProblem } from "@/shell/LoadProblem";
 import pages from "../pages.module.css";
 import { useProviders } from "../signin/providers";
 import styles from "./account.module.css";
+import { Told } from "./Told";
 import { useWaysIn } from "./waysIn";
-
-function Refused({ error }: { error: Error | null }) {
-  const { t } = useTranslation();
-  if (!error) return null;
-  return (
-    <p className={styles.refused} role="alert">
-      <CircleAlert size={16} aria-hidden="true" />
-      {problemText(error, t("shell.problem.screen"))}
-    </p>
-  );
-}
 
 function LinkDialog({ to, asks, onClose }: { to: SignOnProvider; asks: boolean; onClose: () => void }) {
   const { t } = useTranslation();
@@ -59,7 +49,7 @@ function LinkDialog({ to, asks, onClose }: { to: SignOnProvider; asks: boolean; 
         ) : (
           <p>{t("signOn.fresh")}</p>
         )}
-        <Refused error={begin.error} />
+        <Told error={begin.error} done="" />
         <div className={pages.buttons}>
           <Button variant="default" onClick={onClose}>
             {t("signOn.cancel")}
@@ -90,7 +80,7 @@ function UnlinkDialog({ signOn, onClose }: { signOn: OwnSignOn; onClose: () => v
     <Modal opened onClose={onClose} title={t("signOn.unlinkTitle", { title })} size={460}>
       <div className={`${pages.form} ${styles.form}`}>
         <p>{t("signOn.unlinkText", { title })}</p>
-        <Refused error={end.error} />
+        <Told error={end.error} done="" />
         <div className={pages.buttons}>
           <Button variant="default" onClick={onClose} data-autofocus>
             {t("signOn.keep")}
