@@ -12,12 +12,7 @@ from typing import Any
 import pytest
 from xdist.scheduler import LoadFileScheduling  # type: ignore[import-untyped]
 
-HALVES = {
-    "browsers that draw": ("tests/e2e/drawing/", "tests/e2e/sites/", "tests/e2e/together/"),
-    "browsers": ("tests/e2e/",),
-}
-"""Tests in browsers share a demo, which takes long to start, in two processes: in one they would be the last to end."""
-
+BROWSERS = "tests/e2e"
 TOGETHER = {
     "the demo that nobody ends": (
         "tests/integration/breaking/test_vanishing.py",
@@ -32,7 +27,7 @@ TOGETHER = {
     ),
 }
 FIRST = (
-    *HALVES,
+    BROWSERS,
     "PostgreSQL",
     "the demo that nobody ends",
     "tests/integration/breaking/test_restart.py",
@@ -56,9 +51,9 @@ _GROUPS = {file: name for name, files in TOGETHER.items() for file in files}
 
 
 def group_of(nodeid: str) -> str:
-    """Return what a test stays together with: its file, a named group of files, or half of the browsers' tests."""
+    """Return what a test stays together with: its file, or a named group of files."""
     file = nodeid.partition("::")[0]
-    return next((half for half, folders in HALVES.items() if file.startswith(folders)), _GROUPS.get(file, file))
+    return BROWSERS if file.startswith(f"{BROWSERS}/") else _GROUPS.get(file, file)
 
 
 def rank_of(nodeid: str) -> int:
