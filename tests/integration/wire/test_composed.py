@@ -178,9 +178,9 @@ def test_the_broker_takes_nobody_without_a_password(site: Composed) -> None:
 SEND = """
 import django
 django.setup()
-from registry import services as registry
-assert registry.can_mail()
-assert registry.send_mail(to="member@example.com", subject="1 comment", text="Warum? Grüße.")
+from registry.sites.mail import can_mail, send_mail
+assert can_mail()
+assert send_mail(to="member@example.com", subject="1 comment", text="Warum? Grüße.")
 """
 
 
