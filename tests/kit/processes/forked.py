@@ -13,16 +13,19 @@ import functools
 import json
 import os
 import select
+import signal
 import socket
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
 from tests.kit.files import ROOT
 
 ANSWER_BYTES = 64
+_ASKING = Lock()
 
 
 class ForkedPython(subprocess.Popen[Any]):
@@ -32,11 +35,12 @@ class ForkedPython(subprocess.Popen[Any]):
         """Ask for the process where Popen forks and executes; `options` are Popen's own, in its order (Python 3.11)."""
         passed, cwd, env = options[3:6]
         pipes, session = options[9:15], options[20]
-        assert not passed, "files besides the three usual ones do not come along"
         read_by_child, _, _, written_by_child, _, errors = pipes
-        self._ended, ends = os.pipe()
         interpreter, *arguments = args
         assert interpreter == sys.executable, "only what runs in this interpreter can be forked"
+        assert not passed, "files besides the three usual ones do not come along"
+        self._ended, ends = os.pipe()
+        self._end = Lock()
         asked = {
             "arguments": [str(each) for each in arguments],
             "cwd": os.fspath(cwd or Path.cwd()),
@@ -62,11 +66,18 @@ class ForkedPython(subprocess.Popen[Any]):
 
     def _look(self, timeout_s: float | None) -> int | None:
         """Return the exit code if the process has ended or does so in time; negative for a signal, as Popen has it."""
-        if self.returncode is None and select.select([self._ended], [], [], timeout_s)[0]:
-            told = os.read(self._ended, ANSWER_BYTES)
-            os.close(self._ended)
-            self.returncode = int(told or -9)
+        end = select.poll()  # not select(), which takes no file above 1,023
+        end.register(self._ended, select.POLLIN)
+        if self.returncode is None and end.poll(None if timeout_s is None else timeout_s * 1000):
+            with self._end:
+                if self.returncode is None:
+                    self.returncode = int(os.read(self._ended, ANSWER_BYTES) or -signal.SIGKILL)
         return self.returncode
+
+    def __del__(self, *_: Any) -> None:
+        """Give the pipe back that told the end."""
+        if hasattr(self, "_ended"):
+            os.close(self._ended)
 
 
 def run_forked(
@@ -111,6 +122,7 @@ def _server() -> socket.socket:
 
 
 def _ask(asked: Mapping[str, Any], files: list[int]) -> int:
-    """Return the id of the new process."""
-    socket.send_fds(_server(), [json.dumps(asked).encode()], files)
-    return int(_server().recv(ANSWER_BYTES))
+    """Return the id of the new process; several threads may ask."""
+    with _ASKING:
+        socket.send_fds(_server(), [json.dumps(asked).encode()], files)
+        return int(_server().recv(ANSWER_BYTES))
