@@ -112,10 +112,15 @@ def test_a_server_without_mail_keeps_nothing(program: str, settings: Any) -> Non
     assert signed_in("author").get("/api/me/mail").json() == {"wanted": True, "can_mail": False}
 
 
-def test_what_waits_is_dropped_where_the_server_sends_no_mail_any_more(program: str, settings: Any) -> None:
+def test_a_worker_without_mail_leaves_what_waits_to_one_that_has_it_for_a_day(program: str, settings: Any) -> None:
+    write(program, "commenter", mentions=[find_person("author").pk])
+    host, settings.EMAIL_HOST = settings.EMAIL_HOST, ""
+    assert (send(LATER), told(), CommentNotice.objects.count()) == (0, [], 1)
+    settings.EMAIL_HOST = host
+    assert (send(LATER), CommentNotice.objects.count()) == (1, 0)
     write(program, "commenter", mentions=[find_person("author").pk])
     settings.EMAIL_HOST = ""
-    assert (send(LATER), told(), CommentNotice.objects.count()) == (0, [], 0)
+    assert (send(timedelta(days=1, minutes=1)), CommentNotice.objects.count()) == (0, 0)
 
 
 def test_what_cannot_be_sent_is_tried_again_for_a_day(program: str, monkeypatch: pytest.MonkeyPatch) -> None:
