@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from datetime import timedelta
 from typing import Any, Literal
 
-from vipo_device.protocol.units import convert, declared_unit, is_measure, same_dimension
+from vipo_device.protocol.units import declared_unit, is_measure
 
 Severity = Literal["info", "warning", "error"]
 AlertCode = Literal[
@@ -40,16 +40,13 @@ LOW_BATTERY_PERCENT = 15.0
 def is_battery_low(charge: object, unit: str) -> bool:
     """Tell whether a battery is low by what a device says of it, in the unit that its description has.
 
-    A number without a unit is per cent. What is no share, such as volts, says nothing without the kind of battery.
+    A number without a unit is per cent. What is measured otherwise, such as volts, says nothing without the kind of
+    battery.
     """
-    if not isinstance(charge, int | float) or isinstance(charge, bool):
+    if isinstance(charge, bool) or not isinstance(charge, int | float):
         return False
-    said = declared_unit(unit)
-    if is_measure(said):
-        if not same_dimension(said, "PERCENT"):
-            return False
-        charge = convert(charge, said, "PERCENT")
-    return charge < LOW_BATTERY_PERCENT
+    is_share = unit == "PERCENT" or not is_measure(declared_unit(unit))
+    return is_share and charge < LOW_BATTERY_PERCENT
 
 
 @dataclass(frozen=True, slots=True)

@@ -100,15 +100,15 @@ def _find_told() -> Causes:
     told = Q(properties__has_key="error") | Q(properties__has_key="warning")
     rows = Device.objects.filter(told | Q(properties__battery__lt=LOW_BATTERY_PERCENT), online=True)
     found: Causes = {}
-    low: dict[str, Any] = {}
+    charges: dict[str, Any] = {}
     for device, said in rows.filter(lifecycle="approved").values_list("pk", "properties"):
         for code in ("error", "warning"):
             if trouble := said.get(code):
                 found[device, code] = {} if trouble is True else {"why": str(trouble)[:MOST_CHARACTERS]}
-        if is_battery_low(said.get("battery"), ""):
-            low[device] = said["battery"]
-    for device, unit in _battery_units(low):
-        if is_battery_low(low[device], unit):
+        if "battery" in said:
+            charges[device] = said["battery"]
+    for device, unit in _battery_units(charges):
+        if is_battery_low(charges[device], unit):
             found[device, "battery_low"] = {}
     return found
 
