@@ -57,7 +57,7 @@ from execution.views import (
     run_to_json,
     whole_run_to_json,
 )
-from registry.requests import LOCATION, as_file, link_to_next, origin_of, refuses, signed_in
+from registry.requests import LOCATION, file_response, link_to_next, origin_of, refuses, signed_in
 from registry.services import NotAMember, require
 from registry.shapes import Stop
 from vipo_device.descriptions.thing_description import DEVICE_URN
@@ -152,7 +152,7 @@ def export_rehearsal(request: HttpRequest, rehearsal: UUID, form: services.Recor
     """
     _require_here(request, services.get_rehearsal(rehearsal_id=rehearsal).site, "viewer", "rehearsal")
     content = services.export_rehearsal(rehearsal_id=rehearsal, form=form)
-    return HttpResponse(content, content_type=_RECORDINGS[form], headers=as_file(f"rehearsal-{rehearsal}.{form}"))
+    return file_response(content, f"rehearsal-{rehearsal}.{form}", _RECORDINGS[form])
 
 
 @router.get("/sites/{slug:site}/rehearsals", response=list[RehearsalSummaryShape])

@@ -50,6 +50,11 @@ def as_file(name: str) -> dict[str, str]:
     return {"Content-Disposition": value}
 
 
+def file_response(content: bytes | str, name: str, content_type: str) -> HttpResponse:
+    """Return an answer that browsers keep as a file of this name."""
+    return HttpResponse(content, content_type=content_type, headers=as_file(name))
+
+
 def _is_unfit_in_name(sign: str) -> bool:
     return sign in _NOT_IN_NAMES or (category(sign)[0] in "CZ" and sign != " ")
 

@@ -33,7 +33,7 @@ from editor.versions.shapes import (
     read_sent,
 )
 from editor.versions.sides import Content, compare_functions, compare_sides
-from registry.requests import PartAsked, as_file, refuses, sends, signed_in, tell_rest
+from registry.requests import PartAsked, file_response, refuses, sends, signed_in, tell_rest
 from registry.services import require
 
 router = Router(tags=["editor"])
@@ -103,7 +103,7 @@ def export_version(
 
 
 def _file(text: str, content_type: str, name: str) -> HttpResponse:
-    return HttpResponse(text, content_type=content_type, headers=as_file(name))
+    return file_response(text, name, content_type)
 
 
 @router.get("/programs/{program}/comparison", response=ComparisonShape)

@@ -32,7 +32,7 @@ from execution.program_tests.shapes import (
 )
 from execution.program_tests.test_runs import Asker, Extent, Update, start_tests
 from execution.trials.refusals import cause_of_refusal
-from registry.requests import as_file, refuses, sends, signed_in
+from registry.requests import file_response, refuses, sends, signed_in
 from registry.services import NotAMember, require
 
 router = Router(tags=["execution"])
@@ -104,7 +104,7 @@ def export_tests(request: HttpRequest, program: UUID) -> HttpResponse:
     found = _program(request, program, "viewer", "read")
     name = slugify(found.name) or "program"
     text = stored_tests.file_of_tests(program=program, document=f"{name}.json")
-    return HttpResponse(text, content_type="application/yaml", headers=as_file(f"{name}.yaml"))
+    return file_response(text, f"{name}.yaml", "application/yaml")
 
 
 @router.get("/programs/{uuid:program}/tests/{uuid:test}", response=TestTextShape, openapi_extra=TAGGED)

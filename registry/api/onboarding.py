@@ -13,7 +13,7 @@ from pydantic import Field
 
 from registry import services
 from registry.people.access import require
-from registry.requests import Asked, Line, ReadLater, Unchecked, as_file, signed_in
+from registry.requests import Asked, Line, ReadLater, Unchecked, file_response, signed_in
 from vipo_device.descriptions.forms import BadDescription, DescriptionForm
 from vipo_device.descriptions.reader import read, write_description
 from vipo_device.protocol.description import description_to_json
@@ -142,4 +142,4 @@ def export_devices(request: HttpRequest, slug: str) -> HttpResponse:
     """Give the descriptions of all devices of a site as one Turtle file."""
     require(signed_in(request), slug, "viewer")
     text = "\n".join(write_description(device.canonical) for device in services.list_devices(site=slug))
-    return HttpResponse(text, content_type="text/turtle; charset=utf-8", headers=as_file(f"{slug}-devices.ttl"))
+    return file_response(text, f"{slug}-devices.ttl", "text/turtle; charset=utf-8")

@@ -17,7 +17,7 @@ from execution.floor.exports.road_map import RoadMap, make_road_map
 from execution.floor.layouts import get_layout
 from execution.traffic.layout import Layout
 from registry import services as registry
-from registry.requests import as_file, sends, signed_in
+from registry.requests import file_response, sends, signed_in
 from registry.services import require
 
 router = Router(tags=["execution"])
@@ -46,7 +46,7 @@ def download_lif(request: HttpRequest, site: str) -> HttpResponse:
     view, floor = registry.get_site(site=site), registry.get_map(site=site)
     layout, roads = _in_turn(request, lambda: _roads_of(site))
     told = road_map_to_lif(Site(site, view.name, floor.version), layout, roads, datetime.now(UTC))
-    return _download(json.dumps(told, ensure_ascii=False, indent=1).encode(), f"{site}.lif.json", LIF)
+    return file_response(json.dumps(told, ensure_ascii=False, indent=1).encode(), f"{site}.lif.json", LIF)
 
 
 @router.get("/sites/{slug:site}/map.building.yaml", openapi_extra=sends(BUILDING))
@@ -59,7 +59,7 @@ def download_building(request: HttpRequest, site: str) -> HttpResponse:
     view, grid = registry.get_site(site=site), registry.get_map(site=site).grid
     layout, roads = _in_turn(request, lambda: _roads_of(site))
     told = write_building(view.name, grid, registry.get_walls(grid), layout, roads)
-    return _download(told, f"{site}.building.yaml", BUILDING)
+    return file_response(told, f"{site}.building.yaml", BUILDING)
 
 
 def _in_turn(request: HttpRequest, work: Callable[[], Made]) -> Made:
@@ -74,7 +74,3 @@ def _roads_of(site: str) -> tuple[Layout, RoadMap]:
     if known is None or known[0] is not layout:
         known = _roads[site] = (layout, make_road_map(layout))
     return known
-
-
-def _download(body: bytes, name: str, content_type: str) -> HttpResponse:
-    return HttpResponse(body, content_type=content_type, headers=as_file(name))

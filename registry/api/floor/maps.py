@@ -18,7 +18,7 @@ from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.floorplan.plan import Grid
 from registry.floorplan.zone_masks import write_nav2_archive
 from registry.people.access import require
-from registry.requests import as_file, sends, signed_in
+from registry.requests import file_response, sends, signed_in
 from registry.shapes import MapShape, Origin
 
 router = Router(tags=["registry"])
@@ -189,7 +189,7 @@ def download_yaml(request: HttpRequest, slug: str) -> HttpResponse:
 def download_pgm(request: HttpRequest, slug: str) -> HttpResponse:
     """Send the map's image in the ROS form."""
     require(signed_in(request), slug, "viewer")
-    return _download(write_pgm(services.get_map(site=slug).grid), f"{slug}.pgm", PGM)
+    return file_response(write_pgm(services.get_map(site=slug).grid), f"{slug}.pgm", PGM)
 
 
 @router.get("/sites/{slug}/map.nav2.zip", openapi_extra=sends(ZIP))
@@ -197,15 +197,11 @@ def download_nav2_masks(request: HttpRequest, slug: str) -> HttpResponse:
     """Send the site's keep-out and slow zones as Nav2's masks over the map, with the parameters of its filters."""
     require(signed_in(request), slug, "viewer")
     masks = write_nav2_archive(services.get_map(site=slug).grid, services.list_zones(site=slug))
-    return _download(masks, f"{slug}.nav2.zip", ZIP)
+    return file_response(masks, f"{slug}.nav2.zip", ZIP)
 
 
 def _yaml(grid: Grid, name: str) -> HttpResponse:
-    return _download(write_yaml(grid, f"{name}.pgm"), f"{name}.yaml", "application/yaml")
-
-
-def _download(body: bytes, name: str, content_type: str) -> HttpResponse:
-    return HttpResponse(body, content_type=content_type, headers=as_file(name))
+    return file_response(write_yaml(grid, f"{name}.pgm"), f"{name}.yaml", "application/yaml")
 
 
 @router.get("/sites/{slug}/map/versions", response=list[MapVersionShape])
@@ -259,7 +255,9 @@ def download_robot_yaml(request: HttpRequest, slug: str, device_id: str) -> Http
 def download_robot_pgm(request: HttpRequest, slug: str, device_id: str) -> HttpResponse:
     """Send the image of a robot's map in the ROS form."""
     require(signed_in(request), slug, "viewer")
-    return _download(write_pgm(services.get_robot_map(site=slug, device_id=device_id).grid), f"{device_id}.pgm", PGM)
+    return file_response(
+        write_pgm(services.get_robot_map(site=slug, device_id=device_id).grid), f"{device_id}.pgm", PGM
+    )
 
 
 @router.get("/sites/{slug}/devices/{device_id}/map/difference", response=MapDifferenceShape)
