@@ -2,7 +2,6 @@
 
 import json
 import re
-from pathlib import Path
 from typing import get_args
 
 import pytest
@@ -24,11 +23,11 @@ from registry.alerts.causes import CAUSES
 from registry.api.devices import show_rdf
 from scripts.checks_page import read_site
 from scripts.construct_programs import pictures
+from tests.kit.files import ROOT
 from vipo_device.descriptions.forms import FORMS as DESCRIPTION_FORMS
 from vipo_device.descriptions.forms import DescriptionForm
 from vipo_site.management.commands import constructs
 
-ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "docs" / "changing.md"
 PROTOCOL = ROOT / "docs" / "protocol.md"
 FRONTEND = ROOT / "frontend" / "src"

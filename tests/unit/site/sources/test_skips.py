@@ -11,7 +11,7 @@ from tests.kit.files import ROOT
 from tests.kit.servers import ServerMissing, must_be_installed
 
 SKIPS = re.compile(r"pytest\.skip\(|skipif|mark\.skip|importorskip|mark\.xfail")
-HERE = "tests/unit/site/test_skips.py"
+HERE = "tests/unit/site/sources/test_skips.py"
 
 
 def test_one_place_alone_may_skip_a_test() -> None:

@@ -7,9 +7,9 @@ import re
 import tomllib
 from functools import cache
 from importlib.metadata import packages_distributions
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
+from tests.kit.files import ROOT
+
 PAGE = (ROOT / "docs" / "third-party.md").read_text()
 SOURCES = (
     "vipo_*",

@@ -14,7 +14,8 @@ import pytest
 from django.contrib.auth.base_user import AbstractBaseUser
 from django.db.models import Manager, Model, QuerySet
 
-ROOT = Path(__file__).resolve().parents[3]
+from tests.kit.files import ROOT
+
 APPS = ("registry", "editor", "simulation", "execution")
 PACKAGES = (*APPS, "connectors", "vipo_device", "vipo_site", "bench", "scripts", "tests")
 DATABASE = re.compile(r"\.objects\b|_manager\b|\.raw\(|\bcursor\b|\bSELECT\b|\bUPDATE\b")
