@@ -108,16 +108,25 @@ function needed(start: string, ids: Iterable<string>, importsOf: (id: string) =>
 /** Pages and dialogs that share a module, from which on it counts as needed everywhere. */
 const MANY = 6;
 
+/** Screens beside the editor's. */
+const SCREEN = /\/src\/(pages\/[^/]+\/\w+Page|(compare|run|simulation)\/.*Screen)\.tsx$/;
+
+/** Dialogs and forms of the editor, all of which it fetches soon after the program has come. */
+const LATER = /\/src\/editor\/(beginning|canvas|commands|dialogs|inspector|zones)\//;
+
 /** Bytes, below which what some pages share joins what others share. */
 const SMALL = 5_000;
 
 /**
- * Few scripts instead of one for each set of pages that share a module, which were hundreds (ADR 76). What every page
- * begins with is one, and what opening a program needs besides is two: nothing else has to come before one can draw.
+ * Few scripts instead of one for each set of pages that share a module, which were hundreds (ADR 76, 88). What every
+ * page begins with is one, and what opening a program needs besides is two: nothing else has to come before one can
+ * draw. What two other screens share is one more, and so is what the editor fetches soon afterwards.
  */
 function scripts() {
   let first = new Set<string>();
   let opening = new Set<string>();
+  let several = new Set<string>();
+  let later = new Set<string>();
   const plugin: Plugin = {
     name: "scripts",
     apply: "build",
@@ -129,8 +138,15 @@ function scripts() {
       });
       first = needed("/src/main.tsx", ids, importsOf);
       opening = needed("/src/editor/EditorScreen.tsx", ids, importsOf);
+      const screens = ids.filter((id) => SCREEN.test(id)).map((id) => needed(id, ids, importsOf));
+      const elsewhere = new Set(screens.flatMap((screen) => [...screen]));
+      several = new Set([...elsewhere].filter((id) => screens.filter((screen) => screen.has(id)).length > 1));
+      const asked = ids.flatMap((id) => this.getModuleInfo(id)?.dynamicallyImportedIds ?? []);
+      const dialogs = asked.filter((id) => LATER.test(id)).flatMap((id) => [...needed(id, ids, importsOf)]);
+      later = new Set(dialogs.filter((id) => !elsewhere.has(id)));
     },
   };
+  const shared = { minShareCount: 2, entriesAware: true, entriesAwareMergeThreshold: SMALL };
   const groups = [
     { name: "first", test: (id: string) => first.has(id), priority: 4 },
     { name: "common", test: (id: string) => opening.has(id), minShareCount: MANY, priority: 3 },
@@ -138,7 +154,11 @@ function scripts() {
     { name: "EditorScreen", test: (id: string) => opening.has(id), priority: 1 },
     // Joined with whatever is small, an icon would bring pages along.
     { name: "icons", test: /\/lucide-react\//, minShareCount: 2, priority: 1 },
-    { name: "shared", minShareCount: 2, entriesAware: true, entriesAwareMergeThreshold: SMALL },
+    // The editor of texts would come along with what is small beside it.
+    { name: "text", test: /\/node_modules\/(@codemirror|@lezer|codemirror)\//, minShareCount: 2, priority: 2 },
+    { name: "pages", test: (id: string) => several.has(id), priority: 1 },
+    { name: "shared", test: (id: string) => !later.has(id), ...shared, priority: 1 },
+    { name: "later", test: (id: string) => later.has(id) },
   ];
   const chunkFileNames = ({ name }: { name: string }) => `assets/${name.split("~", 1)[0]}-[hash].js`;
   return { plugin, output: { codeSplitting: { groups }, chunkFileNames } };

@@ -8,15 +8,17 @@ import subprocess
 
 import httpx
 import pytest
-from playwright.sync_api import Response
+from playwright.sync_api import Response, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import make_program, saved
+from tests.e2e.screens import address_of, make_program, saved
 from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
 MOST_BYTES = 350_000
 MOST_SCRIPTS = 12
+MOST_FILES = 32
+"""Scripts, styles and fonts of a screen beside the editor's: six of them come at a time."""
 ENTRIES = ("EditorScreen", "catalogue.en")
 """What opening a program begins with, beside the page's own script. The editor of scripts comes beside the map, which
 does not wait for it; dialogs, forms and panels come once the program is on the screen."""
@@ -76,6 +78,18 @@ def test_a_program_opens_with_few_scripts_and_all_of_them_are_sent_compressed(de
         assert len(needed) <= MOST_SCRIPTS, needed
     finally:
         fresh.close()
+
+
+@pytest.mark.parametrize("screen", ["", "/programs", "/devices", "/map", "/runs", "/people"])
+def test_a_screen_asks_for_few_files(sign_in: SignIn, screen: str) -> None:
+    page, files = sign_in("author"), list[str]()
+    page.on("response", lambda response: files.append(response.url))
+    page.goto(address_of(page, f"/sites/painting-factory{screen}"))
+    expect(page.get_by_role("heading", level=1)).to_be_visible()
+    page.wait_for_load_state("networkidle")
+    assets = [each.rsplit("/", 1)[1] for each in files if "/assets/" in each]
+    assert len(assets) <= MOST_FILES, assets
+    assert [each for each in assets if each.startswith(("EditorScreen", "later", "text"))] == []
 
 
 FETCHES = """

@@ -30,6 +30,7 @@ NOT_IMPORTED = {
     "mypy": "a command",
     "pytest-asyncio": "pytest loads it by itself",
     "ruff": "a command",
+    "sniffio": "servestatic imports it where it is there",
     "types-pyyaml": "mypy finds it by itself",
 }
 
