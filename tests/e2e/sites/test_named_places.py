@@ -123,6 +123,8 @@ def test_a_run_under_way_goes_to_a_place_that_is_removed_and_the_question_before
     write_program(author, "To the stool", SCRIPT)
     saved(author)
     start_run(author)
+    author.get_by_role("button", name="Pause", exact=True).click()
+    expect(run_state(author)).to_contain_text("Paused")
     admin.get_by_role("button", name="Edit places").click()
     admin.get_by_role("button", name="Stool Point").click()
     admin.get_by_role("button", name="Remove the place").click()
@@ -132,6 +134,7 @@ def test_a_run_under_way_goes_to_a_place_that_is_removed_and_the_question_before
     dialog.get_by_role("button", name="Remove the place").click()
     expect(dialog).to_have_count(0)
     expect(admin.get_by_role("alert").filter(has_text="meanwhile")).to_have_count(0)
+    author.get_by_role("button", name="Resume", exact=True).click()
     expect(run_state(author)).to_contain_text("Finished", timeout=60_000)
     robot = ask(admin, f"{SITE}/devices/robot01")["location"]
     assert (round(robot["x"], 1), round(robot["y"], 1)) == (4.0, -8.0)

@@ -5,9 +5,8 @@ from __future__ import annotations
 import asyncio
 import json
 import sys
-import time
-from collections.abc import Callable, Iterator
-from contextlib import suppress
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
 
 import httpx
@@ -23,7 +22,8 @@ from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis
 from tests.kit.web import Web, environment, prepare
 
-WITHIN_S = 3.0
+WITHIN = 3
+"""Beats of the same server: 3 s where nothing else is at work, and as much longer as the server itself is slowed."""
 PASSWORD = "a long password"
 MAKE_PEOPLE = """
 import json, sys
@@ -129,11 +129,44 @@ def void(_answer: str) -> None:
     """Nothing is made of the answer."""
 
 
+class Beat:
+    """How often the server has told somebody else, whose stream stays open, that time goes on."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self._told = asyncio.Condition()
+
+    async def follow(self, web: Web) -> None:
+        async with stream(web, "admin", "/sites/hall/mtconnect/current?interval=1000") as answer:
+            async for chunk in answer.aiter_raw():
+                async with self._told:
+                    self.count += chunk.count(b"Content-type")
+                    self._told.notify_all()
+
+    async def wait(self, beats: int) -> None:
+        """Wait for so many more."""
+        until = self.count + beats
+        async with self._told:
+            await self._told.wait_for(lambda: self.count >= until)
+
+
+@asynccontextmanager
+async def beats_of(web: Web) -> AsyncIterator[Beat]:
+    """Give the beat of a server, which has begun."""
+    beat = Beat()
+    following = asyncio.create_task(beat.follow(web))
+    try:
+        await beat.wait(1)
+        yield beat
+    finally:
+        following.cancel()
+
+
 @dataclass
 class End:
-    """When something was closed, and with which code."""
+    """At which beat something was closed, and with which code."""
 
-    at: float
+    at: int
     code: int | None = None
 
 
@@ -141,30 +174,36 @@ def step(name: str) -> bytes:
     return encode_document({**empty_document(), "steps": {name: {"kind": "wait", "place": None, "params": {}}}})
 
 
-async def read_socket(socket: ClientConnection) -> End:
+async def read_socket(socket: ClientConnection, beat: Beat) -> End:
     with suppress(ConnectionClosed):
         while True:
             await socket.recv()
-    return End(time.monotonic(), socket.close_code)
+    return End(beat.count, socket.close_code)
 
 
-async def read_stream(web: Web, person: str, path: str, opened: asyncio.Event) -> End:
+@asynccontextmanager
+async def stream(web: Web, person: str, path: str) -> AsyncIterator[httpx.Response]:
     async with (
         httpx.AsyncClient(base_url=f"http://127.0.0.1:{web.port}/api", headers=web.headers(person)) as client,
         client.stream("GET", path, timeout=60) as answer,
     ):
         assert answer.status_code == 200, (await answer.aread()).decode()
+        yield answer
+
+
+async def read_stream(web: Web, person: str, path: str, opened: asyncio.Event, beat: Beat) -> End:
+    async with stream(web, person, path) as answer:
         async for _ in answer.aiter_raw():
             opened.set()
-    return End(time.monotonic())
+    return End(beat.count)
 
 
-async def edit_on(socket: ClientConnection, sent: dict[str, float]) -> None:
+async def edit_on(socket: ClientConnection, sent: dict[str, int], beat: Beat) -> None:
     """Draw a step every 0.1 s until the server closes."""
     await socket.send(yjs_protocol.encode_step_2(step("before")))
     with suppress(ConnectionClosed):
         for number in range(1000):
-            sent[f"s{number}"] = time.monotonic()
+            sent[f"s{number}"] = beat.count
             await socket.send(yjs_protocol.encode_update(step(f"s{number}")))
             await asyncio.sleep(0.1)
 
@@ -179,42 +218,43 @@ def kept_steps(web: Web, program: str) -> set[str]:
 async def test_all_that_is_open_ends_within_3_s_and_later_edits_are_not_kept(
     form: Form, people: dict[str, str], way: str
 ) -> None:
-    web, person, sent = form.web, way.replace(" ", "-"), dict[str, float]()
+    web, person, sent = form.web, way.replace(" ", "-"), dict[str, int]()
     program = await asyncio.to_thread(web.new_program, way)
     headers = web.headers(person)
     opened = [asyncio.Event(), asyncio.Event()]
     async with (
+        beats_of(web) as beat,
         connect(web.socket_url(program), additional_headers=headers) as drawing,
         connect(f"ws://127.0.0.1:{web.port}/ws/site/hall", additional_headers=headers) as site,
         asyncio.timeout(60),
     ):
         await site.recv()
         ends = {
-            "program": asyncio.create_task(read_socket(drawing)),
-            "site": asyncio.create_task(read_socket(site)),
-            "things": asyncio.create_task(read_stream(web, person, "/sites/hall/things/events", opened[0])),
+            "program": asyncio.create_task(read_socket(drawing, beat)),
+            "site": asyncio.create_task(read_socket(site, beat)),
+            "things": asyncio.create_task(read_stream(web, person, "/sites/hall/things/events", opened[0], beat)),
             "mtconnect": asyncio.create_task(
-                read_stream(web, person, "/sites/hall/mtconnect/current?interval=1000", opened[1])
+                read_stream(web, person, "/sites/hall/mtconnect/current?interval=1000", opened[1], beat)
             ),
         }
-        editing = asyncio.create_task(edit_on(drawing, sent))
+        editing = asyncio.create_task(edit_on(drawing, sent, beat))
         await asyncio.gather(*(each.wait() for each in opened))
         assert not any(end.done() for end in ends.values())
         await asyncio.to_thread(WAYS[way], form, person)
-        ended_at = time.monotonic()
+        ended_at = beat.count
         found = {name: await end for name, end in ends.items()}
         await editing
     codes = {"program": 4401, "site": 4401, "things": None, "mtconnect": None, **CODES.get(way, {})}
     assert {name: end.code for name, end in found.items()} == codes
-    late = {name: end.at - ended_at for name, end in found.items() if end.at - ended_at > WITHIN_S}
+    late = {name: end.at - ended_at for name, end in found.items() if end.at - ended_at > WITHIN}
     assert late == {}
     kept = await asyncio.to_thread(kept_steps, web, program)
     assert "before" in kept
-    assert [name for name in kept - {"before"} if sent[name] > ended_at + WITHIN_S] == []
+    assert [name for name in kept - {"before"} if sent[name] > ended_at + WITHIN] == []
     async with connect(web.socket_url(program), additional_headers=headers) as again:
         with suppress(ConnectionClosed):
             await again.send(yjs_protocol.encode_step_2(step("afterwards")))
-        assert (await read_socket(again)).code == codes["program"]
+        assert (await read_socket(again, beat)).code == codes["program"]
     assert "afterwards" not in await asyncio.to_thread(kept_steps, web, program)
 
 
@@ -223,16 +263,16 @@ async def test_a_wall_screen_that_is_turned_off_in_another_process_goes_dark(for
     made = await asyncio.to_thread(make_wall_screen, form)
     address = f"ws://127.0.0.1:{form.web.port}/ws/wall"
     headers = {**form.web.headers(None), "Cookie": f"vipo_wall={made['key']}"}
-    async with connect(address, additional_headers=headers) as wall, asyncio.timeout(60):
+    async with connect(address, additional_headers=headers) as wall, beats_of(form.web) as beat, asyncio.timeout(60):
         assert json.loads(await wall.recv())["site"] == "Hall"
-        showing = asyncio.create_task(read_socket(wall))
+        showing = asyncio.create_task(read_socket(wall, beat))
         await asyncio.to_thread(turn_off, form, made["id"])
-        ended_at = time.monotonic()
+        ended_at = beat.count
         end = await showing
     assert end.code == 4401
-    assert end.at - ended_at <= WITHIN_S
+    assert end.at - ended_at <= WITHIN
     async with connect(address, additional_headers=headers) as again:
-        assert (await read_socket(again)).code == 4401
+        assert (await read_socket(again, beat)).code == 4401
 
 
 def make_wall_screen(form: Form) -> dict[str, str]:
@@ -253,19 +293,22 @@ def turn_off(form: Form, wall_screen: str) -> None:
 async def test_an_author_who_becomes_a_viewer_reads_on_and_draws_no_more(form: Form, people: dict[str, str]) -> None:
     web = form.web
     program = await asyncio.to_thread(web.new_program, "Lowered")
-    async with connect(web.socket_url(program), additional_headers=web.headers("lowered")) as drawing:
-        reading = asyncio.create_task(read_socket(drawing))
+    async with (
+        beats_of(web) as beat,
+        connect(web.socket_url(program), additional_headers=web.headers("lowered")) as drawing,
+    ):
+        reading = asyncio.create_task(read_socket(drawing, beat))
         await drawing.send(yjs_protocol.encode_step_2(step("before")))
         await asyncio.to_thread(form.account, "lowered", "--site", "hall", "--role", "viewer")
-        await asyncio.sleep(WITHIN_S)
+        await beat.wait(WITHIN)
         await drawing.send(yjs_protocol.encode_update(step("after")))
-        await asyncio.sleep(1)
+        await beat.wait(1)
         assert await asyncio.to_thread(kept_steps, web, program) == {"before"}
         assert not reading.done()
         await asyncio.to_thread(form.account, "lowered", "--site", "hall", "--role", "author")
-        await asyncio.sleep(WITHIN_S)
+        await beat.wait(WITHIN)
         await drawing.send(yjs_protocol.encode_update(step("again")))
-        await asyncio.sleep(1)
+        await beat.wait(1)
         assert {"before", "again"} <= await asyncio.to_thread(kept_steps, web, program)
         assert not reading.done()
         reading.cancel()
