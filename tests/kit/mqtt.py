@@ -12,7 +12,11 @@ from collections.abc import Callable
 from contextlib import closing, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
+from urllib.parse import urlsplit
+
+import paho.mqtt.client as paho
+from paho.mqtt.enums import CallbackAPIVersion
 
 from tests.kit.waiting import PATIENCE_S
 from vipo_device.protocol.mqtt_client import MqttClient
@@ -140,3 +144,36 @@ class ServerSide:
     def acks(self, command: str) -> list[str]:
         said = [h.json for h in self.ear.all("/ack") if h.topic == self.up("ack")]
         return [body["st"] for body in said if body["id"] == command]
+
+
+class PlainDevice:
+    """A device on a client that nobody here wrote (paho), with the key that the server told for it; it hears nothing.
+
+    `setup` is the server's answer for a new device; it is connected until the block ends.
+    """
+
+    def __init__(self, setup: dict[str, str]) -> None:
+        broker = urlsplit(setup["broker"])
+        self.id = setup["id"]
+        self._client = paho.Client(CallbackAPIVersion.VERSION2, self.id)
+        self._client.username_pw_set(self.id, setup["credential"])
+        self._client.will_set(f"vipo/v1/dev/{self.id}/up/presence", '{"s": "offline", "boot": 1}', 1, retain=True)
+        self._client.connect(broker.hostname or "", broker.port or 1883)
+
+    def __enter__(self) -> Self:
+        self._client.loop_start()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._client.disconnect()
+        self._client.loop_stop()
+
+    def say(self, topic: str, payload: str) -> None:
+        """Publish below the device's topics, and wait until the broker has it."""
+        self._client.publish(f"vipo/v1/dev/{self.id}/up/{topic}", payload, 1, retain=True).wait_for_publish(PATIENCE_S)
+
+    def introduce(self, description: str, **state: Any) -> None:
+        """Describe itself, and say that it is there and how it is."""
+        self.say("desc", description)
+        self.say("presence", '{"s": "online", "boot": 1}')
+        self.say("state", json.dumps({"boot": 1, "seq": 1, "done": True, **state}))

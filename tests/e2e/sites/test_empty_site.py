@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import json
 import re
 from pathlib import Path
-from typing import Any
-from urllib.parse import urlsplit
 
-import paho.mqtt.client as mqtt
 import pytest
 from playwright.sync_api import Page, expect
 
 from tests.e2e.conftest import SignIn
 from tests.e2e.screens import ask, opened, saved, tell, violations
 from tests.kit.files import ROOT
+from tests.kit.mqtt import PlainDevice
 
 pytestmark = pytest.mark.browser
 
@@ -32,23 +29,6 @@ def write_hall(folder: Path) -> list[Path]:
     (folder / "hall.yaml").write_text(HEADER)
     (folder / "hall.pgm").write_bytes(b"P5\n%d %d\n255\n" % (WIDTH, HEIGHT) + cells)
     return [folder / "hall.yaml", folder / "hall.pgm"]
-
-
-def come_in(setup: dict[str, Any]) -> mqtt.Client:
-    """Connect a robot that stands in the middle of the floor, as its dialog says."""
-    client = mqtt.Client(mqtt.CallbackAPIVersion.VERSION2, ROBOT)
-    client.username_pw_set(ROBOT, str(setup["credential"]))
-    broker = urlsplit(setup["broker"])
-    client.connect(broker.hostname or "", broker.port or 1883)
-    client.loop_start()
-    text = TEXT.replace('"painting-factory"', '"bare-hall"').replace("15.78 -11.75", "1.0 1.0")
-    for topic, payload in (
-        ("desc", text),
-        ("presence", '{"s": "online", "boot": 1}'),
-        ("state", json.dumps({"boot": 1, "seq": 1, "done": True, "loc": [1, 1, 0, 0], "props": {"battery": 90}})),
-    ):
-        client.publish(f"vipo/v1/dev/{ROBOT}/up/{topic}", payload, 1, retain=True).wait_for_publish(20)
-    return client
 
 
 def go_on(page: Page, does: str) -> None:
@@ -81,8 +61,9 @@ def test_an_empty_site_comes_to_its_first_program_and_a_change_of_its_map(sign_i
 
     go_on(page, "Open the devices")
     setup = tell(page, "/api/sites/bare-hall/newcomers", {"id": ROBOT})
-    robot = come_in(setup)
-    try:
+    text = TEXT.replace('"painting-factory"', '"bare-hall"').replace("15.78 -11.75", "1.0 1.0")
+    with PlainDevice(setup) as robot:
+        robot.introduce(text, loc=[1, 1, 0, 0], props={"battery": 90})
         page.get_by_role("button", name="Approve").click()
         expect(page.locator("tr[data-status]", has_text="TurtleBot 1")).to_contain_text("Idle")
         page.get_by_role("link", name="Home", exact=True).click()
@@ -96,9 +77,6 @@ def test_an_empty_site_comes_to_its_first_program_and_a_change_of_its_map(sign_i
         saved(page)
         page.get_by_role("button", name="Simulate", exact=True).click()
         expect(page.get_by_role("region", name="Result")).to_contain_text("Finishes without errors")
-    finally:
-        robot.disconnect()
-        robot.loop_stop()
     change_the_map(page)
 
 
