@@ -111,6 +111,9 @@ const MANY = 6;
 /** Screens beside the editor's. */
 const SCREEN = /\/src\/(pages\/[^/]+\/\w+Page|(compare|run|simulation)\/.*Screen)\.tsx$/;
 
+/** What the editor shows beside the map, which does not wait for it. */
+const BESIDE = /\/src\/editor\/(inspector\/ProgramPanel|beginning\/(EmptyProgram|NextSteps)|parts\/DrawerBody)\.tsx$/;
+
 /** Dialogs and forms of the editor, all of which it fetches soon after the program has come. */
 const LATER = /\/src\/editor\/(beginning|canvas|commands|dialogs|inspector|zones)\//;
 
@@ -126,6 +129,7 @@ function scripts() {
   let first = new Set<string>();
   let opening = new Set<string>();
   let several = new Set<string>();
+  let beside = new Set<string>();
   let later = new Set<string>();
   const plugin: Plugin = {
     name: "scripts",
@@ -142,8 +146,13 @@ function scripts() {
       const elsewhere = new Set(screens.flatMap((screen) => [...screen]));
       several = new Set([...elsewhere].filter((id) => screens.filter((screen) => screen.has(id)).length > 1));
       const asked = ids.flatMap((id) => this.getModuleInfo(id)?.dynamicallyImportedIds ?? []);
-      const dialogs = asked.filter((id) => LATER.test(id)).flatMap((id) => [...needed(id, ids, importsOf)]);
-      later = new Set(dialogs.filter((id) => !elsewhere.has(id)));
+      const askedFor = (these: RegExp) =>
+        asked
+          .filter((id) => these.test(id))
+          .flatMap((id) => [...needed(id, ids, importsOf)])
+          .filter((id) => !elsewhere.has(id));
+      beside = new Set(askedFor(BESIDE));
+      later = new Set(askedFor(LATER).filter((id) => !beside.has(id)));
     },
   };
   const shared = { minShareCount: 2, entriesAware: true, entriesAwareMergeThreshold: SMALL };
@@ -157,7 +166,8 @@ function scripts() {
     // The editor of texts would come along with what is small beside it.
     { name: "text", test: /\/node_modules\/(@codemirror|@lezer|codemirror)\//, minShareCount: 2, priority: 2 },
     { name: "pages", test: (id: string) => several.has(id), priority: 1 },
-    { name: "shared", test: (id: string) => !later.has(id), ...shared, priority: 1 },
+    { name: "shared", test: (id: string) => !beside.has(id) && !later.has(id), ...shared, priority: 1 },
+    { name: "beside", test: (id: string) => beside.has(id), priority: 1 },
     { name: "later", test: (id: string) => later.has(id) },
   ];
   const chunkFileNames = ({ name }: { name: string }) => `assets/${name.split("~", 1)[0]}-[hash].js`;

@@ -17,6 +17,7 @@ import classes from "./editor.module.css";
 import { EditorWorkspace } from "./EditorWorkspace";
 import type { Edit } from "./edits/edits";
 import { inLanguage } from "./edits/fixes";
+import { loadDrawer } from "./parts/Drawer";
 import { SharedProgram } from "./shared/sharedProgram";
 import { type OpenProgram, ProgramContext } from "./state/context";
 import { usePeople, useShowSelection } from "./state/presence";
@@ -36,6 +37,8 @@ export function EditorScreen() {
   useOwnKeys(user?.id);
   const [shared, openAnew] = useShared(id, site.data ? user?.id : undefined, canEdit);
   useComeAgain(shared);
+  // The panels are on their way while the program is.
+  useEffect(() => void loadDrawer().catch(() => {}), []);
   const failed = missing(program, site, devices);
   if (failed)
     return <Failed error={failed} again={() => void [program, site, devices].map((read) => read.refetch())} />;

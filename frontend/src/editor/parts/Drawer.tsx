@@ -19,8 +19,9 @@ import { useOpenProgram } from "../state/context";
 import { say, showTab, useUi, type DrawerTab } from "../state/ui";
 import classes from "./drawer.module.css";
 
-/** What it shows comes after the map, which does not wait for it. */
-const DrawerBody = lazy(async () => ({ default: (await import("./DrawerBody")).DrawerBody }));
+/** What it shows, and what the inspector shows of a program: the map does not wait for it. */
+export const loadDrawer = () => import("./DrawerBody");
+const DrawerBody = lazy(async () => ({ default: (await loadDrawer()).DrawerBody }));
 
 export function Drawer({ small }: { small: boolean }) {
   const { t, diagnostics } = useOpenProgram();
