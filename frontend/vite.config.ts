@@ -155,7 +155,6 @@ function scripts() {
       later = new Set(askedFor(LATER).filter((id) => !beside.has(id)));
     },
   };
-  const shared = { minShareCount: 2, entriesAware: true, entriesAwareMergeThreshold: SMALL };
   const groups = [
     { name: "first", test: (id: string) => first.has(id), priority: 4 },
     { name: "common", test: (id: string) => opening.has(id), minShareCount: MANY, priority: 3 },
@@ -166,7 +165,14 @@ function scripts() {
     // The editor of texts would come along with what is small beside it.
     { name: "text", test: /\/node_modules\/(@codemirror|@lezer|codemirror)\//, minShareCount: 2, priority: 2 },
     { name: "pages", test: (id: string) => several.has(id), priority: 1 },
-    { name: "shared", test: (id: string) => !beside.has(id) && !later.has(id), ...shared, priority: 1 },
+    {
+      name: "shared",
+      test: (id: string) => !beside.has(id) && !later.has(id),
+      minShareCount: 2,
+      entriesAware: true,
+      entriesAwareMergeThreshold: SMALL,
+      priority: 1,
+    },
     { name: "beside", test: (id: string) => beside.has(id), priority: 1 },
     { name: "later", test: (id: string) => later.has(id) },
   ];

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from contextlib import ExitStack
 
 from playwright.sync_api import expect
 
@@ -42,7 +43,9 @@ def test_a_device_is_added_comes_in_and_is_approved(sign_in: SignIn) -> None:
 
     dialog.get_by_role("tab", name="One device").click()
     broker = f"mqtt://{setup['host']}:{setup['port']}"
-    with PlainDevice({"id": setup["id"], "credential": setup["password"], "broker": broker}) as device:
+    told = {"id": setup["id"], "credential": setup["password"], "broker": broker}
+    with PlainDevice(told) as device, ExitStack() as afterwards:
+        afterwards.callback(tell, page, f"{SITE}/devices/mixer-7/retire")
         device.say("desc", TEXT.replace(";", "", 1))
         expect(dialog.get_by_text("Its description was refused", exact=False)).to_be_visible()
         expect(dialog.get_by_text("Waiting for mixer-7")).to_be_visible()
@@ -61,4 +64,3 @@ def test_a_device_is_added_comes_in_and_is_approved(sign_in: SignIn) -> None:
         expect(page.get_by_role("button", name="Try mixPaint")).to_be_visible()
         page.get_by_role("tab", name="Used in").click()
         expect(page.get_by_text("No program uses it yet.")).to_be_visible()
-        tell(page, f"{SITE}/devices/mixer-7/retire")

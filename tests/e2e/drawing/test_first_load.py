@@ -8,7 +8,7 @@ import subprocess
 
 import httpx
 import pytest
-from playwright.sync_api import Response, expect
+from playwright.sync_api import Response, Route, expect
 
 from tests.e2e.conftest import SignIn
 from tests.e2e.screens import address_of, make_program, saved
@@ -78,6 +78,20 @@ def test_a_program_opens_with_few_scripts_and_all_of_them_are_sent_compressed(de
         assert len(needed) <= MOST_SCRIPTS, needed
     finally:
         fresh.close()
+
+
+def test_panels_come_while_the_program_does_and_dialogs_after_it(sign_in: SignIn) -> None:
+    drawn, page, held = sign_in("author"), sign_in("author"), list[Route]()
+    make_program(drawn, "Opened slowly")
+    saved(drawn)
+    page.route(re.compile(r"/api/programs/[\w-]+$"), lambda route: held.append(route))
+    with page.expect_response(re.compile(r"/assets/beside-[\w-]+\.js$")):
+        page.goto(drawn.url)
+    expect(page.get_by_role("application")).to_have_count(0)
+    with page.expect_response(re.compile(r"/assets/later-[\w-]+\.js$")):
+        for route in held:
+            route.continue_()
+    saved(page)
 
 
 @pytest.mark.parametrize("screen", ["", "/programs", "/devices", "/map", "/runs", "/people"])

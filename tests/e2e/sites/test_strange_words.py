@@ -55,12 +55,12 @@ SAYS: dict[str, dict[str, Any]] = {
 def taking_part(page: Page, description: Description) -> Iterator[None]:
     """Bring a device in as an engineer does: its key, its description, its approval; take it out afterwards."""
     with PlainDevice(tell(page, f"{SITE}/newcomers", {"id": description.id})) as device:
-        device.introduce(write_description(description), **SAYS[device.id])
-        row = page.locator("tr[data-status]", has_text=description.name)
-        expect(row).to_contain_text("Waiting for approval")
-        tell(page, f"{SITE}/devices/{device.id}/approve")
-        expect(row).not_to_contain_text("Waiting for approval")
         try:
+            device.introduce(write_description(description), **SAYS[device.id])
+            row = page.locator("tr[data-status]", has_text=description.name)
+            expect(row).to_contain_text("Waiting for approval")
+            tell(page, f"{SITE}/devices/{device.id}/approve")
+            expect(row).not_to_contain_text("Waiting for approval")
             yield
         finally:
             tell(page, f"{SITE}/devices/{device.id}/retire")

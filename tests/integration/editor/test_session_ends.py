@@ -20,6 +20,7 @@ from tests.kit.files import ROOT
 from tests.kit.processes.forked import run_forked
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis
+from tests.kit.waiting import PATIENCE_S
 from tests.kit.web import Web, environment, prepare
 
 WITHIN = 3
@@ -146,7 +147,7 @@ class Beat:
     async def wait(self, beats: int) -> None:
         """Wait for so many more."""
         until = self.count + beats
-        async with self._told:
+        async with asyncio.timeout(PATIENCE_S), self._told:
             await self._told.wait_for(lambda: self.count >= until)
 
 
