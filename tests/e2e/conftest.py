@@ -37,13 +37,11 @@ DEVICES = 11
 
 MAKE_MEMBER = """
 import json
-import os
 from django.conf import settings
 from django.contrib.auth import BACKEND_SESSION_KEY, HASH_SESSION_KEY, SESSION_KEY
 from django.contrib.sessions.backends.db import SessionStore
 from django.utils.text import slugify
 from registry.models import Membership, Site, User
-role, name = os.environ["ROLE"], os.environ["NAME"]
 email = f"{slugify(name)}@x.example"
 user = User.objects.create_user(email=email, password="not used here", display_name=name)
 Membership.objects.create(user=user, site=Site.objects.get(slug="painting-factory"), role=role)
@@ -62,7 +60,8 @@ NOWHERE = "/health"
 class SignIn(Protocol):
     """Opens a browser of its own for a person of a role, signed in, and in it a screen, if one is named.
 
-    It keeps nothing for times without a server unless the test is of that.
+    It keeps nothing for times without a server, and prefers no motion, unless the test is of that: without a graphics
+    card a frame of what moves takes long.
     """
 
     def __call__(
@@ -75,7 +74,7 @@ class SignIn(Protocol):
         dark: bool = False,
         language: str = "",
         offline: bool = False,
-        motion: bool = True,
+        motion: bool = False,
     ) -> Page: ...
 
 
@@ -123,12 +122,17 @@ def sign_in_by_form(chromium: Browser, demo: Demo, role: str) -> Any:
 
 def make_member(demo: Demo, role: str, name: str) -> Any:
     """Make somebody with this role at the painting factory; return what their browser keeps of their sign-in."""
-    command = [sys.executable, "manage.py", "shell", "--verbosity", "0", "-c", MAKE_MEMBER]
-    environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state), "ROLE": role, "NAME": name}
-    environment.pop("DJANGO_SETTINGS_MODULE", None)
-    made = run_forked(command, cwd=ROOT, env=environment, check=True, capture_output=True, text=True)
+    made = in_shell(demo, f"role, name = {role!r}, {name!r}{MAKE_MEMBER}")
     common = {"domain": "127.0.0.1", "path": "/", "expires": -1, "httpOnly": True, "secure": False, "sameSite": "Lax"}
-    return {"cookies": [{**json.loads(made.stdout), **common}], "origins": []}
+    return {"cookies": [{**json.loads(made), **common}], "origins": []}
+
+
+def in_shell(demo: Demo, script: str) -> str:
+    """Carry out Python with the demo's database, as `manage.py shell` does; return what it prints."""
+    command = [sys.executable, "manage.py", "shell", "--verbosity", "0", "-c", script]
+    environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state)}
+    environment.pop("DJANGO_SETTINGS_MODULE", None)
+    return str(run_forked(command, cwd=ROOT, env=environment, check=True, capture_output=True, text=True).stdout)
 
 
 def wait_for_devices(chromium: Browser, demo: Demo, state: Any) -> None:
@@ -161,7 +165,7 @@ def sign_in(demo: Demo, chromium: Browser, signed_in: dict[str, Any], faults: li
         dark: bool = False,
         language: str = "",
         offline: bool = False,
-        motion: bool = True,
+        motion: bool = False,
     ) -> Page:
         context = chromium.new_context(
             viewport={"width": width, "height": height},

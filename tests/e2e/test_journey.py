@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, Route, expect
@@ -31,6 +32,13 @@ from tests.e2e.screens import (
 from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
+
+
+@pytest.fixture
+def sign_in(sign_in: SignIn) -> SignIn:
+    """Everybody here sees what moves move."""
+    return partial(sign_in, motion=True)
+
 
 PAPERS_LINES = [
     "class Task(object):",

@@ -12,7 +12,18 @@ from typing import Any
 import pytest
 from xdist.scheduler import LoadFileScheduling  # type: ignore[import-untyped]
 
-BROWSERS = "tests/e2e"
+SCREENS, SITES = "the browsers of drawing and operating", "the browsers of sites and people"
+BROWSERS = {
+    "tests/e2e/accounts/": SCREENS,
+    "tests/e2e/drawing/": SCREENS,
+    "tests/e2e/operators/": SCREENS,
+    "tests/e2e/together/": SCREENS,
+    "tests/e2e/": SITES,
+}
+"""Two halves of about the same length, with a demo and a browser each: one of all would end long after the rest.
+
+The second begins when the tests that start many servers are done, beside which both would be too slow for their limits.
+"""
 TOGETHER = {
     "the demo that nobody ends": (
         "tests/integration/breaking/test_vanishing.py",
@@ -27,7 +38,7 @@ TOGETHER = {
     ),
 }
 FIRST = (
-    BROWSERS,
+    SCREENS,
     "PostgreSQL",
     "the demo that nobody ends",
     "tests/integration/breaking/test_restart.py",
@@ -40,6 +51,7 @@ FIRST = (
     "tests/integration/registry/thing_directory",
     "tests/integration/execution/test_runs.py",
     "tests/integration/registry/test_sparql.py",
+    SITES,
     "tests/integration",
 )
 """The longest ones, measured with `make test`; those that mostly wait, beside which others compute; then the folders.
@@ -53,7 +65,8 @@ _GROUPS = {file: name for name, files in TOGETHER.items() for file in files}
 def group_of(nodeid: str) -> str:
     """Return what a test stays together with: its file, or a named group of files."""
     file = nodeid.partition("::")[0]
-    return BROWSERS if file.startswith(f"{BROWSERS}/") else _GROUPS.get(file, file)
+    browsers = next((group for folder, group in BROWSERS.items() if file.startswith(folder)), None)
+    return browsers or _GROUPS.get(file, file)
 
 
 def rank_of(nodeid: str) -> int:

@@ -58,7 +58,7 @@ def test_an_open_branch_invites_takes_the_next_step_and_says_so(sign_in: SignIn)
 
 
 def test_a_step_that_somebody_holds_moves_on_the_others_screen(sign_in: SignIn) -> None:
-    author, admin = sign_in("author"), sign_in("admin")
+    author, admin = sign_in("author", motion=True), sign_in("admin", motion=True)
     make_program(author, "Held")
     draw(author, "n", 0.4, 0.4)
     saved(author)

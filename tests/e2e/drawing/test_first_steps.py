@@ -17,7 +17,7 @@ addEventListener('focusin', (event) => { if (event.target.matches('input, textar
 
 
 def test_fetch_paint_and_move_on_take_five_clicks_and_one_entry(sign_in: SignIn) -> None:
-    page = sign_in("author")
+    page = sign_in("author", motion=True)
     make_program(page, "Five clicks")
     page.keyboard.press("Escape")
     page.evaluate(COUNT)
@@ -45,7 +45,7 @@ def test_fetch_paint_and_move_on_take_five_clicks_and_one_entry(sign_in: SignIn)
 
 
 def test_a_template_is_seen_on_the_own_map_taken_and_undone_as_one(sign_in: SignIn) -> None:
-    page = sign_in("author")
+    page = sign_in("author", motion=True)
     make_program(page, "From a template")
     page.get_by_role("button", name="Begin with a template").click()
     dialog = page.get_by_role("dialog", name="Begin with a template")
@@ -68,7 +68,7 @@ def test_a_template_is_seen_on_the_own_map_taken_and_undone_as_one(sign_in: Sign
 
 
 def test_the_tour_goes_round_and_can_be_left_at_each_stop(sign_in: SignIn) -> None:
-    page = sign_in("author")
+    page = sign_in("author", motion=True)
     make_program(page, "Shown around")
     begin = page.get_by_role("button", name="Show me around")
     begin.click()

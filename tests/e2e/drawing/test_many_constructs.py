@@ -58,7 +58,7 @@ def place_of(page: Page, step: Any) -> tuple[float, float]:
 
 
 def test_many_constructs_are_painted_and_each_is_an_element_once_it_is_wanted(sign_in: SignIn) -> None:
-    page = sign_in("author")
+    page = sign_in("author", motion=True)
     document = open_many(page, "Six hundred")
     expect(steps(page)).to_have_count(0)
     assert elements(page) <= MOST_ELEMENTS
@@ -85,7 +85,7 @@ def test_many_constructs_are_painted_and_each_is_an_element_once_it_is_wanted(si
 
 
 def test_a_frame_of_pan_or_zoom_restyles_next_to_nothing(sign_in: SignIn, chromium: Browser) -> None:
-    page = sign_in("author")
+    page = sign_in("author", motion=True)
     open_many(page, "Moved about")
     box = the_map(page).bounding_box()
     assert box is not None

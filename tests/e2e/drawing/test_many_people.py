@@ -1,4 +1,4 @@
-"""Ten browsers in one program: all draw, one goes offline, one undoes, and all show the same."""
+"""Six browsers in one program: all draw, one goes offline, one undoes, and all show the same."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tests.e2e.screens import ask, make_program, opened, saved, steps_in_list
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
-PEOPLE = 10
+PEOPLE = 6
 
 
 def draw(page: Page) -> None:
@@ -23,9 +23,9 @@ def draw(page: Page) -> None:
     expect(page.get_by_role("complementary", name="Selected step")).to_be_visible()
 
 
-def test_ten_people_draw_one_program_and_all_see_the_same(sign_in: SignIn, faults: list[str]) -> None:
+def test_six_people_draw_one_program_and_all_see_the_same(sign_in: SignIn, faults: list[str]) -> None:
     first = sign_in("author", width=1200, height=700)
-    path = make_program(first, "Ten people")
+    path = make_program(first, "Six people")
     pages = [
         first,
         *(sign_in("admin" if number % 2 else "author", path, width=1200, height=700) for number in range(1, PEOPLE)),

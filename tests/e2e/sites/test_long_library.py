@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.e2e.conftest import SignIn, make_member
+from tests.e2e.conftest import SignIn, in_shell, make_member
 from tests.e2e.screens import ask, tell, violations
 from tests.kit.demo import Demo
 from tests.kit.programs import document, step
@@ -16,6 +16,15 @@ from tests.kit.programs import document, step
 pytestmark = pytest.mark.browser
 SITE = "painting-factory"
 COUNT = 130
+SAVE_MANY = """
+from editor import services
+from registry.models import User
+user = User.objects.get(display_name="Cleo Many")
+for number in range(count):
+    said = services.Said(f"Resting {number:03}", "", "me")
+    saved = services.save_function(site=site, program_id=program, function="f", said=said, user=user)
+print(saved.id)
+"""
 
 
 @pytest.fixture
@@ -30,7 +39,7 @@ def origin(page: Page) -> str:
     return re.sub(r"(https?://[^/]+).*", r"\1", page.url)
 
 
-def fill(page: Page) -> str:
+def fill(demo: Demo, page: Page) -> str:
     """Save one function under many names; return the address of the last."""
     steps = {"w": step("wait", ("f", "body"), duration=1)}
     drawn = document(steps, functions={"f": {"name": "Rest", "parameters": []}})
@@ -43,15 +52,12 @@ def fill(page: Page) -> str:
         headers={"X-CSRFToken": token, "If-Match": tag},
     )
     assert put.ok, put.text()
-    saved: dict[str, Any] = {}
-    for number in range(COUNT):
-        said = {"program": program, "function": "f", "name": f"Resting {number:03}", "visibility": "me"}
-        saved = tell(page, f"/api/sites/{SITE}/library", said)
-    return f"/sites/{SITE}/library/{saved['id']}"
+    last = in_shell(demo, f"count, site, program = {COUNT}, {SITE!r}, {program!r}{SAVE_MANY}").strip()
+    return f"/sites/{SITE}/library/{last}"
 
 
-def test_each_function_of_a_long_library_is_reached(page: Page) -> None:
-    last = fill(page)
+def test_each_function_of_a_long_library_is_reached(demo: Demo, page: Page) -> None:
+    last = fill(demo, page)
     base = origin(page)
     page.goto(f"{base}/sites/{SITE}/library")
     expect(page.get_by_text(re.compile(r"^The first \d+ functions$"))).to_be_visible()
