@@ -89,6 +89,10 @@ class VehicleControl:
             self._tasks.say(command.id, "REJECTED", why)
         self.settle(now_s)
 
+    def reject(self, command_id: str, why: str) -> None:
+        """Answer a command that is not carried out."""
+        self._tasks.say(command_id, "REJECTED", why)
+
     def look(self, boot: int, seq: int) -> DeviceState:
         """Return the device's state as VIPO hears it."""
         pose = self.vehicle.frame.to_site(self.located.pose) if self.located else None

@@ -11,7 +11,7 @@ from connectors.vda5050.factsheet import HANDLING, Factsheet, capacity, offered_
 from connectors.vda5050.messages import DRIVING_MODES, Located, VehicleState
 from connectors.vda5050.orders import OURS, Order, Waypoint, action, begin_actions, begin_drive, extend_drive
 from vipo_device.kit.arguments import read_move, why_astray
-from vipo_device.protocol.arguments import is_number
+from vipo_device.protocol.arguments import MOST_WHOLE, is_number
 from vipo_device.protocol.description import Description
 from vipo_device.protocol.messages import DeviceCommand
 
@@ -142,7 +142,7 @@ def _misfit_of_action(vehicle: Vehicle, command: DeviceCommand) -> str:
             continue
         fits = isinstance(value, kinds[parameter.type]) if parameter.type in kinds else is_number(value)
         if parameter.type == "INTEGER" and fits:
-            fits = value == int(str(value).split(".")[0])
+            fits = float(value).is_integer() and abs(value) <= MOST_WHOLE
         if not fits:
             return f"{command.method}: {parameter.key} must be of the type {parameter.type}."
     return ""

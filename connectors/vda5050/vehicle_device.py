@@ -97,10 +97,15 @@ class VehicleDevice:
         self.speak(now_s)
 
     def command(self, command: DeviceCommand, now_s: float) -> None:
-        """Take in a command of the server."""
-        if self.control is not None:
+        """Take in a command of the server; one that cannot be carried out for a fault of ours is rejected."""
+        if self.control is None:
+            return
+        try:
             self.control.command(command, now_s)
-            self.speak(now_s)
+        except Exception:  # the edge of one vehicle: it takes no other along, nor is the command sent again
+            log.exception("%s: the call of %s failed in the connector.", self.id, command.method)
+            self.control.reject(command.id, "The connector could not read this call; its log says why.")
+        self.speak(now_s)
 
     def hold(self, now_s: float, *, active: bool) -> None:
         """Take in the site's stop."""

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import json
 
+import pytest
+
 from connectors.vda5050.control import VehicleControl
 from connectors.vda5050.coordinates import Frame
+from tests.integration.connectors.factsheet import action, parameter
 from tests.unit.connectors.vehicle import ORDER, Bench, ahead, driving, error, ids, make_vehicle
 
 
@@ -232,6 +235,21 @@ def test_a_pick_waits_for_the_way_before_it_and_a_move_for_the_pick() -> None:
     bench.hear(orderId=order["orderId"], actionStates=[{**running[0], "actionStatus": "FINISHED"}])
     assert bench.said() == ["p DONE"]
     assert [n["sequenceId"] for n in bench.sent()[0]["nodes"]] == [0, 2]
+
+
+@pytest.mark.parametrize("value", [3, 3.0, -1, 0])
+def test_a_whole_number_is_taken_where_an_action_wants_one(value: float) -> None:
+    bench = Bench(make_vehicle(more=[action("liftTo", ["NODE"], parameter("level", "INTEGER"))]))
+    bench.tell("liftTo", "a", level=value)
+    (order,) = bench.sent()
+    assert order["nodes"][0]["actions"][0]["actionParameters"] == [{"key": "level", "value": value}]
+
+
+@pytest.mark.parametrize("value", [0.00001, 2.5, 1e16, 1e300, True, "3"])
+def test_what_is_no_whole_number_is_rejected_where_an_action_wants_one(value: object) -> None:
+    bench = Bench(make_vehicle(more=[action("liftTo", ["NODE"], parameter("level", "INTEGER"))]))
+    bench.tell("liftTo", "a", level=value)
+    assert bench.said() == ["a REJECTED liftTo: level must be of the type INTEGER."]
 
 
 def test_a_failed_action_says_why() -> None:

@@ -11,11 +11,14 @@ import pytest
 from django.core.management.base import CommandError
 
 from connectors.management.commands.vda5050 import make_fleet, read_origin, vehicle_client
+from connectors.vda5050.control import VehicleControl
 from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.fleet import MOST_VEHICLES, MOST_WAITING_EACH, STRANGERS, Fleet, VehicleMessage
 from connectors.vda5050.messages import VehicleName
 from connectors.vda5050.vehicle_device import Setting
-from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
+from tests.unit.connectors.vehicle import HEADER, NAME, STATE, make_vehicle, payload
+from vipo_device.kit.connection import CommandReceived
+from vipo_device.protocol.messages import AckMessage, DeviceCommand
 from vipo_device.protocol.mqtt_client import MISSES_TOLD, MqttClient
 
 
@@ -102,3 +105,16 @@ def test_the_log_says_once_that_a_broker_is_not_reached(caplog: pytest.LogCaptur
     for _ in range(MISSES_TOLD + 2):
         client._missed(client._paho, None)
     assert caplog.messages == ["vipo-hall does not reach the MQTT broker at 127.0.0.1:9; it goes on trying."]
+
+
+def test_a_fault_with_one_call_rejects_it_and_ends_nobody(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    fleet._take(connection(NAME), 0.0)
+    device = fleet._devices["Acme-1"]
+    device.control = VehicleControl(make_vehicle(), lambda: "id")
+    monkeypatch.setattr(device.control, "_take_on", lambda _: 1 / 0)
+    fleet._take(CommandReceived("Acme-1", DeviceCommand("c1", "noop", {})), 1.0)
+    (answer,) = (each for each in device.control.out if isinstance(each, AckMessage))
+    assert (answer.command, answer.status) == ("c1", "REJECTED")
+    assert caplog.messages == ["Acme-1: the call of noop failed in the connector."]

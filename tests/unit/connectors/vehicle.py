@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import count
 from typing import Any
 
@@ -57,9 +57,9 @@ def ids() -> Callable[[], str]:
     return lambda: f"n{next(numbers)}"
 
 
-def make_vehicle(without: str = "", frame: Frame | None = None) -> Vehicle:
+def make_vehicle(without: str = "", frame: Frame | None = None, more: Sequence[dict[str, Any]] = ()) -> Vehicle:
     features = FACTSHEET["protocolFeatures"]
-    actions = [a for a in features["agvActions"] if a["actionType"] != without]
+    actions = [*(a for a in features["agvActions"] if a["actionType"] != without), *more]
     sheet = read_factsheet(payload({**HEADER, **FACTSHEET}, protocolFeatures={**features, "agvActions": actions}), NAME)
     frame = frame or Frame()
     return Vehicle(describe(NAME, sheet, Pose(0.0, 0.0), "hall"), sheet, frame, "2.0.0")
