@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 
 from editor.documents import yjs_encoding
 from editor.documents.shared_document import SharedDocument, UpdateHole, read_update
@@ -139,7 +140,8 @@ class Room:
         note = entry.note
         match note.kind:
             case "awareness":
-                self.board.hear(entry.origin, yjs_protocol.decode_awareness(note.data).entries)
+                with suppress(yjs_encoding.BadFrame):  # who is here, as a process of another version tells it
+                    self.board.hear(entry.origin, yjs_protocol.decode_awareness(note.data).entries)
                 self.wake()
             case "saved":
                 self.note_stored(*decode_stored(note.data))

@@ -10,6 +10,7 @@ one on, and so many were not taken, since who only looks may change nothing),
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -146,7 +147,9 @@ def _decode_entry(reader: Reader) -> AwarenessEntry:
         reader.sized(MOST_AWARENESS_BYTES * 16, "What a client shows"),
     )
     try:
-        state = json.loads(raw.decode(), parse_constant=_refuse_constant)
+        state = json.loads(raw.decode(), parse_constant=_refuse_constant, parse_float=_finite)
+    except BadFrame:
+        raise
     except (ValueError, RecursionError) as error:
         raise BadFrame("What the client shows of itself is not JSON.") from error
     if state is not None and not isinstance(state, dict):
@@ -156,6 +159,14 @@ def _decode_entry(reader: Reader) -> AwarenessEntry:
 
 def _refuse_constant(name: str) -> None:
     raise BadFrame(f"{name} is not JSON.")
+
+
+def _finite(digits: str) -> float:
+    """Return the number; one that is too large for a browser would be told to others as a word that is not JSON."""
+    number = float(digits)
+    if not math.isfinite(number):
+        raise BadFrame(f"{digits[:40]} is larger than a number may be.")
+    return number
 
 
 def encode_step_1(state: bytes) -> bytes:
@@ -201,4 +212,4 @@ def encode_refusal(reason: str) -> bytes:
 
 
 def _json(value: object) -> bytes:
-    return json.dumps(value, separators=(",", ":")).encode()
+    return json.dumps(value, separators=(",", ":"), allow_nan=False).encode()

@@ -201,3 +201,15 @@ def test_a_note_that_only_a_newer_version_knows_is_passed_over() -> None:
     kind: Any = "of tomorrow"
     here.room.hear(Entry("1-0", "newer", Note(kind, b"x")))
     assert (list(here.room.to_publish), here.room.ledger.stored_to) == ([], "1-0")
+
+
+def test_a_number_that_browsers_cannot_read_is_refused_and_ends_no_other_process_room() -> None:
+    here, there = room("one"), room("two")
+    ada = Client(here)
+    ada.read()
+    shown = b'{"x":1e999}'
+    with pytest.raises(Close, match="1e999 is larger than a number may be"):
+        ada.send(b"\x01" + bytes((4 + len(shown), 1, 5, 1, len(shown))) + shown)
+    assert list(here.to_publish) == []
+    there.hear(Entry("1-0", "one", Note("awareness", bytes((1, 5, 1, len(shown))) + shown)), 0.0)
+    assert there.board.everybody() == []
