@@ -59,7 +59,8 @@ class Hub:
         self._shared = Shared(stream, Compilers())
         self._open: dict[str, OpenRoom] = {}
         self._ending: dict[str, asyncio.Task[None]] = {}
-        self._locks: defaultdict[str, asyncio.Lock] = defaultdict(asyncio.Lock)
+        self._locks: weakref.WeakValueDictionary[str, asyncio.Lock] = weakref.WeakValueDictionary()
+        """One for each program whose room is being opened or closed, as long as anybody holds or awaits it."""
         self._background: set[asyncio.Task[None]] = set()
         self._looking: asyncio.Task[None] | None = None
         self._watches: defaultdict[str, DeviceWatch] = defaultdict(DeviceWatch)
@@ -99,7 +100,7 @@ class Hub:
             )
 
     async def _let_in(self, program_id: str, member: Member) -> Room:
-        async with self._locks[program_id]:
+        async with self._lock_of(program_id):
             await self._listen()
             try:
                 opened = self._open.get(program_id) or await self._open_room(program_id)
@@ -160,13 +161,17 @@ class Hub:
             self.loop.call_later(CLOSE_EMPTY_AFTER_S, self._start, self._close_if_empty, room)
 
     async def _close_if_empty(self, room: Room) -> None:
-        async with self._locks[room.program]:
+        async with self._lock_of(room.program):
             opened = self._open.get(room.program)
             if opened is not None and opened.room is room and not room.members:
                 await opened.stop()
                 self._open.pop(room.program, None)
-        if room.program not in self._open:
-            self._locks.pop(room.program, None)
+
+    def _lock_of(self, program_id: str) -> asyncio.Lock:
+        lock = self._locks.get(program_id)
+        if lock is None:
+            lock = self._locks[program_id] = asyncio.Lock()
+        return lock
 
     def _drop(self, opened: OpenRoom) -> None:
         """A room ended by itself: what it holds is saved, and the next connection opens it anew."""
