@@ -212,11 +212,18 @@ class VipoBroker(SpreadingBroker):
                 await there[name].end()
 
     async def _take_over(self, session: Any) -> Any:
-        """End an older connection of the same client first, so that its will goes out before the new one speaks."""
+        """End an older connection of the same client first, so that its will goes out before the new one speaks.
+
+        Several may come at once: who has waited looks again, for another may be in by then. From the last look until
+        amqtt knows the connection, nothing is awaited that could let one more in between.
+        """
+        ended: Any = None
         old, handler = self._sessions.get(session.client_id, (None, None))
-        if old is not None and old.transitions.state == "connected":
+        while old is not None and old.transitions.state == "connected" and handler is not ended:
+            ended = handler
             await handler.end()
-            await until(lambda: old.transitions.state != "connected", 2.0)
+            await until(lambda there=old: there.transitions.state != "connected", 2.0)  # type: ignore[misc]
+            old, handler = self._sessions.get(session.client_id, (None, None))
         if session.clean_session or old is None or old.clean_session or _topics(old) != _topics(session):
             await self._delete_session(session.client_id)
             session.parent = 0

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from tests.integration.wire.raw import Raw, connect
 from tests.kit.mqtt import Ear
 from tests.kit.waiting import wait_for
 from vipo_device.protocol.mqtt_client import MqttClient
@@ -62,6 +63,28 @@ def test_what_was_published_before_the_first_connection_arrives(broker: Embedded
     robot.start()
     assert ear.wait(lambda h: h.payload == b"early").topic == "vipo/v1/dev/robot01/up/state"
     robot.stop()
+
+
+def test_of_connections_by_one_name_that_come_at_once_the_last_alone_is_served(broker: EmbeddedBroker) -> None:
+    hello = connect("robot01", WORDS["robot01"])
+    many = [Raw(broker, hello)]
+    assert many[0].read() == (0x20, b"\x00\x00")
+    many += [Raw(broker, hello) for _ in range(4)]
+    time.sleep(1)
+    assert [is_served(each) for each in many].count(True) == 1
+    for each in many:
+        each.socket.close()
+
+
+def is_served(client: Raw) -> bool:
+    """Tell whether the broker answers a ping, maybe after it has taken the client in."""
+    try:
+        client.send(b"\xc0\x00")
+        while client.read()[0] != 0xD0:
+            pass
+    except (OSError, AssertionError):
+        return False
+    return True
 
 
 def test_a_device_writes_only_under_its_own_name(broker: EmbeddedBroker, ear: Ear) -> None:
