@@ -22,8 +22,11 @@ MOST_CHARACTERS = 300
 def watch_alerts(*, now: datetime, since: datetime) -> None:
     """Raise and end alerts by how things are; `since` is when this process began to watch."""
     known = registry.list_open_alerts(codes=frozenset(GONE_WRONG.values()))
-    registry.raise_alerts(raised=list(_find_gone_wrong(known, now)))
-    registry.end_alerts(ids=_find_done_since(known), at=now)
+    raised = list(_find_gone_wrong(known, now))
+    registry.raise_alerts(raised=raised)
+    anew = {(each.device_id, each.code) for each in raised}  # later than what `known` says, so judged the next time
+    before = [alert for alert in known if (alert.device_id, alert.code) not in anew]
+    registry.end_alerts(ids=_find_done_since(before), at=now)
     registry.watch_devices(now=now, since=since, at_work=_find_at_work())
 
 

@@ -130,3 +130,14 @@ def test_refused_messages_are_told_until_better_ones_come(hall, tick):
     assert sorted(code for code, _, _ in alerts()) == ["messages_dropped", "messages_refused"]
     tick(48 * 3600)  # long after, also where this module was read an hour before its tests ran
     assert [code for code, _, _ in alerts()] == ["offline"]
+
+
+def test_what_failed_again_after_it_was_done_stays_an_alert_though_both_were_seen_at_once(hall, tick):
+    first, second, third = add(hall), add(hall), add(hall)
+    answer(first, "FAILED", 1, "Lid open")
+    tick(2)
+    answer(second, "DONE", 2.3)
+    answer(third, "FAILED", 2.7, "Jam")
+    for seconds in (3.1, 4.2, 90):
+        tick(seconds)
+        assert alerts() == [("command_failed", {"method": "mix", "why": "Jam"}, 2)]
