@@ -32,7 +32,7 @@ FLAGS = [
     "--disable-component-update",
     "--disable-sync",
 ]
-PATIENCE_MS = 40_000
+PATIENCE_MS = 90_000
 DEVICES = 11
 
 MAKE_MEMBER = """
@@ -140,7 +140,7 @@ def wait_for_devices(chromium: Browser, demo: Demo, state: Any) -> None:
     context = chromium.new_context(locale="en-GB", storage_state=state, service_workers="block")
     page = context.new_page()
     page.goto(f"{demo.url}/sites/painting-factory/devices")
-    expect(page.locator("tbody tr")).to_have_count(DEVICES, timeout=90_000)
+    expect(page.locator("tbody tr")).to_have_count(DEVICES, timeout=180_000)
     context.close()
 
 

@@ -100,7 +100,7 @@ def test_the_new_device_takes_part_once_an_admin_has_approved_it(sign_in: SignIn
 
 def test_every_device_of_the_factory_is_online(sign_in: SignIn) -> None:
     page = sign_in("author", "/sites/painting-factory/devices")
-    expect(page.locator("tbody tr")).to_have_count(11, timeout=60_000)
+    expect(page.locator("tbody tr")).to_have_count(11, timeout=180_000)
     expect(page.get_by_role("row", name=re.compile("Offline"))).to_have_count(0)
     found = {each["id"]: each for each in ask(page, f"{SITE}/devices")}
     assert len(found) == 11
@@ -223,7 +223,7 @@ def test_a_rehearsal_is_shown_on_the_map_and_in_3d_at_the_same_moment(sign_in: S
     expect(page.get_by_text("Nothing to fix")).to_be_visible()
     page.get_by_role("button", name="Simulate", exact=True).click()
     expect(page.get_by_role("progressbar")).to_be_visible()
-    expect(page.get_by_role("region", name="Result")).to_contain_text("Finishes without errors", timeout=90_000)
+    expect(page.get_by_role("region", name="Result")).to_contain_text("Finishes without errors", timeout=180_000)
     scene = page.get_by_role("region", name="3D view")
     expect(scene.locator("canvas")).to_be_visible()
     expect(scene.get_by_text("Curing Oven")).to_be_visible()
@@ -253,7 +253,7 @@ def test_a_run_carries_the_box_to_the_painting_machine(sign_in: SignIn) -> None:
     expect(line).to_have_accessible_name(re.compile("^Running 1"))
     lit = chip(page, "1, Pick-and-Drop").locator("[data-state]")
     expect(lit).to_have_attribute("data-state", "running")
-    expect(run_state(page)).to_contain_text("Finished", timeout=90_000)
+    expect(run_state(page)).to_contain_text("Finished", timeout=180_000)
     expect(lit).to_have_attribute("data-state", "done")
     expect(line).to_have_accessible_name(re.compile("^Done 1"))
     page.get_by_role("tab", name="Logs").click()
@@ -351,7 +351,7 @@ def test_the_paint_order_is_sound_and_rehearses(sign_in: SignIn) -> None:
         assert any(re.search(f", {kind}(,|$)", name) for name in names), f"{kind} is not in {names}"
     page.get_by_role("button", name="Simulate", exact=True).click()
     result = page.get_by_role("region", name="Result")
-    expect(result).to_contain_text("Finishes without errors", timeout=120_000)
+    expect(result).to_contain_text("Finishes without errors", timeout=180_000)
     expect(result).to_contain_text("by 2 robots")
     programs = ask(page, f"{SITE}/programs")
     assert next(each["errors"] for each in programs if each["name"] == "Paint order") == 0

@@ -150,7 +150,7 @@ def test_every_screen_is_sound(
     for screen in every:
         resize(page, *sizes[0])
         page.goto(re.sub(r"(https?://[^/]+).*", r"\1", page.url) + screen.path)
-        expect(page.locator(screen.ready).first).to_be_visible(timeout=60_000)
+        expect(page.locator(screen.ready).first).to_be_visible(timeout=180_000)
         for size in sizes:
             resize(page, *size)
             found += [f"{screen.name} at {size}: {fault}" for fault in look_over(page, language)]

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 T = TypeVar("T")
-PATIENCE_S = 60.0
+PATIENCE_S = 120.0
 SHARE, LONGEST_S = 0.05, 0.25
 """A question may be a request to a server, and asked all the time it takes the processor from what is waited for: the
 pause between two grows with the time that was waited, by this share of it, up to this long."""

@@ -54,5 +54,5 @@ def test_a_zone_is_drawn_and_a_robot_covers_it(sign_in: SignIn) -> None:
     expect(page.get_by_text("lane=0.6")).to_be_visible()
     assert "        self.robot.cover(self.zone_1, lane=0.6)" in script_lines(page)
     start_run(page)
-    expect(run_state(page)).to_contain_text("Finished", timeout=120_000)
+    expect(run_state(page)).to_contain_text("Finished", timeout=180_000)
     expect(page.get_by_text(re.compile("TurtleBot [123] has covered 9[0-9] % of Zone 1")).first).to_be_visible()

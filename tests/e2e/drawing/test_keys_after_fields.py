@@ -10,10 +10,10 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
 from tests.e2e.screens import ask, chip, open_program, saved, write_program
-from tests.kit.waiting import wait_for
+from tests.kit.waiting import PATIENCE_S, wait_for
 
 pytestmark = pytest.mark.browser
-WAIT_S = 40.0
+WAIT_S = PATIENCE_S
 
 EVERY_FIELD = """class Task(object):
     def new_task(self):

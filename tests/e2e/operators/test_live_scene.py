@@ -37,7 +37,7 @@ def test_a_run_is_watched_in_3d_by_two_and_the_map_is_one_press_away(sign_in: Si
     assert violations(watcher) == []
     run = re.search(r"/runs/([0-9a-f-]+)", page.url)
     assert run is not None
-    expect(page.get_by_role("banner").get_by_text("Finished")).to_be_visible(timeout=120_000)
+    expect(page.get_by_role("banner").get_by_text("Finished")).to_be_visible(timeout=180_000)
     assert ask(page, f"/api/runs/{run[1]}")["status"] == "finished"
     expect(scene(page)).not_to_have_accessible_name(re.compile("Carrying 1 box"))
     page.get_by_role("radio", name="From the robot").press("Space")

@@ -66,7 +66,7 @@ def test_a_run_is_watched_and_stopped_on_a_phone(sign_in: SignIn) -> None:
     fits(page)
     page.get_by_role("banner").get_by_role("button", name="Cancel run").click()
     page.get_by_role("dialog").get_by_role("button", name="Cancel run").click()
-    expect(page.get_by_role("banner").get_by_text("Cancelled")).to_be_visible(timeout=60_000)
+    expect(page.get_by_role("banner").get_by_text("Cancelled")).to_be_visible(timeout=180_000)
     page.goto(re.sub(r"(https?://[^/]+).*", rf"\1/sites/{SITE}/runs", page.url))
     row = page.get_by_role("row").filter(has_text="Paint order").first
     expect(row).to_contain_text("Cancelled")

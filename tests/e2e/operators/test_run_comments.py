@@ -35,7 +35,7 @@ def test_a_moment_of_a_run_is_talked_about_and_leads_back_to_it(sign_in: SignIn,
     draw_task(author)
     saved(author)
     start_run(author)
-    expect(author.get_by_role("slider", name="Moment of the run")).to_be_visible(timeout=60_000)
+    expect(author.get_by_role("slider", name="Moment of the run")).to_be_visible(timeout=180_000)
     run = path_of(author)
     writer = sign_in(people[0], run, dark=True, language="de", width=820, height=1180)
     scale = writer.get_by_role("slider", name="Augenblick des Laufs")

@@ -135,6 +135,6 @@ def test_a_run_under_way_goes_to_a_place_that_is_removed_and_the_question_before
     expect(dialog).to_have_count(0)
     expect(admin.get_by_role("alert").filter(has_text="meanwhile")).to_have_count(0)
     author.get_by_role("button", name="Resume", exact=True).click()
-    expect(run_state(author)).to_contain_text("Finished", timeout=60_000)
+    expect(run_state(author)).to_contain_text("Finished", timeout=180_000)
     robot = ask(admin, f"{SITE}/devices/robot01")["location"]
     assert (round(robot["x"], 1), round(robot["y"], 1)) == (4.0, -8.0)

@@ -63,7 +63,7 @@ def test_a_robot_meets_what_an_operator_put_on_the_floor(
     saved(author)
     program = author.url
     start_run(author)
-    expect(run_state(author)).to_contain_text("Failed", timeout=90_000)
+    expect(run_state(author)).to_contain_text("Failed", timeout=180_000)
     expect(author.get_by_text("something that is not on the map is in its way").first).to_be_visible()
     shoot(author, "obstacles-run", "light", "dark")
     assert the_map(author)
@@ -74,7 +74,7 @@ def test_a_robot_meets_what_an_operator_put_on_the_floor(
     expect(shown).to_have_count(0)
     author.goto(program)
     start_run(author)
-    expect(run_state(author)).to_contain_text("Finished", timeout=90_000)
+    expect(run_state(author)).to_contain_text("Finished", timeout=180_000)
 
 
 PUT = """([x, y]) => {

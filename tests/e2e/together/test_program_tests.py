@@ -71,13 +71,13 @@ def test_a_test_is_written_mended_and_carried_out_by_keyboard(sign_in: SignIn, f
 
     panel.get_by_label("Seeds", exact=True).select_option("20")
     press(panel, "Run all")
-    expect(row).to_contain_text("Failure rate", timeout=90_000)
+    expect(row).to_contain_text("Failure rate", timeout=180_000)
     expect(row.get_by_title(re.compile("^0 of 20 seeds failed: 0%, 95 % interval 0% to "))).to_be_visible()
     assert violations(page) == []
     shoot(page, "tests-odds")
     press(panel, "Try changes")
     changes = panel.get_by_role("region", name="What no test notices")
-    expect(changes.get_by_text("There is nothing in the program to take out.")).to_be_visible(timeout=90_000)
+    expect(changes.get_by_text("There is nothing in the program to take out.")).to_be_visible(timeout=180_000)
     shoot(page, "tests-changes")
 
     program = program_named(page, "Tested from the keyboard")
@@ -148,7 +148,7 @@ def test_a_test_is_filled_in_without_writing_text_and_its_fault_strikes(sign_in:
     expect(unfinished).to_be_visible()
     press(panel, "Run this test")
     ends, picks = (line(panel, "Then", number) for number in (1, 2))
-    expect(ends.get_by_label("Does not hold")).to_be_visible(timeout=60_000)
+    expect(ends.get_by_label("Does not hold")).to_be_visible(timeout=180_000)
     expect(picks.get_by_label("Holds", exact=True)).to_be_visible()
     shoot(page, "test-form-failed")
     assert violations(page) == []
@@ -170,7 +170,7 @@ def test_a_test_is_filled_in_without_writing_text_and_its_fault_strikes(sign_in:
     assert "# in the morning things lie about" in written
     assert "box: 24" in written
     press(panel, "Run this test")
-    expect(ends.get_by_label("Holds", exact=True)).to_be_visible(timeout=60_000)
+    expect(ends.get_by_label("Holds", exact=True)).to_be_visible(timeout=180_000)
 
 
 def test_what_is_wrong_with_a_test_is_told_in_the_reader_s_language(sign_in: SignIn, faults: list[str]) -> None:
