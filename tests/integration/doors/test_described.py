@@ -57,7 +57,7 @@ ENDLESS = {"watch_things", "watch_value"}
 UNBOUNDED = {"interval"}
 """Parameters that are left out, since an answer with them goes on (MTConnect's streams; test_streams.py)."""
 EXAMPLES = 2 if os.environ.get("VIPO_STEADY") == "1" else 4
-"""Of what fits and of what does not, for each operation and role; fewer where a change is judged: the same each time."""
+"""Of what fits and of what does not, for each operation and role; fewer where a change is judged."""
 NAMES = sorted(call["operationId"] for calls in OPERATIONS.values() for call in calls.values())
 CSRF = "a" * 32
 pytestmark = pytest.mark.servers
