@@ -13,7 +13,8 @@ BeganWith = Mapping[str, Iterable[PlaceFacts]]
 
 
 def keep_places(layout: Layout, began_with: BeganWith) -> Layout:
-    """Return the floor on which each run goes to its places where they were, also if they are elsewhere by now or gone.
+    """Return the floor on which each run goes to its places as they were, also if they are elsewhere by now, turned or
+    gone.
 
     Such a place is a point to its run. An id that a device has by now means the device, as it does to new runs.
     """
@@ -25,14 +26,21 @@ def keep_places(layout: Layout, began_with: BeganWith) -> Layout:
 
 
 def _changed(layout: Layout, places: Iterable[PlaceFacts]) -> Iterator[PlaceFacts]:
-    """Go through the places at which nobody would stand now."""
+    """Go through the places at which nobody would stand now as they were to be stood at."""
     for place in places:
         now = layout.places.get(place.id)
-        if place.id not in layout.devices and (now is None or (now.x, now.y) != (place.x, place.y)):
+        as_now = None if now is None else (now.x, now.y, now.theta)
+        if place.id not in layout.devices and as_now != (place.x, place.y, _heading(place)):
             yield place
+
+
+def _heading(place: PlaceFacts) -> float | None:
+    """Return where robots that stand at a place face; None where it does not matter, as anywhere but at docks."""
+    return place.theta if place.kind == "dock" else None
 
 
 def _point(place: PlaceFacts) -> str:
     """Return the id of the point, to the millimetre; at a dock robots face where they faced there."""
-    heading = f",{place.theta:.4f}" if place.kind == "dock" else ""
-    return f"@{place.x:.3f},{place.y:.3f}{heading}"
+    theta = _heading(place)
+    facing = "" if theta is None else f",{theta:.4f}"
+    return f"@{place.x:.3f},{place.y:.3f}{facing}"

@@ -97,6 +97,48 @@ def test_at_a_dock_that_was_removed_robots_face_where_they_faced_before():
     assert (last.arguments["path"][-1], last.arguments["theta"]) == ([18.0, -8.0], 1.5708)
 
 
+@pytest.mark.parametrize("after_s", [0, 5])
+@pytest.mark.parametrize(
+    ("began", "now", "heading"),
+    [
+        (bay(EAST, "dock", 1.5708), bay(EAST, "dock", 3.1416), {"theta": 1.5708}),
+        (bay(EAST, "dock", 1.5708), bay(EAST), {"theta": 1.5708}),
+        (bay(EAST), bay(EAST, "dock", 1.5708), {}),
+    ],
+    ids=["turned", "no dock any more", "a dock by now"],
+)
+def test_robots_face_as_they_did_at_a_place_when_the_run_began(began, now, heading, after_s):
+    floor = PretendFloor(layout_with(began), {"robot01": WEST})
+    go(floor)
+    drive(floor, after_s)
+    floor.layout = keep_places(layout_with(now), {"r": [began]})
+    assert arrive(floor) == ("", "")
+    assert far_m(floor, "robot01", EAST) < 0.01
+    last = [command for command in floor.sent if command.device == "robot01" and "path" in command.arguments][-1]
+    assert last.arguments["path"][-1] == [18.0, -8.0]
+    assert {name: value for name, value in last.arguments.items() if name == "theta"} == heading
+    drive(floor, 1)
+    assert holds_where_it_stands(floor, "robot01")
+
+
+def test_a_robot_that_stands_at_a_dock_which_was_turned_faces_as_before_when_its_run_goes_there_once_more():
+    began = bay(EAST, "dock", 1.5708)
+    floor = PretendFloor(layout_with(began), {"robot01": WEST})
+    go(floor)
+    arrive(floor)
+    sent = len(floor.sent)
+    floor.layout = keep_places(layout_with(bay(EAST, "dock", 3.1416)), {"r": [began]})
+    go(floor, task=2)
+    assert arrive(floor, ("r", 2)) == ("", "")
+    assert far_m(floor, "robot01", EAST) < 0.01
+    assert [each.arguments["theta"] for each in floor.sent[sent:] if "theta" in each.arguments] == [1.5708]
+
+
+def test_the_heading_of_a_place_that_is_no_dock_does_not_matter():
+    layout = layout_with(bay(EAST, theta=3.1416))
+    assert keep_places(layout, {"r": [bay(EAST, theta=1.5708)]}) is layout
+
+
 def test_where_no_run_has_other_places_than_the_map_the_floor_is_the_same():
     layout = layout_with(bay(EAST))
     assert keep_places(layout, {"r": [bay(EAST), *demo_floor.places()], "later": []}) is layout
