@@ -174,11 +174,10 @@ def _is_near(device: Description, point: Point) -> bool:
 def _in_zones(layout: Layout, parts: _Parts, spots: Mapping[str, Spot]) -> Iterator[Finding]:
     """Tell which spots zones keep robots out of, cut off, or let them come to but not away from, and otherwise."""
     keep_outs = [zone for zone in layout.zones if zone.rule == "keep_out"]
-    home = next((spot.cell for name, spot in sorted(spots.items()) if spot.cell in parts.main), None)
+    home = next((spot.cell for _, spot in sorted(spots.items()) if spot.cell in parts.main), None)
     there = back = None
     if home is not None and layout.against:
-        there = layout.lattice.distances(home, parts.shut, layout.against)
-        back = layout.lattice.distances(home, parts.shut, layout.against_backwards)
+        there, back = _there_and_back(layout, parts, spots)
     cut_off = []
     for name, spot in sorted(spots.items()):
         at = (spot.x, spot.y)
@@ -192,6 +191,29 @@ def _in_zones(layout: Layout, parts: _Parts, spots: Mapping[str, Spot]) -> Itera
             yield Finding("no_way_out", name, at)
     if cut_off and home is not None:
         yield from _cut_off(layout, keep_outs, home, cut_off)
+
+
+def _there_and_back(
+    layout: Layout, parts: _Parts, spots: Mapping[str, Spot]
+) -> tuple[Collection[int], Collection[int]]:
+    """Return the cells that robots come to, and those that they come from, in spite of one-way zones: seen from the
+    most spots that all lead to each other, of as many from those with the first name.
+
+    So what is told of is a dead end, not all the others, whatever it is called.
+    """
+    left = {name: spot.cell for name, spot in sorted(spots.items()) if spot.cell in parts.main}
+    best: tuple[Collection[int], Collection[int]] = ((), ())
+    most = 0
+    while len(left) > most:
+        start = next(iter(left.values()))
+        there = layout.lattice.distances(start, parts.shut, layout.against).keys()
+        back = layout.lattice.distances(start, parts.shut, layout.against_backwards).keys()
+        both = there & back
+        rest = {name: cell for name, cell in left.items() if cell not in both}
+        if len(left) - len(rest) > most:
+            best, most = (there, back), len(left) - len(rest)
+        left = rest
+    return best
 
 
 def _zone_around(layout: Layout, zones: Sequence[FloorZone], spot: str) -> FloorZone | None:

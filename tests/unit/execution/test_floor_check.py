@@ -112,11 +112,30 @@ def test_zones_that_keep_out_or_cut_off_are_named():
     assert codes(check(grid, places=places, zones=two)) == [("cut_off", "c", None)]
 
 
+@pytest.mark.parametrize("dead_end", ["a", "m", "z"], ids=["its name first", "between", "last"])
 @pytest.mark.parametrize(("heading", "code"), [(0.0, "no_way_out"), (180.0, "no_way_in")])
-def test_one_way_zones_that_nobody_comes_through_or_back(heading, code):
+def test_one_way_zones_that_nobody_comes_through_or_back(heading, code, dead_end):
     zones = (zone("one_way", 5, -1, 7, 5, "belt", heading_deg=heading),)
-    found = check(floor_of(12, 4), places=(place("a", 1.5, 2), place("b", 10, 2)), zones=zones)
-    assert codes(found) == [(code, "b", None)]
+    others = (place("b", 1.5, 2), place("c", 1.5, 1), place("x", 3, 2))
+    found = check(floor_of(12, 4), places=(*others, place(dead_end, 10, 2)), zones=zones)
+    assert codes(found) == [(code, dead_end, None)]
+    assert found.places == (3, 4)
+
+
+def test_of_as_many_places_on_both_sides_of_a_one_way_zone_those_with_the_first_name_are_sound():
+    zones = (zone("one_way", 5, -1, 7, 5, "belt", heading_deg=0.0),)
+    found = check(floor_of(12, 4), places=(place("a", 10, 2), place("b", 1.5, 2)), zones=zones)
+    assert codes(found) == [("no_way_in", "b", None)]
+
+
+def test_of_several_dead_ends_behind_one_way_zones_each_is_told():
+    zones = (
+        zone("one_way", 4, -1, 5, 5, "west", heading_deg=180.0),
+        zone("one_way", 11, -1, 12, 5, "east", heading_deg=0.0),
+    )
+    places = (place("a", 1.5, 2), place("b", 14, 2), place("c", 7, 2), place("d", 9, 2))
+    found = check(floor_of(16, 4), places=places, zones=zones)
+    assert codes(found) == [("no_way_out", "a", None), ("no_way_out", "b", None)]
 
 
 def test_docks_that_only_one_robot_can_take_at_a_time():
