@@ -124,13 +124,7 @@ from registry.people.sign_in import (
 )
 from registry.people.sign_on.attempts import forget_sign_ons
 from registry.people.throttle import forget_attempts
-from registry.people.tokens import (
-    TokenView,
-    find_bearer,
-    find_member,
-    list_tokens,
-    prune_tokens,
-)
+from registry.people.tokens import TokenView, find_bearer, find_member, list_tokens, prune_tokens
 from registry.people.wall_screens import COOKIE as WALL_COOKIE
 from registry.people.wall_screens import OpenedWall, find_wall, note_wall_seen, prune_wall_screens
 from registry.people.watch import Seat, watch_of_this_loop
@@ -151,6 +145,7 @@ from registry.sites.sites import (
     list_places,
     list_sites,
     list_slugs,
+    list_strange_ids,
     list_zones,
     save_places,
     set_enrolment_key,
@@ -323,6 +318,7 @@ __all__ = [
     "list_sites",
     "list_slugs",
     "list_stand_ins",
+    "list_strange_ids",
     "list_tokens",
     "list_with_role",
     "list_zones",

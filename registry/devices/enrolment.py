@@ -22,7 +22,7 @@ from registry.devices.history import history_text, write_event
 from registry.devices.rows import STARTS, BadDevice, check_id, forget_starts
 from registry.errors import RegistryError
 from registry.models import AuditLine, Device, DeviceEvent, Site, User
-from registry.sites.namespaces import OF_IDS, may_name
+from registry.sites.namespaces import may_have_device
 from registry.sites.sites import find_site
 from vipo_device.protocol.credentials import (
     LEAST_CHARACTERS,
@@ -114,7 +114,7 @@ def _find_own(site: Site, device_id: str) -> Device | None:
     Raises NotOfSite in the same words whether the id is another site's or could be.
     """
     device = Device.objects.select_for_update(of=("self",)).filter(pk=device_id).first()
-    if device.site_id != site.pk if device else not may_name(site, device_id, OF_IDS):
+    if not may_have_device(site, device_id, device.site_id if device else None):
         raise NotOfSite(*refusal_facts("id_of_site", device=device_id, site=site.slug))
     return device
 

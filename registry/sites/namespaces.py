@@ -22,6 +22,11 @@ def may_name(site: Site, name: str, separator: str) -> bool:
     return _gives_plain_names(site) and not (found and Site.objects.filter(slug=first).exists())
 
 
+def may_have_device(site: Site, device_id: str, home: int | None) -> bool:
+    """Tell whether a device of this id is a site's or can become its; `home` is the site's row that has it, if any."""
+    return may_name(site, device_id, OF_IDS) if home is None else home == site.pk
+
+
 def _gives_plain_names(site: Site) -> bool:
     default = Site.objects.filter(slug=settings.VIPO_DEFAULT_SITE).values_list("pk", flat=True).first()
     return site.pk == (default or Site.objects.order_by("pk").values_list("pk", flat=True).first())

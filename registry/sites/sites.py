@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import urlsafe_b64encode
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from datetime import datetime, timedelta
 from hashlib import sha256
 
@@ -16,7 +16,7 @@ from django.utils.text import slugify
 from registry.errors import RegistryError
 from registry.models import Device, Membership, Place, SimulatedObstacle, Site, SiteMap, SiteZone, User
 from registry.people.access import NotAMember, access_of, list_memberships
-from registry.sites.namespaces import is_in_use
+from registry.sites.namespaces import is_in_use, may_have_device
 from registry.sites.views import ObstacleView, PlaceView, SiteView, StopView, ZoneView
 from vipo_device.protocol.credentials import broker_hash, secret_hash
 from vipo_device.protocol.texts import find_unfit, normal
@@ -177,6 +177,13 @@ def list_places(*, site: str) -> tuple[PlaceView, ...]:
     if not found:
         find_site(site)
     return found
+
+
+def list_strange_ids(*, site: str, ids: Collection[str]) -> tuple[str, ...]:
+    """Return, in their order, the ids that are no device's of the site and cannot become one's; raises NotAMember."""
+    row = find_site(site)
+    homes = dict(Device.objects.filter(pk__in=ids).values_list("pk", "site_id"))
+    return tuple(name for name in sorted(ids) if not may_have_device(row, name, homes.get(name)))
 
 
 def list_zones(*, site: str) -> tuple[ZoneView, ...]:

@@ -70,6 +70,7 @@ def make_twin(options: dict[str, Any], heartbeat: HeartbeatWriter) -> Twin:
     """Return the twin that the command line asks for."""
     site: str = options["site"]
     described = read_folder(options["devices"], site) if options["devices"] else ()
+    require_own(site, described)
     facts = read_site_facts(site, described)
     folder = Path(settings.VIPO_STATE_DIR)
     passwords = read_passwords(folder / "secrets")
@@ -135,6 +136,17 @@ def read_folder(folder: Path, site: str) -> tuple[DescribedDevice, ...]:
             raise CommandError(f"{path}: another file describes {device.description.id}, too; keep one of the two.")
         found[device.description.id] = device
     return tuple(found.values())
+
+
+def require_own(site: str, described: Sequence[DescribedDevice]) -> None:
+    """Refuse devices that cannot be the site's: with such an id and its key they would displace another site's."""
+    strangers = registry.list_strange_ids(site=site, ids=[device.description.id for device in described])
+    if strangers:
+        raise CommandError(
+            f"{site} can have no device with the id {', '.join(strangers)}. Several sites share this server; new ids "
+            f"at this one begin with “{site}.”. Change it in the device's file, also in topics that contain it: "
+            f"{site}.{strangers[0]}."
+        )
 
 
 def _read_described(path: Path) -> DescribedDevice:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -38,13 +39,17 @@ class Heartbeat:
     beat: Callable[..., None] = staticmethod(lambda *_: None)
 
 
+def options_for(devices: Path | None) -> dict[str, Any]:
+    """Return what the command line says."""
+    return {
+        "site": SITE, "devices": devices, "only": "", "left_out": "", "speed": 1.0, "driver": "kinematic", "pace": [],
+    }  # fmt: skip
+
+
 @contextmanager
 def playing(devices: Path | None) -> Iterator[None]:
     """Run the site's twin as the command line does."""
-    options: dict[str, Any] = {
-        "site": SITE, "devices": devices, "only": "", "left_out": "", "speed": 1.0, "driver": "kinematic", "pace": [],
-    }  # fmt: skip
-    twin, stopping = make_twin(options, Heartbeat()), threading.Event()  # type: ignore[arg-type]
+    twin, stopping = make_twin(options_for(devices), Heartbeat()), threading.Event()  # type: ignore[arg-type]
     thread = threading.Thread(target=twin.run, args=(stopping,))
     thread.start()
     try:
@@ -99,3 +104,32 @@ def test_a_folder_that_cannot_be_brought_is_refused(site: str, files: dict[str, 
         (tmp_path / name).write_text(text)
     with pytest.raises(CommandError, match=why):
         read_folder(tmp_path, site)
+
+
+def test_ids_that_another_site_has_or_gives_are_refused_before_anything_connects(
+    database: Path, tmp_path: Path, settings: LazySettings
+) -> None:
+    settings.VIPO_STATE_DIR = tmp_path
+    settings.VIPO_DEFAULT_SITE = "factory"
+    for name in ("Factory", "Hall"):
+        services.create_site(name=name, slug=name.lower())
+        services.save_map(site=name.lower(), grid=Grid(100, 100, 0.05, 0.0, 0.0, bytes(10_000)))
+    services.expect_device(site="factory", device_id="shelf01", credential="k" * 32)
+    (tmp_path / "secrets").mkdir()
+    keys = tmp_path / "secrets" / "devices.json"
+    keys.write_text(json.dumps({"shelf01": "k" * 32}))
+    folder = tmp_path / "devices"
+    folder.mkdir()
+    (folder / "own.ttl").write_text(TEXT)
+    (folder / "copied.ttl").write_text(TEXT.replace("hall.shelf01", "shelf01"))
+    (folder / "new.ttl").write_text(TEXT.replace("hall.shelf01", "rack"))
+    with pytest.raises(CommandError) as refused:
+        make_twin(options_for(folder), Heartbeat())  # type: ignore[arg-type]
+    assert str(refused.value) == (
+        "hall can have no device with the id rack, shelf01. Several sites share this server; new ids at this one begin "
+        "with “hall.”. Change it in the device's file, also in topics that contain it: hall.rack."
+    )
+    assert json.loads(keys.read_text()) == {"shelf01": "k" * 32}
+    for name in ("copied.ttl", "new.ttl"):
+        (folder / name).unlink()
+    assert make_twin(options_for(folder), Heartbeat())  # type: ignore[arg-type]

@@ -82,6 +82,16 @@ def test_whoever_enrols_at_another_site_takes_no_id_and_its_owner_hears_nothing(
     assert Device.objects.get(pk="yard.mixer1").site.slug == "yard"
 
 
+def test_ids_that_cannot_be_a_sites_are_told_whether_somebody_has_them_or_not(yard: str) -> None:
+    approve()
+    services.expect_device(site="yard", device_id="old", credential=KEY)
+    ids = ("yard.new", "old", "mixer9", "mixer1", "hall.mixer1")
+    assert services.list_strange_ids(site="yard", ids=ids) == ("hall.mixer1", "mixer1", "mixer9")
+    assert services.list_strange_ids(site="hall", ids=ids) == ("old", "yard.new")
+    with pytest.raises(services.NotAMember):
+        services.list_strange_ids(site="nowhere", ids=ids)
+
+
 def test_a_join_key_opens_its_own_site_only(yard: str) -> None:
     describe(replace(MIXER, id="waiting", methods=()))
     assert (comes_in("waiting", YARD), comes_in("waiting", HALL)) == ("", "hall")
