@@ -28,9 +28,10 @@ from registry.devices.things import record_thing
 from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
 from registry.live.fanout import publish
-from registry.models import Device, User
+from registry.models import Device, Place, User
 from vipo_device.protocol.credentials import make_credential
 from vipo_device.protocol.description import Pose
+from vipo_device.protocol.faults import refusal_facts
 from vipo_device.protocol.texts import find_unfit, normal
 
 Lifecycle = Device.Lifecycle
@@ -58,7 +59,9 @@ class IsSimulated(RegistryError):
 
 
 def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) -> Decided:
-    """Let a pending device take part, with a key of its own. Raises NoSuchDevice, NotPending, BrokerAway.
+    """Let a pending device take part, with a key of its own.
+
+    Raises NoSuchDevice, NotPending, BrokerAway, and BadDevice where a place of the site has its id.
 
     One that came with the enrolment key gets a key at once; one that came with its own keeps that unless it takes the
     new one over MQTT.
@@ -67,6 +70,7 @@ def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) 
     with transaction.atomic():
         device = lock_device(site, device_id)
         _require_pending(device)
+        _require_no_place(device)
         had_own_key = bool(device.credential_hash)
         before = view_of(device, site)
         device.lifecycle = Lifecycle.APPROVED
@@ -137,6 +141,13 @@ def _take_out(
 def _require_pending(device: Device) -> None:
     if device.lifecycle != Lifecycle.PENDING:
         raise NotPending(f"{device.id} does not wait for a decision; it is {device.lifecycle}.")
+
+
+def _require_no_place(device: Device) -> None:
+    """Refuse the id of a place, for robots are sent to either by its id; no new place gets a device's."""
+    place = Place.objects.filter(site_id=device.site_id, key=device.pk).first()
+    if place is not None:
+        raise BadDevice(*refusal_facts("id_of_place", device=device.pk, place=place.name))
 
 
 def update_device(

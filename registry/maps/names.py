@@ -6,6 +6,7 @@ import re
 import unicodedata
 from collections.abc import Collection
 from dataclasses import dataclass
+from itertools import count
 
 from django.utils.text import slugify
 
@@ -36,14 +37,20 @@ class Naming:
             raise self.taken(text, {"why": "taken_name", "name": name})
         return name
 
-    def new_key(self, wished: str, name: str, taken: Collection[str]) -> str:
-        """Return the id of a new thing, made of its name if none is wished; whoever asks holds the site's row."""
+    def new_key(self, wished: str, name: str, taken: Collection[str], devices: Collection[str] = ()) -> str:
+        """Return the id of a new thing, made of its name if none is wished; whoever asks holds the site's row.
+
+        `taken` are the ids of the site's other things, `devices` of its devices, if those may not have one of these.
+        """
         if len(taken) >= self.most:
             text = f"A site has at most {self.most} {self.thing}s. Remove one that nobody needs."
             raise self.unfit(text, {"why": "many", "most": self.most})
         if wished in taken:
             text = f"There is already a {self.thing} with the id {wished!r} at this site."
             raise self.taken(text, {"why": "taken_id", "id": wished})
+        if wished in devices:
+            text = f"A device of this site has the id {wished!r}. Make the {self.thing} without an id: it gets another."
+            raise self.taken(text, {"why": "taken_device", "id": wished})
         if wished and not _ID.fullmatch(wished):
             text = f"A {self.thing}'s id has 1 to 60 of the letters a to z, digits and underscores."
             raise self.unfit(text, {"why": "id"})
@@ -51,7 +58,7 @@ class Naming:
             return wished
         plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
         stem = slugify(plain)[:40].replace("-", "_") or self.thing
-        return next(key for number in range(1, self.most + 2) if (key := _numbered(stem, number)) not in taken)
+        return next(key for number in count(1) if (key := _numbered(stem, number)) not in taken and key not in devices)
 
 
 def _numbered(stem: str, number: int) -> str:

@@ -1,5 +1,6 @@
 """The named places of a site, as its admins make, change and remove them.
 
+A place and a device of a site never have the same id, for robots are sent to either by its id.
 A place stands over the map and stays where it is when the map becomes another one. Whoever shows or checks anything
 with a map hears of a change as of a new map.
 """
@@ -17,7 +18,7 @@ from registry.floorplan.plan import Grid
 from registry.live.fanout import publish
 from registry.maps.names import Naming
 from registry.maps.site_maps import find_map, get_map
-from registry.models import Place
+from registry.models import Device, Place
 from registry.sites.sites import find_site, list_places, lock_site
 from registry.sites.views import PlaceView
 
@@ -42,7 +43,7 @@ class NoSuchPlace(RegistryError):
 
 
 class PlaceTaken(RegistryError):
-    """A name or id that another place of the site has."""
+    """A name or id that another place of the site has, or the id of one of its devices."""
 
     code = "place_taken"
     status = 409
@@ -65,7 +66,8 @@ def add_place(*, site: str, place: PlaceChange, place_id: str = "") -> PlaceView
     with transaction.atomic():
         row = lock_site(site)
         keys = set(Place.objects.filter(site=row).values_list("key", flat=True))
-        key = _naming().new_key(place_id, place.name or "", keys)
+        devices = set(Device.objects.filter(site=row).values_list("pk", flat=True))
+        key = _naming().new_key(place_id, place.name or "", keys, devices)
         made = Place(site=row, key=key, kind=Place.Kind.POINT, x=0.0, y=0.0)
         _change(made, place, grid)
         made.save(force_insert=True)

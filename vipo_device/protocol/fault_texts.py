@@ -265,6 +265,10 @@ _JOINING: Mapping[str, str] = {
         "{device} cannot be a new id here. Several sites share this server: new ids of this one begin with {site}., "
         "such as {site}.{device}."
     ),
+    "id_of_place": (
+        "{device} has the id of the place “{place}”, so robots that are sent to one would drive to the other. Remove "
+        "the place and add it anew, which gives it another id, or give the device another id."
+    ),
     "no_site": "There is no site {site!r} that the device could join, and no default site.",
     "device_id": "A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server', '.' or '..'.",
     "knock_key": "An enrolment needs `key`: {least} to {most} printable ASCII characters, made at random.",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -13,6 +14,7 @@ from registry.floorplan.plan import Grid
 from registry.maps import places
 from tests.kit.programs import document, step
 from tests.kit.sign_in import patch_json, post_json, signed_in
+from tests.kit.sites import MIXER, describe
 
 PLACES = "/api/sites/hall/places"
 TABLE = {"name": "Quality table", "kind": "point", "x": 1.5, "y": 0.5}
@@ -93,6 +95,42 @@ def test_ids_are_made_of_names_in_any_letters_and_never_twice(admin: Client) -> 
     names = ["Prüf-Tisch", "Pruf Tisch", "机台", "倉庫"]
     made = [post_json(admin, PLACES, {**TABLE, "name": name}).json()["id"] for name in names]
     assert made == ["pruf_tisch", "pruf_tisch_2", "place", "place_2"]
+
+
+def test_a_place_gets_no_id_that_a_device_of_the_site_has(admin: Client, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(places, "MOST_PLACES", 2)
+    for name in ("mixer", "mixer_2", "mixer_4"):
+        describe(replace(MIXER, id=name, methods=()))
+    made = [post_json(admin, PLACES, {**TABLE, "name": name}).json()["id"] for name in ("Mixer", "MIXER!")]
+    assert made == ["mixer_3", "mixer_5"]
+    admin.delete(f"{PLACES}/mixer_5")
+    wished = post_json(admin, PLACES, {**TABLE, "name": "Bench", "id": "mixer_2"})
+    assert refused(wished) == (409, "taken_device")
+    assert wished.json()["detail"].startswith("A device of this site has the id 'mixer_2'.")
+
+
+def test_ids_of_another_sites_devices_are_free_for_places(admin: Client) -> None:
+    services.create_site(name="Shed", slug="shed")
+    services.expect_device(site="shed", device_id="quality_table", credential="k" * 32)
+    assert post_json(admin, PLACES, TABLE).json()["id"] == "quality_table"
+
+
+def test_a_device_with_the_id_of_a_place_is_not_approved_until_the_place_has_another(admin: Client) -> None:
+    post_json(admin, PLACES, TABLE)
+    describe(replace(MIXER, id="quality_table", methods=()))
+    approval = "/api/sites/hall/devices/quality_table/approve"
+    answer = post_json(admin, approval)
+    assert refused(answer) == (422, "bad_device")
+    assert answer.json()["args"]["faults"][0]["code"] == "id_of_place"
+    assert answer.json()["detail"] == (
+        "quality_table has the id of the place “Quality table”, so robots that are sent to one would drive to the "
+        "other. Remove the place and add it anew, which gives it another id, or give the device another id."
+    )
+    assert [(d.id, d.lifecycle) for d in services.list_devices(site="hall")] == [("quality_table", "pending")]
+    admin.delete(f"{PLACES}/quality_table")
+    assert refused(post_json(admin, PLACES, {**TABLE, "id": "quality_table"})) == (409, "taken_device")
+    assert post_json(admin, PLACES, TABLE).json()["id"] == "quality_table_2"
+    assert post_json(admin, approval).json()["lifecycle"] == "approved"
 
 
 def test_a_removed_place_comes_back_under_its_id(admin: Client) -> None:
