@@ -9,6 +9,7 @@ from typing import Any
 from django.http import HttpRequest
 from ninja import Router, Schema
 from ninja.responses import Status
+from pydantic import AwareDatetime
 
 from registry.api.authentication import session_only
 from registry.models import User
@@ -64,7 +65,7 @@ class MemberChange(Asked):
     """What is to be another; what is left out stays, and `ends_at: null` takes the end of access away."""
 
     role: Role | None = None
-    ends_at: datetime | None = None
+    ends_at: AwareDatetime | None = None
 
 
 class DeedShape(Schema):

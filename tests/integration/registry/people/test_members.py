@@ -174,6 +174,16 @@ def test_an_end_that_is_past_or_too_far_is_refused(hall: str, days: int) -> None
     assert Membership.objects.get(user=find_person("viewer")).ends_at is None
 
 
+@pytest.mark.parametrize("end", ["2027-01-01T00:00:00", "2027-01-01"])
+def test_an_end_without_a_time_zone_is_refused_at_its_field(hall: str, end: str) -> None:
+    answer = change("admin", "viewer", ends_at=end)
+    assert (answer.status_code, answer.json()["fields"]) == (
+        422,
+        [{"field": "body.ends_at", "message": "Input should have timezone info"}],
+    )
+    assert Membership.objects.get(user=find_person("viewer")).ends_at is None
+
+
 def test_who_serves_vipo_may_take_the_last_admin_away(hall: str) -> None:
     services.set_member(site="hall", email="admin@vipo.example", role="viewer")
     services.remove_member(site="hall", email="admin@vipo.example")
