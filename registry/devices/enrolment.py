@@ -73,10 +73,10 @@ def enrol_device(*, site: str, device_id: str, payload: bytes, at: datetime) -> 
 
 def _enrol(site: str, device_id: str, payload: bytes, at: datetime) -> bool:
     check_id(device_id)
-    key = _read_key(payload)
     with transaction.atomic():
         row = find_site(site)
-        device = _find_own(row, device_id)
+        device = _find_own(row, device_id)  # before the key: of another site's device nothing else is told
+        key = _read_key(payload)
         if device is not None and device.lifecycle == Device.Lifecycle.RETIRED:
             return False
         is_known = device is not None and hmac.compare_digest(device.credential_hash, secret_hash(key))

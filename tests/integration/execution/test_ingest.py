@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from django.db import DatabaseError
 
-from execution.gateway.ingest import Ingester
+from execution.gateway.ingest import ENROLMENT, Ingester
 from execution.gateway.queue import Entry
 from registry import services
 from registry.models import DeviceEvent
@@ -155,3 +155,16 @@ def test_descriptions_that_cannot_be_kept_together_are_kept_one_by_one_and_then_
     ingester.ingest_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
     assert [d.id for d in services.list_devices(site="hall")] == ["a", "b"]
     assert (tried, sorted(post.acknowledged)) == ([2], [0, 1])
+
+
+@pytest.mark.parametrize("body", [{"key": "short"}, {"key": "k" * 32}, b"{"])
+def test_whoever_asks_to_be_enrolled_by_another_sites_id_writes_nothing_into_its_history(
+    notes: list[tuple[str, str]], ingester: Ingester, body: Any
+) -> None:
+    services.create_site(name="Shed", slug="shed")
+    services.expect_device(site="shed", device_id="shed.robot", credential="r" * 32)
+    payload = body if isinstance(body, bytes) else json.dumps(body).encode()
+    for site in ("hall", "shed"):
+        asked = Message(f"vipo/v1/join/{site}/shed.robot", payload, False, lambda: None)
+        ingester.ingest_all([Entry(asked, "shed.robot", ENROLMENT)], threading.Event())
+    assert [device for device, _ in notes] == ["join:hall", "shed.robot"]

@@ -14,6 +14,7 @@ from registry.services import NotOfSite, TopicTaken
 from tests.kit.sign_in import add_person, find_person, post_json, signed_in
 from tests.kit.sites import MIXER, NOW, approve, describe
 from vipo_device.protocol.description import MethodSpec
+from vipo_device.protocol.messages import BadMessage
 
 HALL, YARD, KEY = "h" * 32, "y" * 32, "k" * 32
 
@@ -28,8 +29,8 @@ def yard(hall: str) -> str:
     return "yard"
 
 
-def enrol(device_id: str, site: str = "yard") -> bool:
-    return services.enrol_device(site=site, device_id=device_id, payload=json.dumps({"key": KEY}).encode(), at=NOW)
+def enrol(device_id: str, site: str = "yard", key: str = KEY) -> bool:
+    return services.enrol_device(site=site, device_id=device_id, payload=json.dumps({"key": key}).encode(), at=NOW)
 
 
 def comes_in(device_id: str, key: str) -> str:
@@ -90,6 +91,18 @@ def test_ids_that_cannot_be_a_sites_are_told_whether_somebody_has_them_or_not(ya
     assert services.list_strange_ids(site="hall", ids=ids) == ("old", "yard.new")
     with pytest.raises(services.NotAMember):
         services.list_strange_ids(site="nowhere", ids=ids)
+
+
+def test_a_key_that_is_none_is_refused_at_another_sites_id_as_a_proper_one_is(yard: str) -> None:
+    approve()
+    told = []
+    for key in (KEY, "short"):
+        with pytest.raises(NotOfSite) as refused:
+            enrol("mixer1", key=key)
+        told.append(refused.value.detail)
+    assert told[0] == told[1]
+    with pytest.raises(BadMessage):
+        enrol("yard.mixer9", key="short")
 
 
 def test_a_join_key_opens_its_own_site_only(yard: str) -> None:
