@@ -79,17 +79,23 @@ def _enrol(site: str, device_id: str, payload: bytes, at: datetime) -> bool:
         key = _read_key(payload)
         if device is not None and device.lifecycle == Device.Lifecycle.RETIRED:
             return False
-        is_known = device is not None and hmac.compare_digest(device.credential_hash, secret_hash(key))
-        if not is_known:
-            device = device or make_pending_device(device_id, row.pk, at)
-            _require_keyless(device)
-            device.credential_hash, device.broker_hash = secret_hash(key), broker_hash(key)
-            forget_starts(device)
-            device.save(update_fields=["credential_hash", "broker_hash", *STARTS])
-            write_event(device, at, "knocked", history_text("knocked"))
-            note_act(site_id=row.pk, code="device_asked", actor=device_acts(device_id))
-    accounts().put(Account(device_id, key, site=site))
-    return not is_known
+        is_news = device is None or not hmac.compare_digest(device.credential_hash, secret_hash(key))
+        device = device or make_pending_device(device_id, row.pk, at)
+        if is_news:
+            _keep_key(device, key, at)
+        # under the lock: whoever revokes the key meanwhile takes the account away after this
+        accounts().put(Account(device_id, key, tuple(sorted(device.granted.values())), site))
+    return is_news
+
+
+def _keep_key(device: Device, key: str, at: datetime) -> None:
+    """Write the key that a device has brought into its locked row. Raises BadDevice."""
+    _require_keyless(device)
+    device.credential_hash, device.broker_hash = secret_hash(key), broker_hash(key)
+    forget_starts(device)
+    device.save(update_fields=["credential_hash", "broker_hash", *STARTS])
+    write_event(device, at, "knocked", history_text("knocked"))
+    note_act(site_id=device.site_id, code="device_asked", actor=device_acts(device.pk))
 
 
 def _note_turned_away(site: str, device_id: str, refusal: BadMessage | BadDevice, at: datetime) -> None:

@@ -15,6 +15,7 @@ from execution.gateway.gateway import Gateway
 from registry import services
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
 from tests.kit.files import MIXER_TEXT
+from tests.kit.mqtt import Ear
 from tests.kit.waiting import wait_for
 from vipo_device.descriptions.reader import read_description, write_description
 from vipo_device.protocol.messages import down_topic, up_topic
@@ -66,6 +67,27 @@ def test_a_confirmed_topic_is_heard_by_its_device_alone(bus: Bus) -> None:
     assert not {b"too early", b"a device says nothing there"} & {*heard["mixer01"], *heard["mixer02"]}
     for client in (*clients.values(), server):
         client.stop()
+
+
+def test_a_device_that_enrols_again_with_its_key_goes_on_hearing_its_confirmed_topic(bus: Bus) -> None:
+    now, key, heard = datetime.now(UTC), "k" * 32, list[bytes]()
+    text = write_description(read_description(MIXER_TEXT.replace("paintMixer03", "mixer01").encode()))
+    hello = {"site": SITE, "device_id": "mixer01", "payload": json.dumps({"key": key}).encode(), "at": now}
+    services.enrol_device(**hello)
+    text = text.replace(down_topic("mixer01", "mixPaint"), TOPIC)
+    services.ingest_description(device_id="mixer01", payload=text.encode(), at=now)
+    assert services.approve_device(site=SITE, device_id="mixer01", by=None, at=now).credential is None
+    services.confirm_topic(site=SITE, device_id="mixer01", topic=TOPIC, by=None, at=now)
+    assert not services.enrol_device(**hello)
+    device = bus.client("mixer01", key)
+    device.subscribe(TOPIC, 1, lambda _t, payload, _r: heard.append(payload))
+    device.start()
+    assert device.wait_subscribed(20)
+    with Ear(bus.server_port, SERVER_WORD) as ear:
+        ear.say(TOPIC, {"time": 5})
+        wait_for("the call", lambda: heard)
+    device.stop()
+    assert [json.loads(payload) for payload in heard] == [{"time": 5}]
 
 
 def test_a_command_reaches_its_device_on_the_confirmed_topic_and_is_refused_afterwards(

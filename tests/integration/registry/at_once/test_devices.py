@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import json
+import signal
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Any
 
+import psycopg
 import pytest
 
 from registry import services
+from registry.broker.accounts import accounts
 from registry.models import (
     Device,
     DeviceEvent,
@@ -22,12 +27,16 @@ from tests.integration.registry.at_once.presses import (
     OF_DEVICE,
     OF_SITE,
     SITE,
+    WAITING,
     Press,
     press_together,
+    run_in_thread,
     told,
 )
+from tests.kit.servers import Mosquitto
 from tests.kit.sign_in import post_json, signed_in
-from tests.kit.sites import MIXER, approve, describe, may_come_in
+from tests.kit.sites import MIXER, NOW, approve, describe, may_come_in
+from tests.kit.waiting import wait_for
 from vipo_device.protocol.description import MethodSpec
 
 pytestmark = pytest.mark.servers
@@ -80,6 +89,31 @@ def test_a_key_that_is_taken_away_while_another_is_made_stays_away(url: str) -> 
         assert not may_come_in(rotated.json()["credential"])
     assert Device.objects.get().credential_hash == Device.objects.get().broker_hash == ""
     assert history()[-1] == "revoked"
+
+
+def test_a_key_that_is_taken_away_while_its_device_enrols_again_with_it_stays_away(
+    url: str, mosquitto: Mosquitto
+) -> None:
+    hello = {"site": "hall", "device_id": MIXER.id, "payload": json.dumps({"key": "k" * 32}).encode(), "at": NOW}
+    services.enrol_device(**hello)
+    describe()
+    services.approve_device(site="hall", device_id=MIXER.id, by=None, at=NOW)
+    client = signed_in("admin")
+    assert mosquitto.process is not None
+    with psycopg.connect(url, autocommit=True) as looking, ThreadPoolExecutor(2) as pool:
+        mosquitto.process.send_signal(signal.SIGSTOP)
+        try:
+            enrolling = pool.submit(run_in_thread, lambda: services.enrol_device(**hello))
+            wait_for("the lock", lambda: looking.execute(f"{OF_DEVICE} SKIP LOCKED").fetchone() is None)
+            revoking = pool.submit(run_in_thread, lambda: client.delete(f"{MIXER_PATH}/credential"))
+            wait_for("who revokes it", lambda: looking.execute(WAITING).fetchone() == (1,))
+        finally:
+            mosquitto.process.send_signal(signal.SIGCONT)
+        assert (enrolling.result(60), revoking.result(60).status_code) == (False, 200)
+    assert MIXER.id not in (accounts().names() or ())
+    with pytest.raises(services.BadDevice, match="key was revoked"):
+        services.enrol_device(**hello)
+    assert MIXER.id not in (accounts().names() or ())
 
 
 def rename(who: str, name: str) -> Press:
