@@ -29,6 +29,8 @@ _ORDER: tuple[FindingCode, ...] = get_args(FindingCode)
 """What is found is told in this order, the same together."""
 AT_WALL_M = 0.15
 """What is that near to a machine's outline belongs to it, not to a wall: an outline is rounded up to whole cells."""
+MOST_STARTS = 20
+"""From so many spots at most it is looked for the largest part of the floor whose spots lead to each other."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,7 +206,9 @@ def _there_and_back(
     left = {name: spot.cell for name, spot in sorted(spots.items()) if spot.cell in parts.main}
     best: tuple[Collection[int], Collection[int]] = ((), ())
     most = 0
-    while len(left) > most:
+    for _ in range(MOST_STARTS):
+        if len(left) <= most:
+            break
         start = next(iter(left.values()))
         there = layout.lattice.distances(start, parts.shut, layout.against).keys()
         back = layout.lattice.distances(start, parts.shut, layout.against_backwards).keys()
