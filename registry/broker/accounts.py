@@ -7,9 +7,10 @@ account changes or goes is ended by it at once. The embedded broker asks the reg
 from __future__ import annotations
 
 import json
+import logging
 import secrets
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Protocol
@@ -22,7 +23,9 @@ from registry.broker.mosquitto_file import find_hearing_all_stops, role_of
 from registry.errors import RegistryError
 from registry.live.fanout import wait_wake, wake
 from vipo_device.protocol.mqtt_client import MqttClient
+from vipo_device.protocol.topics import reader_name
 
+log = logging.getLogger(__name__)
 CONTROL = "$CONTROL/dynamic-security/v1"
 BROKER_CHANNEL = "broker"
 ANSWER_LIMIT_S = 10.0
@@ -192,6 +195,16 @@ def accounts() -> BrokerAccounts:
     """Return this mode's implementation."""
     made: BrokerAccounts = import_string(settings.VIPO_BROKER_ACCOUNTS)()
     return made
+
+
+def close_readers(token_ids: Iterable[str]) -> None:
+    """Let nobody in by tokens that have ended; what a broker is not told now, the gateway tells it within seconds."""
+    for token_id in token_ids:
+        try:
+            accounts().remove(reader_name(token_id))
+        except BrokerAway as error:
+            log.warning("The account of %s is still at the broker; the gateway takes it away: %s", token_id, error)
+            return
 
 
 def wait_account_change(*, timeout_s: float) -> bool:

@@ -6,20 +6,17 @@ every second which of the accounts at the broker still stand for one (`end_reade
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Collection
 from datetime import datetime
 
 from django.conf import settings
 from django.db import transaction
 
-from registry.broker.accounts import Account, BrokerAway, accounts
+from registry.broker.accounts import Account, accounts, close_readers
 from registry.errors import RegistryError
 from registry.models import User
 from registry.people.tokens import NoSuchToken, TokenView, drop_token, keep_token, list_readers, stands_locked
 from vipo_device.protocol.topics import is_reader, reader_name, things_prefix
-
-log = logging.getLogger(__name__)
 
 
 def create_token(
@@ -52,10 +49,7 @@ def revoke_token(*, token_id: str, site: str = "", user: User | None = None) -> 
     """End a token at once, with what was opened by it; of one site or person only, if named. Raises NoSuchToken."""
     view = drop_token(token_id=token_id, site=site, user=user)
     if view.opens_broker:
-        try:
-            accounts().remove(reader_name(view.id))
-        except BrokerAway as error:
-            log.warning("The account of %s is still at the broker; the gateway takes it away: %s", view.id, error)
+        close_readers([view.id])
     return view
 
 

@@ -192,9 +192,25 @@ def drop_token(*, token_id: str, site: str = "", user: User | None = None) -> To
     with transaction.atomic():
         if not ApiToken.objects.filter(public_id=view.id).delete()[0]:
             raise NoSuchToken(_ABSENT)
-        note_act(site_id=view.site_id, code="token_revoked", facts={"name": view.name, "person": view.person})
-        transaction.on_commit(lambda: publish(view.site, {"type": "members"}))
+        _tell_end(view)
     return view
+
+
+def drop_all_tokens(*, user: User, now: datetime) -> tuple[TokenView, ...]:
+    """End all tokens of a person that have not expired, at all sites, as `drop_token` does; return them."""
+    with transaction.atomic():
+        rows = _rows().select_for_update(of=("self",)).filter(membership__user_id=user.pk, expires_at__gt=now)
+        views = tuple(_view(row) for row in rows.order_by("pk"))
+        ApiToken.objects.filter(public_id__in=[view.id for view in views]).delete()
+        for view in views:
+            _tell_end(view, by=view.person)
+    return views
+
+
+def _tell_end(view: TokenView, *, by: str = "") -> None:
+    """Write into the record that a token has ended, and have what was opened by it end, too."""
+    note_act(site_id=view.site_id, code="token_revoked", facts={"name": view.name, "person": view.person}, by=by)
+    transaction.on_commit(lambda: publish(view.site, {"type": "members"}))
 
 
 def find_bearer(*, token: str, now: datetime) -> User:

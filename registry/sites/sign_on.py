@@ -16,6 +16,7 @@ from typing import cast
 from django.db import transaction
 from django.db.models import F
 
+from registry.broker.accounts import close_readers
 from registry.models import SignOnAttempt, User
 from registry.people.second_factor import SecondFactorNeeded, check_code, has_factor
 from registry.people.sign_in import BadPerson, create_person
@@ -28,10 +29,11 @@ from registry.people.sign_on.attempts import (
     kept_identity,
     take_attempt,
 )
-from registry.people.sign_on.bindings import find_linked, link, note_person, note_use
+from registry.people.sign_on.bindings import find_linked, link, note_person, note_use, unlink_others
 from registry.people.sign_on.provider_client import begin_address, check_sender, exchange
 from registry.people.sign_on.providers import Identity, Provider, SignOnFailed
 from registry.people.throttle import Attempt, counted, network_of
+from registry.people.tokens import drop_all_tokens
 from registry.sites.invitations import find_open_link, take_in
 
 log = logging.getLogger(__name__)
@@ -172,13 +174,21 @@ def _make_account(row: SignOnAttempt, provider: Provider, identity: Identity, no
 
 
 def _link_by_address(user: User, provider: Provider, identity: Identity, now: datetime, *, is_known: bool) -> None:
-    """Link an account by its address. Its password and sessions end: nobody had proved that the address is theirs."""
+    """Link an account by its address; nobody had proved before that the address is theirs, so all others leave it."""
     if is_known:
-        user.set_unusable_password()
-        user.save(update_fields=["password"])
-        User.objects.filter(pk=user.pk).update(session_generation=F("session_generation") + 1)
-        user.refresh_from_db(fields=["session_generation"])
+        _turn_all_out(user, identity, now)
     link(user=user, provider=provider, identity=identity, now=now)
+
+
+def _turn_all_out(user: User, identity: Identity, now: datetime) -> None:
+    """End a person's password, sessions, tokens and links with other providers. A second factor was asked for."""
+    user.set_unusable_password()
+    user.save(update_fields=["password"])
+    User.objects.filter(pk=user.pk).update(session_generation=F("session_generation") + 1)
+    user.refresh_from_db(fields=["session_generation"])
+    unlink_others(user=user, issuer=identity.issuer)
+    readers = [token.id for token in drop_all_tokens(user=user, now=now) if token.opens_broker]
+    transaction.on_commit(lambda: close_readers(readers))
 
 
 def _come_in(row: SignOnAttempt, user: User, now: datetime) -> str:

@@ -101,6 +101,14 @@ def unlink(*, user: User, sign_on: int) -> None:
         transaction.on_commit(lambda: publish(EVERY_SITE, {"type": "members"}))
 
 
+def unlink_others(*, user: User, issuer: str) -> None:
+    """Take away a person's links with all other issuers than this; the caller sees to it that they can come in."""
+    with transaction.atomic():
+        for row in SignOn.objects.select_for_update().filter(user=user).exclude(issuer=issuer).order_by("pk"):
+            row.delete()
+            note_person(user, "sign_on_unlinked", title_of(row.provider))
+
+
 def note_person(user: User | None, code: str, provider: str, why: str = "") -> None:
     """Tell the record of each site of a person, of the server's alone where there is none, what befell a sign-on."""
     sites: list[int | None] = (

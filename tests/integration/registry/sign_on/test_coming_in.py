@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datetime import timedelta
+from typing import Any
 
 import pyotp
 import pytest
@@ -10,10 +11,12 @@ from django.test import Client
 from django.utils import timezone
 from pytest_django import Settings
 
+from registry import services
 from registry.models import AuditLine, SignOn, SignOnAttempt, User
 from tests.kit.openid import OpenId, visit
 from tests.kit.openid.journeys import AT, begin, come, finish, link, refusals, who_is, why
 from tests.kit.sign_in import PASSWORD, find_person, post_json, signed_in
+from tests.kit.sites import hear_news
 
 
 def test_a_linked_person_comes_in_by_issuer_and_subject_and_goes_where_they_wanted(acme: OpenId) -> None:
@@ -76,6 +79,50 @@ def test_a_verified_address_links_where_the_settings_allow_it_and_voids_the_pass
     assert again.status_code == 401
     lines = AuditLine.objects.filter(code="sign_on_linked")
     assert [(line.site.slug if line.site else "", line.facts["provider"]) for line in lines] == [("hall", "Acme")]
+
+
+def test_whoever_made_an_account_beforehand_stays_in_it_by_no_token_and_no_other_provider(
+    acme: OpenId, settings: Settings, django_capture_on_commit_callbacks: Any
+) -> None:
+    settings.VIPO_SIGN_ON = [acme.setting(links_by_email=True)]
+    services.create_site(name="Shed", slug="shed")
+    services.set_member(site="shed", email="author@vipo.example", role="admin")
+    author, now = find_person("author"), timezone.now()
+    made = {"user": author, "days": 30, "now": now}
+    _, asks = services.create_token(**made, site="hall", name="Asks", scopes=["run"])
+    _, hears = services.create_token(**made, site="shed", name="Hears", scopes=["broker"])
+    other = {"user": find_person("viewer"), "days": 30, "now": now}
+    _, stays = services.create_token(**other, site="hall", name="Stays", scopes=["broker"])
+    elsewhere = {"provider": "gone", "issuer": "https://gone.example", "subject": "somebody", "linked_at": now}
+    SignOn.objects.create(user=author, **elsewhere)
+    SignOn.objects.create(user=find_person("viewer"), **{**elsewhere, "subject": "viewer"})
+    with hear_news() as heard, django_capture_on_commit_callbacks(execute=True):
+        assert come(Client(), "ada").status_code == 200
+    answers = [Client(headers={"Authorization": f"Bearer {token}"}).get("/api/sites") for token in (asks, hears, stays)]
+    assert [answer.status_code for answer in answers] == [401, 401, 200]
+    assert len(services.list_broker_hashes()) == 1
+    assert {site for site, news in heard if news == {"type": "members"}} >= {"hall", "shed"}
+    links = SignOn.objects.order_by("pk").values_list("user__email", "issuer")
+    assert list(links) == [("viewer@vipo.example", "https://gone.example"), ("author@vipo.example", acme.issuer)]
+    for site, token in (("hall", "Asks"), ("shed", "Hears")):
+        lines = AuditLine.objects.filter(site__slug=site, actor="Author Person").order_by("pk")
+        assert [(line.code, line.facts.get("name", line.facts.get("provider"))) for line in lines][-3:] == [
+            ("sign_on_unlinked", "gone"),
+            ("token_revoked", token),
+            ("sign_on_linked", "Acme"),
+        ]
+
+
+def test_a_link_that_fails_ends_nothing_of_the_account(acme: OpenId, settings: Settings) -> None:
+    link("author", "new", acme)
+    settings.VIPO_SIGN_ON = [acme.setting(links_by_email=True)]
+    _, token = services.create_token(
+        user=find_person("author"), site="hall", name="Asks", scopes=["run"], days=30, now=timezone.now()
+    )
+    assert why(come(Client(), "ada")) == (409, "other"), "a person has one account of each issuer"
+    assert Client(headers={"Authorization": f"Bearer {token}"}).get("/api/sites").status_code == 200
+    assert find_person("author").has_usable_password()
+    assert SignOn.objects.count() == 1
 
 
 def test_an_address_of_another_domain_links_nothing(acme: OpenId, settings: Settings) -> None:
