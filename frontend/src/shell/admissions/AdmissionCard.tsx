@@ -17,9 +17,11 @@ interface AdmissionCardProps {
   allowed: boolean;
   /** Whether it leads to the run that the robot works for. */
   leads?: boolean;
+  /** Told when its menu opens and when it is gone. */
+  onMenu?: (open: boolean) => void;
 }
 
-export function AdmissionCard({ slug, awaited, allowed, leads = false }: AdmissionCardProps) {
+export function AdmissionCard({ slug, awaited, allowed, leads = false, onMenu }: AdmissionCardProps) {
   const { t } = useTranslation();
   const letIn = useLetIn(slug);
   const [busy, setBusy] = useState(false);
@@ -44,7 +46,7 @@ export function AdmissionCard({ slug, awaited, allowed, leads = false }: Admissi
           <Button size="compact-md" loading={busy} onClick={open} aria-label={t("admission.let_in", names)}>
             {t("admission.let")}
           </Button>
-          <OpenZoneMenu slug={slug} zone={awaited.zone} name={awaited.zone_name} />
+          <OpenZoneMenu slug={slug} zone={awaited.zone} name={awaited.zone_name} onMenu={onMenu} />
         </Group>
       ) : (
         <p className={styles.note}>{t("admission.waits")}</p>

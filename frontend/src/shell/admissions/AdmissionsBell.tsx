@@ -2,7 +2,7 @@
 import { Popover } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
 import { Bot } from "lucide-react";
-import { useEffect } from "react";
+import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useAwaitedAdmissions } from "@/api/admissions";
 import { useSite } from "@/api/queries";
@@ -38,9 +38,11 @@ export function AdmissionsBell({ slug }: { slug: string }) {
   const allowed = mayOperate(useSite(slug).data?.role);
   const awaited = useAwaitedAdmissions(slug);
   useToasts(awaited, allowed);
+  // A card's menu lies beside the list: without this a press on it closed the list, and the menu before it was heard.
+  const [isMenuOpen, setMenuOpen] = useState(false);
   if (awaited.length === 0) return null;
   return (
-    <Popover position="bottom-end" width={340} shadow="md" withinPortal trapFocus>
+    <Popover position="bottom-end" width={340} shadow="md" withinPortal trapFocus closeOnClickOutside={!isMenuOpen}>
       <Popover.Target>
         <button type="button" className={styles.bell} aria-label={t("admission.open", { count: awaited.length })}>
           <Bot size={17} aria-hidden /> <b>{awaited.length}</b>
@@ -48,7 +50,7 @@ export function AdmissionsBell({ slug }: { slug: string }) {
       </Popover.Target>
       <Popover.Dropdown className={styles.list}>
         {awaited.map((each) => (
-          <AdmissionCard key={keyOf(each)} slug={slug} awaited={each} allowed={allowed} leads />
+          <AdmissionCard key={keyOf(each)} slug={slug} awaited={each} allowed={allowed} leads onMenu={setMenuOpen} />
         ))}
       </Popover.Dropdown>
     </Popover>

@@ -1,6 +1,7 @@
 /** Opens a zone, into which robots are let one by one, to all of them for a time. */
 import { Button, Menu } from "@mantine/core";
 import { LockOpen } from "lucide-react";
+import { useEffect } from "react";
 import { useTranslation } from "react-i18next";
 import { useChangeZone } from "@/api/zones";
 import { formatTime } from "@/i18n/format";
@@ -15,16 +16,19 @@ interface OpenZoneMenuProps {
   name: string;
   /** Whether it is open already, so that the time is another from then on. */
   isOpen?: boolean;
+  /** Told when the menu opens and when it is gone, for a list that must not close at a press on it. */
+  onMenu?: (open: boolean) => void;
 }
 
-export function OpenZoneMenu({ slug, zone, name, isOpen = false }: OpenZoneMenuProps) {
+export function OpenZoneMenu({ slug, zone, name, isOpen = false, onMenu }: OpenZoneMenuProps) {
   const { t } = useTranslation();
   const change = useChangeZone(slug);
   const words = t(isOpen ? "admission.opening.again" : "admission.opening.menu");
   const open = (minutes: number) =>
     change.mutate({ do: "open", id: zone, minutes }, { onError: (error) => tellRefusal(error, t) });
+  useEffect(() => () => onMenu?.(false), [onMenu]);
   return (
-    <Menu shadow="md" position="bottom-start">
+    <Menu shadow="md" position="bottom-start" onChange={onMenu}>
       <Menu.Target>
         <Button
           variant="default"
