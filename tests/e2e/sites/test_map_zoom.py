@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import shoot, violations
+from tests.e2e.screens import SITE, ask, shoot, violations
+from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
 MAP = "/sites/painting-factory/map"
-OVEN = "Curing Oven"
+OVEN, IN_A_CORNER = "Curing Oven", "Item Inventory"
 
 
-def box_of(page: Page) -> tuple[float, float, float]:
-    """Return the middle of the oven on the screen and how wide it is, in pixels."""
-    found = page.get_by_role("button", name=OVEN, exact=True).bounding_box()
+def box_of(page: Page, device: str = OVEN) -> tuple[float, float, float]:
+    """Return the middle of a device on the screen and how wide it is, in pixels."""
+    found = page.get_by_role("button", name=device, exact=True).bounding_box()
     assert found is not None
     return found["x"] + found["width"] / 2, found["y"] + found["height"] / 2, found["width"]
 
@@ -94,7 +97,7 @@ def test_what_is_seen_from_nearer_is_moved_by_keys_and_what_has_the_focus_is_see
     page.keyboard.press("ArrowUp")
     moved_x, moved_y, _ = box_of(page)
     assert (moved_x - x, moved_y - y) == pytest.approx((-60, 60), abs=2)
-    for name in (OVEN, "Item Inventory"):
+    for name in (OVEN, IN_A_CORNER):
         page.get_by_role("button", name=name, exact=True).focus()
         pane = floor.bounding_box()
         box = page.get_by_role("button", name=name, exact=True).bounding_box()
@@ -104,3 +107,61 @@ def test_what_is_seen_from_nearer_is_moved_by_keys_and_what_has_the_focus_is_see
         assert pane["y"] <= box["y"] + box["height"] / 2 <= pane["y"] + pane["height"]
     page.get_by_role("button", name="The whole map").press("Enter")
     expect(floor).to_have_count(0)
+
+
+def on_floor(floor: Locator, x: float, y: float) -> tuple[float, float]:
+    """Return the point of the map (metres) that is under a point of the screen while a tool has the floor."""
+    plan, box = ask(floor.page, f"{SITE}/map"), floor.bounding_box()
+    assert box is not None
+    right, up = (x - box["x"]) / box["width"], 1 - (y - box["y"]) / box["height"]
+    width_m, height_m = (plan[size] * plan["resolution_m"] for size in ("width", "height"))
+    return plan["origin"]["x"] + right * width_m, plan["origin"]["y"] + up * height_m
+
+
+def said(text: Locator) -> tuple[float, float]:
+    """Return the first point (metres) that a text names."""
+    x, y = re.findall(r"-?\d+\.\d+", text.inner_text())[:2]
+    return float(x), float(y)
+
+
+def view_of(page: Page) -> str:
+    """Return how the map that is seen from nearer is moved and scaled."""
+    return str(page.locator("svg[data-nearer] > g").get_attribute("transform"))
+
+
+def test_a_tool_that_is_taken_from_nearer_leaves_the_view_and_puts_things_under_the_pointer(sign_in: SignIn) -> None:
+    page = sign_in("admin", MAP)
+    x, y, _ = box_of(page, IN_A_CORNER)
+    page.mouse.move(x, y)
+    page.mouse.wheel(0, -700)
+    expect(page.get_by_role("button", name="The whole map")).to_be_enabled()
+    page.get_by_role("button", name="Nearer").focus()
+    seen = view_of(page)
+    page.get_by_role("button", name="Measure").click()
+    floor = page.get_by_role("application", name="The map, to measure on")
+    expect(floor).to_be_focused()
+    assert view_of(page) == seen
+    page.get_by_role("button", name="Nearer").focus()
+    under = on_floor(floor, x + 60, y + 150)
+    page.mouse.click(x + 60, y + 150)
+    heard = page.get_by_role("region", name="Measure").get_by_role("status")
+    expect(heard).to_contain_text("One end is at")
+    assert said(heard) == pytest.approx(under, abs=0.1)
+    assert view_of(page) == seen
+
+    page.get_by_role("button", name="Edit places").click()
+    page.get_by_role("button", name="Add a place").click()
+    floor, where = page.get_by_role("button", name="Put the new place"), page.get_by_text("Click elsewhere on the map")
+    expect(floor).to_be_focused()
+    assert view_of(page) == seen
+    for spot in ((x + 60, y + 150), (x + 160, y + 120)):  # the second time the form has the focus
+        under = on_floor(floor, *spot)
+        page.mouse.click(*spot)
+        wait_for("the place under the pointer", lambda at=under: said(where) == pytest.approx(at, abs=0.03))
+        assert view_of(page) == seen
+    page.keyboard.press("Escape")
+
+    page.get_by_role("button", name="Edit zones").click()
+    page.get_by_role("button", name="Add a zone").click()
+    expect(page.get_by_role("button", name="Draw the new zone")).to_be_focused()
+    assert view_of(page) == seen

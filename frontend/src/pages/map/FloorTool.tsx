@@ -20,7 +20,7 @@ interface FloorToolProps {
 
 export function FloorTool({ map, label, at = null, put, stop }: FloorToolProps) {
   const floor = useRef<SVGRectElement>(null);
-  useEffect(() => floor.current?.focus(), []);
+  useEffect(() => floor.current?.focus({ preventScroll: true }), []);
   usePageKey("Escape", stop); // also after a click beside the floor
   const { left, top, right, bottom } = planBox(map);
   const press = (event: KeyboardEvent) => {

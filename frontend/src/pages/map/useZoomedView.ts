@@ -4,7 +4,7 @@ import { useTranslation } from "react-i18next";
 import type { Viewport } from "@/map/plane/projection";
 import { useWheelZoom } from "@/map/plane/useWheelZoom";
 import type { Fitted } from "@/map/StaticMap";
-import { kept, zoomedAt } from "./zoomed";
+import { kept, showing, zoomedAt } from "./zoomed";
 
 const STEP = 1.4;
 /** So much (pixels) of the pane’s lower edge is covered by the buttons and the layers. */
@@ -66,14 +66,13 @@ export function useZoomedView() {
     event.preventDefault();
     put({ ...view, x: view.x + way[0] * BY_KEY, y: view.y + way[1] * BY_KEY });
   };
-  /** What has the focus is seen. */
+  /** What has the focus is seen; a tool’s floor, which is as large as the map, always is where its part is. */
   const follow = (event: FocusEvent<SVGSVGElement>) => {
     if (!isNearer || event.target === event.currentTarget) return;
     const pane = event.currentTarget.getBoundingClientRect();
-    const box = event.target.getBoundingClientRect();
-    const [x, y] = [box.x + box.width / 2 - pane.x, box.y + box.height / 2 - pane.y];
-    const isSeen = x >= 0 && y >= 0 && x <= pane.width && y <= pane.height;
-    if (!isSeen) put({ ...view, x: view.x + pane.width / 2 - x, y: view.y + pane.height / 2 - y });
+    const { x, y, width: wide, height: high } = event.target.getBoundingClientRect();
+    const next = showing(view, { x: x - pane.x, y: y - pane.y, width: wide, height: high }, pane);
+    if (next !== view) put(next);
   };
   return {
     surface,

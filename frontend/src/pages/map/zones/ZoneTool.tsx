@@ -22,7 +22,7 @@ interface ZoneToolProps {
 export function ZoneTool({ map, corners, draw, stop }: ZoneToolProps) {
   const { t } = useTranslation();
   const floor = useRef<SVGRectElement>(null);
-  useEffect(() => floor.current?.focus(), []);
+  useEffect(() => floor.current?.focus({ preventScroll: true }), []);
   usePageKey("Escape", stop); // also after a click beside the floor
   const [from, setFrom] = useState<Point | null>(null);
   const [to, setTo] = useState<Point | null>(null);
