@@ -140,12 +140,17 @@ def _misfit_of_action(vehicle: Vehicle, command: DeviceCommand) -> str:
             if not parameter.optional:
                 return f"{command.method} needs a value for {parameter.key}."
             continue
-        fits = isinstance(value, kinds[parameter.type]) if parameter.type in kinds else is_number(value)
-        if parameter.type == "INTEGER" and fits:
-            fits = float(value).is_integer() and abs(value) <= MOST_WHOLE
+        if parameter.type in kinds:
+            fits = isinstance(value, kinds[parameter.type])
+        else:
+            fits = is_number(value) and (parameter.type != "INTEGER" or _is_whole(value))
         if not fits:
             return f"{command.method}: {parameter.key} must be of the type {parameter.type}."
     return ""
+
+
+def _is_whole(value: float) -> bool:
+    return float(value).is_integer() and abs(value) <= MOST_WHOLE
 
 
 def task_to_json(task: Task) -> dict[str, Any]:
