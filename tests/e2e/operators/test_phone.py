@@ -15,7 +15,7 @@ SITE = "painting-factory"
 PHONE = {"width": 390, "height": 844}
 PAGES = (
     ("programs", "Paint order", "Paint order"),
-    ("runs", re.compile("Nothing has run yet|Duration"), re.compile("Es ist noch nichts gelaufen|Dauer")),
+    ("runs", "Runs", "Läufe"),
     ("devices", "TurtleBot 1", "TurtleBot 1"),
     ("library", "functions", "Funktionen"),
     ("operations", "What waits at this site", "Was an diesem Standort wartet"),
@@ -46,7 +46,7 @@ def test_pages_fit_a_phone_in_both_languages(sign_in: SignIn, language: str) -> 
     page = sign_in("admin", dark=language == "de", language=language, **PHONE)
     for path, *seen in PAGES:
         page.goto(address_of(page, f"/sites/{SITE}/{path}"))
-        expect(page.get_by_text(seen[language == "de"]).first).to_be_visible()
+        expect(page.get_by_text(seen[language == "de"]).filter(visible=True).first).to_be_visible()
         page.wait_for_load_state("networkidle")
         fits(page)
         assert violations(page) == [], path
