@@ -198,7 +198,7 @@ def test_a_run_goes_on_beside_eight_rehearsals_that_never_end_and_they_end_when_
         rehearsals = rehearse_endlessly([author, admin], 4)
         served.wait("one under way", lambda: author.get(f"{SITE}/rehearsals").json()[0]["course"])
         run = start_task(served, author)
-        done = served.wait("the end of the run", lambda: over(admin, run), 180)
+        done = served.wait("the end of the run", lambda: over(admin, run), 400)
         assert (done["status"], done["reason"]) == ("finished", ""), served.story()
         left = [each["status"] for each in author.get(f"{SITE}/rehearsals").json()]
         assert {"running", "queued"} == set(left), "the run did not wait for them"
