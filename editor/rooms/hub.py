@@ -168,10 +168,7 @@ class Hub:
                 self._open.pop(room.program, None)
 
     def _lock_of(self, program_id: str) -> asyncio.Lock:
-        lock = self._locks.get(program_id)
-        if lock is None:
-            lock = self._locks[program_id] = asyncio.Lock()
-        return lock
+        return self._locks.setdefault(program_id, asyncio.Lock())
 
     def _drop(self, opened: OpenRoom) -> None:
         """A room ended by itself: what it holds is saved, and the next connection opens it anew."""

@@ -57,6 +57,7 @@ MALFORMED = {
     "a state vector that is none": b"\x00\x00\x02\xff\xff",
     "something after the end": b"\x03\x00\x00",
     "awareness that is not JSON": b"\x01\x05\x01\x01\x01\x01{",
+    "awareness with a number that browsers cannot read": b"\x01\x0f\x01\x01\x01\x0b" + b'{"x":1e999}',
     "awareness for ever": b"\x01\x04\xff\xff\xff\x7f",
     "step 2 with noise": b"\x00\x01\x04\x01\xff\xff\xff",
     "a message of the server": b"\x64\x00\x01\x00",
