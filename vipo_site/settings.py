@@ -247,7 +247,7 @@ VIPO_DEMO_SIGN_IN = VIPO_DEMO and not SERVED
 """Whether the sign-in page offers the demo's accounts, which tells their passwords to who asks."""
 
 CELERY_BROKER_URL = VIPO_REDIS_URL or "memory://localhost/"
-CELERY_BROKER_TRANSPORT_OPTIONS: dict[str, object] = {} if SERVED else {"polling_interval": 0.005}
+CELERY_BROKER_TRANSPORT_OPTIONS: dict[str, object] = {} if SERVED else {"polling_interval": 0.02}
 CELERY_TASK_DEFAULT_QUEUE = "upkeep"
 CELERY_TASK_ROUTES = {
     **{f"execution.tasks.{name}": {"queue": "runs"} for name in ("advance_run", "advance_site", "drive_site")},

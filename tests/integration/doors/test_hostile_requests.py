@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 from urllib.parse import quote
 from uuid import uuid4
@@ -51,6 +52,8 @@ POISONS = {
     what: poison for what, poison in {**TEXTS, **OTHERS}.items() if not ON_POSTGRESQL or what in HARD_FOR_DATABASES
 }
 """On PostgreSQL, where all of this runs a second time, those that one database may take and another not."""
+TURNS = 3 if os.environ.get("VIPO_STEADY") == "1" else 1
+"""Where a change is judged, each place of a call is told one poison in so many, and the place after it the next one."""
 pytestmark = pytest.mark.django_db
 
 
@@ -135,8 +138,11 @@ def test_no_field_of_a_call_takes_what_it_cannot_keep(
 ) -> None:
     known = known_values()
     tried = []
-    for what, poison in POISONS.items():
-        for said, answer in attempts(admin, method, path, call, known, poison):
+    for turn, (what, poison) in enumerate(POISONS.items()):
+        for number, (said, ask) in enumerate(attempts(admin, method, path, call, known, poison)):
+            if (number + turn) % TURNS:
+                continue
+            answer = ask()
             assert answer.status_code < 500 or answer.status_code == 501, (what, said, answer.content[:400])
             tried.append(answer.status_code)
     assert tried
@@ -145,26 +151,30 @@ def test_no_field_of_a_call_takes_what_it_cannot_keep(
 
 def attempts(
     client: Client, method: str, path: str, call: dict[str, Any], known: dict[str, str], poison: Any
-) -> Iterator[tuple[str, Any]]:
+) -> Iterator[tuple[str, Callable[[], Any]]]:
+    """Yield what is said with the poison in each place in turn, and what asks it."""
     text = poison if isinstance(poison, str) else json.dumps(poison)
     for parameter in call.get("parameters", []):
         if parameter["in"] == "path":
-            yield parameter["name"], send(client, method, address(path, known, **{parameter["name"]: text[:3000]}))
+            where = address(path, known, **{parameter["name"]: text[:3000]})
+            yield parameter["name"], partial(send, client, method, where)
         elif parameter["in"] == "query":
             query = f"?{parameter['name']}={quote(text[:3000], errors='surrogatepass')}"
-            yield parameter["name"], send(client, method, address(path, known) + query)
+            yield parameter["name"], partial(send, client, method, address(path, known) + query)
     content = call.get("requestBody", {}).get("content", {})
     if "application/json" in content:
         for body in poisoned(example(content["application/json"]["schema"]), poison):
-            yield json.dumps(body)[:300], send(client, method, address(path, known), json.dumps(body))
+            told = json.dumps(body)
+            yield told[:300], partial(send, client, method, address(path, known), told)
     elif "text/plain" in content:
         body = text.encode(errors="surrogatepass")
-        yield "body", client.generic(method.upper(), address(path, known), body, content_type="text/plain")
+        where = address(path, known)
+        yield "body", partial(client.generic, method.upper(), where, body, content_type="text/plain")
     elif content:
         form = example(next(iter(content.values()))["schema"])
         for name in form:
             fields = {**form, name: text.encode(errors="surrogatepass")}
-            yield name, client.generic(method.upper(), address(path, known), **form_of(fields))
+            yield name, partial(client.generic, method.upper(), address(path, known), **form_of(fields))
 
 
 def form_of(fields: dict[str, Any]) -> dict[str, Any]:
