@@ -10,7 +10,7 @@ import {
   formatTimeOfDay,
   withUnit,
 } from "./format";
-import { unitSign } from "./units";
+import { UNIT_CHOICES, unitSign } from "./units";
 
 const NOW = Date.parse("2026-01-10T12:00:00Z");
 const before = (seconds: number) => new Date(NOW - seconds * 1000).toISOString();
@@ -86,14 +86,28 @@ test("an age is never negative, whatever the clocks say", () => {
 });
 
 test("units are shown as people read them, strange ones as they come", () => {
-  expect(["DEG_C", "PERCENT", "REV-PER-MIN", "UNITLESS", "furlong", ""].map(unitSign)).toEqual([
+  expect(["DEG_C", "PERCENT", "REV-PER-MIN", "MilliBAR", "UNITLESS", "furlong", ""].map(unitSign)).toEqual([
     "°C",
     "%",
     "rpm",
+    "mbar",
     "",
     "furlong",
     "",
   ]);
+});
+
+test("no unit, and what is no text, is shown as none", () => {
+  const brought: unknown[] = [null, undefined, 7, { a: 1 }];
+  expect(brought.map((each) => unitSign(each as string))).toEqual(["", "", "", ""]);
+});
+
+test("each unit can be chosen once, the common ones first", () => {
+  const values = UNIT_CHOICES.map(({ value }) => value);
+  expect(new Set(values).size).toBe(values.length);
+  expect(values.slice(0, 3)).toEqual(["SEC", "MIN", "HR"]);
+  expect(values).toContain("LUX");
+  expect(UNIT_CHOICES.filter(({ label }) => !label)).toEqual([]);
 });
 
 test("a time of day is written as the language has it, in whatever zone the browser is", async () => {

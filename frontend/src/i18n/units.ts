@@ -1,28 +1,19 @@
 /** Units as descriptions name them (QUDT codes) and as people read them. */
 import { ownEntry } from "@/design/ownEntry";
+import TABLE from "./units.json";
 
-const SIGNS: Readonly<Record<string, string>> = {
-  PERCENT: "%",
-  DEG_C: "°C",
-  DEG: "°",
-  RAD: "rad",
-  MIN: "min",
-  SEC: "s",
-  HR: "h",
-  M: "m",
-  "M-PER-SEC": "m/s",
-  KiloGM: "kg",
-  BAR: "bar",
-  PA: "Pa",
-  V: "V",
-  A: "A",
-  W: "W",
-  "REV-PER-MIN": "rpm",
-  UNITLESS: "",
-  NUM: "",
-};
+/** Codes and symbols, as `make constructs` writes them from `vipo_device/protocol/units.py`. */
+const SIGNS: Readonly<Record<string, string>> = { ...TABLE, UNITLESS: "", NUM: "" };
+const COMMON = ["SEC", "MIN", "HR", "DEG_C", "PERCENT", "M", "CentiM", "MilliM", "KiloGM", "GM", "L", "M-PER-SEC"];
 
-/** `°C` for `DEG_C`; what is not known stays as it is. */
-export function unitSign(unit: string): string {
+/** The units that people choose from, the common ones first. */
+export const UNIT_CHOICES: readonly { readonly value: string; readonly label: string }[] = [
+  ...COMMON,
+  ...Object.keys(TABLE).filter((code) => !COMMON.includes(code)),
+].map((value) => ({ value, label: unitSign(value) }));
+
+/** `°C` for `DEG_C`; what is not known stays as it is, and what is no text (a document may hold anything) is none. */
+export function unitSign(unit: string | null | undefined): string {
+  if (!unit || typeof unit !== "string") return "";
   return ownEntry(SIGNS, unit) ?? unit;
 }

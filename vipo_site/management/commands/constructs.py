@@ -1,4 +1,4 @@
-"""Write what follows from the records of constructs: the editor's file of them, the document's table, the words."""
+"""Write what follows from the records of constructs and units: what the pages read, the document's table, words."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ from django.conf import settings
 from django.core.management.base import BaseCommand
 
 from editor.language.constructs.json_form import write_constructs, write_table
+from vipo_device.protocol.units import UNITS
 
 FILE = settings.BASE_DIR / "frontend" / "src" / "program" / "constructs.json"
 PAGE = settings.BASE_DIR / "docs" / "shapes" / "document.md"
 WORDS = settings.BASE_DIR / "editor" / "library" / "step_words.json"
 CATALOGUES = settings.BASE_DIR / "frontend" / "src" / "i18n"
+UNIT_SIGNS = CATALOGUES / "units.json"
 _HEADING = "| kind | params |"
 
 
@@ -33,13 +35,19 @@ def write_words() -> str:
     return json.dumps(words, indent=1, ensure_ascii=False) + "\n"
 
 
+def write_units() -> str:
+    """Return the codes of all units with their symbols, as the pages show them."""
+    return json.dumps({unit.code: unit.symbol for unit in UNITS.values()}, indent=2, ensure_ascii=False) + "\n"
+
+
 class Command(BaseCommand):
     """`manage.py constructs`; `make constructs` also renews what the API says of steps."""
 
     help = __doc__ or ""
 
     def handle(self, *_args: Any, **_options: Any) -> None:
-        """Write all three."""
+        """Write all four."""
         WORDS.write_text(write_words(), encoding="utf-8")
+        UNIT_SIGNS.write_text(write_units(), encoding="utf-8")
         FILE.write_text(write_constructs(), encoding="utf-8")
         PAGE.write_text(with_table(PAGE.read_text(encoding="utf-8")), encoding="utf-8")

@@ -6,7 +6,7 @@ import { VipoIcon } from "@/design/VipoIcon";
 import { namesSet } from "../edits/variables";
 import { changeProgramParameter } from "../edits/names";
 import { zoneIcon } from "@/program/canvas/Zones";
-import { unitText } from "@/program/words/stepWords";
+import { unitSign } from "@/i18n/units";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { isTyping } from "../state/focus";
@@ -109,7 +109,7 @@ function Variables() {
           <li key={each.name}>
             <code>{each.name}</code>
             <span className={classes.grow}>
-              {[t(`type.${each.type}`), unitText(each.unit)].filter(Boolean).join(", ")}
+              {[t(`type.${each.type}`), unitSign(each.unit)].filter(Boolean).join(", ")}
             </span>
             {setters(each.name).map((id) => (
               <button

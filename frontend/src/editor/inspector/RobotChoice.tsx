@@ -5,7 +5,8 @@ import { useEffect, useState } from "react";
 import { IconButton } from "@/design/IconButton";
 import type { Role, Value } from "@/program/document/document";
 import { reportedBy, robotsFor } from "@/program/robotReadings";
-import { unitText, valueText } from "@/program/words/valueWords";
+import { valueText } from "@/program/words/valueWords";
+import { unitSign } from "@/i18n/units";
 import { type Choice, choiceOf, choiceValue, typedValue } from "../edits/choices";
 import { useOpenProgram } from "../state/context";
 import classes from "../panel.module.css";
@@ -115,7 +116,7 @@ function ValueInput({
       aria-label={t("condition.value")}
       value={text}
       placeholder={type === "number" ? t("field.example", { value: "30" }) : undefined}
-      rightSection={unit ? <span className={classes.legend}>{unitText(unit)}</span> : undefined}
+      rightSection={unit ? <span className={classes.legend}>{unitSign(unit)}</span> : undefined}
       disabled={!canEdit}
       onChange={(event) => setText(event.currentTarget.value)}
       onBlur={keep}

@@ -5,7 +5,7 @@ import { useTranslation } from "react-i18next";
 import type { Device } from "@/api/types";
 import { IconButton } from "@/design/IconButton";
 import { NumberField } from "@/design/NumberField";
-import { unitText } from "@/program/words/stepWords";
+import { unitSign } from "@/i18n/units";
 import { ScalarInput } from "@/shell/start/ScalarInput";
 import { type GivenRow, isWhole } from "./testRows";
 import classes from "./testForm.module.css";
@@ -120,7 +120,7 @@ interface ValueProps {
 export function ReadingValue({ property, value, onChange }: ValueProps) {
   const { t } = useTranslation();
   const type = property?.type ?? typeof value;
-  const unit = unitText(property?.unit);
+  const unit = unitSign(property?.unit);
   const label = t("tests.form.value");
   return (
     <ScalarInput

@@ -7,7 +7,7 @@ import { DEFAULT_ROLE, methodOf, operatedRole } from "../operation";
 import { endingText } from "./parallelWords";
 import { durationText, placeName, roleName, type Speaker, valueText, withUnit } from "./valueWords";
 
-export { durationText, placeName, roleName, UNIT_CHOICES, unitText, valueText, withUnit } from "./valueWords";
+export { durationText, placeName, roleName, valueText, withUnit } from "./valueWords";
 export type { Speaker, Translate } from "./valueWords";
 
 export interface TextPart {

@@ -1,5 +1,6 @@
 /** Values and places as people read them. */
 import { ownEntry } from "@/design/ownEntry";
+import { unitSign } from "@/i18n/units";
 import type { Place, ProgramDocument, Value } from "../document/document";
 import { DEFAULT_ROLE, operatedRole } from "../operation";
 import type { Surroundings } from "../surroundings";
@@ -130,53 +131,8 @@ function bracketed(text: string, needed: boolean): string {
   return needed ? `(${text})` : text;
 }
 
-/** Codes of descriptions (QUDT) and what people write for them; the common ones first. */
-const UNITS: Readonly<Record<string, string>> = {
-  SEC: "s",
-  MIN: "min",
-  HR: "h",
-  DEG_C: "°C",
-  PERCENT: "%",
-  M: "m",
-  CentiM: "cm",
-  MilliM: "mm",
-  KiloM: "km",
-  KiloGM: "kg",
-  GM: "g",
-  L: "l",
-  MilliL: "ml",
-  "M-PER-SEC": "m/s",
-  BAR: "bar",
-  MilliBAR: "mbar",
-  KiloPA: "kPa",
-  PA: "Pa",
-  DEG: "°",
-  RAD: "rad",
-  DEG_F: "°F",
-  K: "K",
-  "REV-PER-MIN": "rpm",
-  HZ: "Hz",
-  V: "V",
-  A: "A",
-  W: "W",
-  KiloW: "kW",
-  MilliSEC: "ms",
-  DAY: "d",
-};
-const ALSO: Readonly<Record<string, string>> = { CEL: "°C", UNITLESS: "", NUM: "" };
-
-/** The units that people choose from. */
-export const UNIT_CHOICES: readonly { readonly value: string; readonly label: string }[] = Object.entries(UNITS).map(
-  ([value, label]) => ({ value, label }),
-);
-
-export function unitText(unit: string | null | undefined): string {
-  if (!unit || typeof unit !== "string") return ""; // whatever a value of the document brought
-  return ownEntry(UNITS, unit) ?? ownEntry(ALSO, unit) ?? ownEntry(UNITS, unit.toUpperCase()) ?? unit;
-}
-
 export function withUnit(text: string, unit: string | null | undefined): string {
-  const sign = unitText(unit);
+  const sign = unitSign(unit);
   return sign ? `${text}\u202f${sign}` : text;
 }
 

@@ -5,7 +5,7 @@ import { useTranslation } from "react-i18next";
 import type { Device } from "@/api/types";
 import { IconButton } from "@/design/IconButton";
 import { NumberField } from "@/design/NumberField";
-import { unitText } from "@/program/words/stepWords";
+import { unitSign } from "@/i18n/units";
 import {
   beginningsOf,
   devicesFor,
@@ -183,7 +183,7 @@ function Reading(props: PartProps) {
   const device = devices.find(({ id }) => id === draft.device);
   const property = propertyOf(draft, devices);
   const [wrongProperty, wrongValue] = [useProblem(problems.property), useProblem(problems.value)];
-  const unit = unitText(property?.unit);
+  const unit = unitSign(property?.unit);
   const label = unit ? `${t("start.fault.field.value")} (${unit})` : t("start.fault.field.value");
   return (
     <>

@@ -4,7 +4,7 @@ import { useTranslation } from "react-i18next";
 import type { Device } from "@/api/types";
 import type { MapPlace } from "@/map/floor/floor";
 import type { Parameter } from "@/program/document/document";
-import { unitText } from "@/program/words/stepWords";
+import { unitSign } from "@/i18n/units";
 import { ownEntry } from "@/design/ownEntry";
 import { ScalarInput } from "./ScalarInput";
 
@@ -50,7 +50,7 @@ interface InputProps extends Pick<ParametersProps, "devices" | "places"> {
 
 function ParameterInput(props: InputProps) {
   const { parameter, value, error, onChange } = props;
-  const unit = unitText(parameter.unit);
+  const unit = unitSign(parameter.unit);
   const label = unit ? `${parameter.name} (${unit})` : parameter.name;
   if (SCALARS.includes(parameter.type))
     return <ScalarInput type={parameter.type} {...{ label, value, error, onChange }} />;

@@ -78,6 +78,7 @@ def test_every_construct_of_the_table_has_the_code_that_is_its_own():
 def test_what_the_records_are_written_into_is_up_to_date():
     renew = "run `make constructs` and commit what it writes"
     assert constructs.FILE.read_text() == write_constructs(), renew
+    assert constructs.UNIT_SIGNS.read_text(encoding="utf-8") == constructs.write_units(), renew
     assert constructs.PAGE.read_text() == constructs.with_table(constructs.PAGE.read_text()), renew
 
 

@@ -2,7 +2,8 @@
 import { ExpressionInput } from "./ExpressionInput";
 import { FieldFrame, useFieldProblems } from "../fields/FieldFrame";
 import type { Value } from "@/program/document/document";
-import { type Translate, unitText, withUnit } from "@/program/words/stepWords";
+import { type Translate, withUnit } from "@/program/words/stepWords";
+import { unitSign } from "@/i18n/units";
 import { useOpenProgram } from "../../state/context";
 import { Readings } from "./Readings";
 import { useExpression } from "./useExpression";
@@ -43,7 +44,7 @@ export function ExpressionField(props: ExpressionFieldProps) {
             bad={bad}
             expression={expression}
             wanted={wanted}
-            unit={unitText(props.unit)}
+            unit={unitSign(props.unit)}
             placeholder={props.placeholder ?? rangeText(props, t)}
           />
           <Readings value={value} />

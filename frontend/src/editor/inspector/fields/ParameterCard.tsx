@@ -4,7 +4,7 @@ import { Trash2 } from "lucide-react";
 import { NumberField } from "@/design/NumberField";
 import { asName } from "../../edits/variables";
 import type { Parameter } from "@/program/document/document";
-import { UNIT_CHOICES } from "@/program/words/stepWords";
+import { UNIT_CHOICES } from "@/i18n/units";
 import { useOpenProgram } from "../../state/context";
 import { NamedField } from "./NamedField";
 import classes from "../../panel.module.css";
