@@ -11,7 +11,7 @@ import pytest
 from hypothesis import settings
 
 settings.register_profile("searching", deadline=None, max_examples=30)
-settings.register_profile("steady", deadline=None, derandomize=True, max_examples=30)
+settings.register_profile("steady", deadline=None, derandomize=True, max_examples=40)
 settings.load_profile("steady" if os.environ.get("VIPO_STEADY") == "1" else "searching")
 
 pytest.register_assert_rewrite("tests.kit")
