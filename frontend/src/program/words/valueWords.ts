@@ -1,5 +1,6 @@
 /** Values and places as people read them. */
 import { ownEntry } from "@/design/ownEntry";
+import { withUnit as withSign } from "@/i18n/format";
 import { unitSign } from "@/i18n/units";
 import type { Place, ProgramDocument, Value } from "../document/document";
 import { DEFAULT_ROLE, operatedRole } from "../operation";
@@ -131,9 +132,9 @@ function bracketed(text: string, needed: boolean): string {
   return needed ? `(${text})` : text;
 }
 
+/** A number behind which stands its unit, as a description names it. */
 export function withUnit(text: string, unit: string | null | undefined): string {
-  const sign = unitSign(unit);
-  return sign ? `${text}\u202f${sign}` : text;
+  return withSign(text, unitSign(unit));
 }
 
 /** Seconds as "1 min 6 s". */
