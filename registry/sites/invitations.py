@@ -180,10 +180,22 @@ def revoke_invitation(*, site: str, invitation: int, now: datetime) -> None:
         row = Invitation.objects.select_for_update().filter(site__slug=site, pk=invitation).first()
         if row is None:
             raise NoSuchInvitation("There is no such invitation here. It may be forgotten already.")
-        if _state(row, now) == "open":
-            row.revoked_at = now
-            row.save(update_fields=["revoked_at"])
-            note_act(site_id=row.site_id, code="invitation_revoked", facts={"role": row.role, "used": row.used})
+        _revoke(row, now)
+
+
+def revoke_invitations_of(*, user: User, now: datetime) -> None:
+    """End all open invitations that somebody has made, at all sites. Called in a transaction."""
+    for row in Invitation.objects.select_for_update().filter(made_by=user).order_by("pk"):
+        _revoke(row, now, by=user.display_name)
+
+
+def _revoke(row: Invitation, now: datetime, by: str = "") -> None:
+    """End an invitation whose row is locked, in the name of `by` where nobody acts; one that ended stays as it is."""
+    if _state(row, now) == "open":
+        row.revoked_at = now
+        row.save(update_fields=["revoked_at"])
+        facts = {"role": row.role, "used": row.used}
+        note_act(site_id=row.site_id, code="invitation_revoked", by=by, facts=facts)
 
 
 def look_at_link(*, code: str, address: str, now: datetime) -> Offer:

@@ -13,6 +13,7 @@ from pytest_django import Settings
 
 from registry import services
 from registry.models import AuditLine, SignOn, SignOnAttempt, User
+from registry.sites.invitations import Wanted, make_invitation
 from tests.kit.openid import OpenId, visit
 from tests.kit.openid.journeys import AT, begin, come, finish, link, refusals, who_is, why
 from tests.kit.sign_in import PASSWORD, find_person, post_json, signed_in
@@ -111,6 +112,24 @@ def test_whoever_made_an_account_beforehand_stays_in_it_by_no_token_and_no_other
             ("token_revoked", token),
             ("sign_on_linked", "Acme"),
         ]
+
+
+def test_whoever_made_an_account_beforehand_lets_nobody_in_by_an_invitation(acme: OpenId, settings: Settings) -> None:
+    settings.VIPO_SIGN_ON = [acme.setting(links_by_email=True)]
+    services.create_site(name="Shed", slug="shed")
+    services.set_member(site="shed", email="author@vipo.example", role="admin")
+    wanted = Wanted(role="admin", days=30, uses=2)
+    now = timezone.now()
+    _, code = make_invitation(site="shed", by=find_person("author"), wanted=wanted, now=now)
+    _, stays = make_invitation(site="hall", by=find_person("admin"), wanted=wanted, now=now)
+    assert come(Client(), "ada").status_code == 200
+    viewer = signed_in("viewer")
+    over = post_json(viewer, "/api/invitations/accept", {"code": code})
+    assert (over.status_code, over.json()["args"]["why"]) == (410, "revoked")
+    look = post_json(Client(), "/api/invitations/look", {"code": stays})
+    assert look.status_code == 200
+    line = AuditLine.objects.get(site__slug="shed", code="invitation_revoked")
+    assert (line.actor, line.facts) == ("Author Person", {"role": "admin", "used": 0})
 
 
 def test_a_link_that_fails_ends_nothing_of_the_account(acme: OpenId, settings: Settings) -> None:
