@@ -32,7 +32,11 @@ MESSAGE = "The message"
 _ID = re.compile(r"[A-Za-z0-9_.-]{1,64}")
 _UNFIT = re.compile(r"[^A-Za-z0-9_.-]")
 _JOIN = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]{1,64})/([^/+#]{1,256})")
-_TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[\[{]|[\]}]|[^\s,:"\[\]{}]+', re.DOTALL)
+_MARKS = r'"(?:[^"\\]|\\.)*+(?:"|\\?\Z)|[\[{]|[\]}]'
+"""Texts and brackets. A text that nobody closes is one mark to the end: looked for anew from each quote in it, it would
+cost the square of its length."""
+_MARK = re.compile(_MARKS, re.DOTALL)
+_TOKEN = re.compile(_MARKS + r'|[^\s,:"\[\]{}]+', re.DOTALL)
 _COLON = re.compile(r"\s*:")
 _UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]+)")
 _STAND_IN_UP = re.compile(rf"vipo/v1/sim/([A-Za-z0-9_.-]{{1,64}})/up/({'|'.join(STAND_IN_KINDS)})")
@@ -189,7 +193,7 @@ def _second_key(text: str, key: str) -> int:
 
 def _check_depth(text: str, most: int) -> None:
     depth = 0
-    for found in re.finditer(r'"(?:[^"\\]|\\.)*"|[\[{]|[\]}]', text, re.DOTALL):
+    for found in _MARK.finditer(text):
         mark = found.group()[0]
         depth += (mark in "[{") - (mark in "]}")
         if depth > most:

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.kit.work import within_processor_time
 from vipo_device.protocol.description import DeviceState, Pose
 from vipo_device.protocol.messages import (
     AckMessage,
@@ -18,6 +19,7 @@ from vipo_device.protocol.messages import (
     is_device_id,
     parse_ack,
     parse_json,
+    parse_plain_json,
     parse_presence,
     parse_state,
     presence_payload,
@@ -83,6 +85,12 @@ def test_json_that_two_readers_could_understand_differently_is_refused(payload: 
 
 def test_brackets_within_text_are_not_depth() -> None:
     assert parse_json(json.dumps({"a": "[" * 100 + '\\"' + "{" * 100}).encode()) == {"a": "[" * 100 + '\\"' + "{" * 100}
+
+
+@pytest.mark.parametrize("payload", [b'"' + b'\\"' * 250_000, b'{"a":1,"a":2} "' + b'\\"' * 250_000])
+def test_a_text_that_nobody_closes_costs_what_its_length_does(payload: bytes) -> None:
+    with within_processor_time(30), pytest.raises(BadMessage):  # each quote looked at from each: half an hour
+        parse_plain_json(payload, max_bytes=1_000_000, max_depth=16)
 
 
 def test_emoji_written_as_a_surrogate_pair_are_text() -> None:
