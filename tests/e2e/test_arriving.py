@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Request, Route, expect
+from playwright.sync_api import Request, Route, WebSocket, expect
 
 from tests.e2e.conftest import SignIn
+from tests.kit.demo import Demo
 from tests.e2e.screens import until
 
 pytestmark = pytest.mark.browser
@@ -27,6 +28,36 @@ def test_a_screens_code_is_fetched_while_it_is_asked_who_looks(sign_in: SignIn) 
     assert len(held) == 1
     held[0].continue_()
     expect(page.get_by_role("heading", name="Programs", level=1)).to_be_visible()
+
+
+def test_what_a_screen_asks_for_after_the_sites_greeting_is_asked_once(sign_in: SignIn) -> None:
+    page = sign_in("author", HOME)
+    held: list[Route] = []
+    asked: list[str] = []
+    page.route("**/assets/RunsPage-*.js", lambda route: held.append(route))
+    page.on("request", lambda request: asked.append(request.url) if "/api/sites/" in request.url else None)
+    with page.expect_websocket() as site, page.expect_request(lambda request: is_script_of(request, "RunsPage")):
+        page.goto(page.url + "/runs", wait_until="commit")
+    site.value.wait_for_event("framereceived")
+    held[0].continue_()
+    expect(page.get_by_role("heading", name="Runs", level=1)).to_be_visible()
+    for name in ("questions", "alerts", "programs"):
+        assert [url.rsplit("/", 1)[1] for url in asked if url.endswith(f"/{name}")] == [name]
+
+
+def test_a_stranger_signs_in_on_the_way_to_a_screen_and_hears_the_site(sign_in: SignIn, demo: Demo) -> None:
+    page = sign_in("nobody", "/sign-in")
+    refused: list[WebSocket] = []
+    page.on("websocket", lambda socket: refused.append(socket))
+    page.goto(f"{demo.url}{HOME}/devices")
+    account = demo.account("author")
+    page.get_by_label("Email address").fill(account.email)
+    page.get_by_label("Password", exact=True).fill(account.password)
+    with page.expect_websocket() as socket:
+        page.get_by_role("button", name="Sign in", exact=True).click()
+    socket.value.wait_for_event("framereceived")
+    expect(page.locator("tbody tr").first).to_be_visible()
+    assert [each.is_closed() for each in refused] == [True, False]
 
 
 def test_the_screen_before_stays_while_the_next_is_on_its_way(sign_in: SignIn) -> None:

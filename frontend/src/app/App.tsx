@@ -3,9 +3,10 @@ import { MantineProvider } from "@mantine/core";
 import { QueryClientProvider } from "@tanstack/react-query";
 import { lazy, Suspense, useEffect, useMemo, useSyncExternalStore } from "react";
 import { useTranslation } from "react-i18next";
-import { RouterProvider } from "react-router-dom";
+import { matchPath, RouterProvider } from "react-router-dom";
 import { makeQueryClient, ME } from "@/api/queries";
 import { makeTheme, variablesResolver } from "@/design/theme";
+import { watchAhead } from "@/live/site";
 import { makeRouter } from "./router";
 import { Waiting } from "@/shell/LoadProblem";
 import { useTheme } from "@/shell/theme";
@@ -14,6 +15,8 @@ import { useKeepOnlyOwn } from "@/shell/waitingCopies";
 // Outside of the tree: state of a tree that suspends before its first commit is thrown away.
 const queries = makeQueryClient();
 void queries.prefetchQuery(ME);
+const slugAhead = matchPath("/sites/:slug/*", location.pathname)?.params.slug;
+if (slugAhead && slugAhead !== "new") watchAhead(slugAhead, queries);
 const router = makeRouter();
 
 /** What is told before they are there waits in their store. */

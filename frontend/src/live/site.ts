@@ -15,6 +15,8 @@ interface Session {
 }
 
 const LINGER_MS = 2000;
+/** So long a screen may take to come on a slow line. */
+const AHEAD_MS = 20_000;
 const SIGNED_OUT = 4401;
 /** So long the answer that brings the new key may take. */
 const NEW_KEY_MS = 500;
@@ -26,18 +28,37 @@ export function useSiteLive(slug: string | undefined): void {
   useEffect(() => (slug ? watch(slug, queries) : undefined), [slug, queries]);
 }
 
+/**
+ * Watch a site while its screen is on its way: what the screen asks for after the greeting needs no second look.
+ *
+ * Who is not signed in or no member is refused, and nothing stays of it.
+ */
+export function watchAhead(slug: string, queries: QueryClient): void {
+  const session = sessionOf(slug, queries);
+  setTimeout(() => endIdle(slug, session), AHEAD_MS);
+}
+
 function watch(slug: string, queries: QueryClient): () => void {
-  const session = sessions.get(slug) ?? begin(slug, queries);
-  sessions.set(slug, session);
+  const session = sessionOf(slug, queries);
   session.watchers += 1;
   return () => {
     session.watchers -= 1;
-    setTimeout(() => {
-      if (session.watchers > 0 || sessions.get(slug) !== session) return;
-      sessions.delete(slug);
-      session.end();
-    }, LINGER_MS);
+    setTimeout(() => endIdle(slug, session), LINGER_MS);
   };
+}
+
+/** The session of a site; those of others that nobody watches end, so that their news are not taken for this one's. */
+function sessionOf(slug: string, queries: QueryClient): Session {
+  for (const [other, session] of sessions) if (other !== slug) endIdle(other, session);
+  const session = sessions.get(slug) ?? begin(slug, queries);
+  sessions.set(slug, session);
+  return session;
+}
+
+function endIdle(slug: string, session: Session): void {
+  if (session.watchers > 0 || sessions.get(slug) !== session) return;
+  sessions.delete(slug);
+  session.end();
 }
 
 function begin(slug: string, queries: QueryClient): Session {
@@ -55,13 +76,14 @@ function begin(slug: string, queries: QueryClient): Session {
     });
   /** A new password gives this browser's session another key: who is still signed in with that one comes again. */
   const comeAgain = async (code: number): Promise<void> => {
+    if (session.watchers === 0) return endIdle(slug, session);
     await new Promise((done) => setTimeout(done, NEW_KEY_MS));
     await queries.refetchQueries({ queryKey: keys.me });
     if (code === SIGNED_OUT && !ended && queries.getQueryData<Me>(keys.me)?.user) connection = connect();
   };
   let connection = connect();
   const unfollow = followCaches(slug, queries);
-  return {
+  const session: Session = {
     watchers: 0,
     end() {
       ended = true;
@@ -70,6 +92,7 @@ function begin(slug: string, queries: QueryClient): Session {
       unfollow();
     },
   };
+  return session;
 }
 
 function socketAddress(slug: string): string {
