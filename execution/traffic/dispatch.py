@@ -26,6 +26,7 @@ from execution.traffic.precedence import Waiting, in_groups, note_behind
 from execution.traffic.route_points import leads_along, path_along, points_ahead, set_points
 from execution.traffic.turn import Turn
 from execution.traffic.zones import path_outside
+from vipo_device.protocol.arguments import lasting_s
 from vipo_device.protocol.description import Description
 from vipo_device.protocol.messages import EXPLORE
 
@@ -36,7 +37,6 @@ CALL_LIMIT_S = 900.0
 IDLE_GRACE_S = 1.0
 """How long an idle robot is left where it stands, for its run may be about to ask it for more."""
 UNABLE = 1e6
-UNIT_S: Mapping[str, float] = {"SEC": 1.0, "MIN": 60.0, "HR": 3600.0}
 
 
 def release_roles(turn: Turn) -> None:
@@ -367,11 +367,8 @@ def _call_robot(turn: Turn, task: FloorTask, robot: Robot) -> None:
 def limit_of(device: Description, name: str, arguments: Mapping[str, object]) -> float:
     """Return how many seconds a call may take: half as long again as its durations say, and a minute."""
     method = device.method(name)
-    total = 0.0
-    for parameter in method.parameters if method else ():
-        value = arguments.get(parameter.name)
-        if parameter.unit in UNIT_S and isinstance(value, int | float):
-            total += value * UNIT_S[parameter.unit]
+    parameters = method.parameters if method else ()
+    total = sum(lasting_s(spec, arguments.get(spec.name)) or 0.0 for spec in parameters)
     return 1.5 * total + 60.0 if total else CALL_LIMIT_S
 
 

@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import hypot
 
-from vipo_device.protocol.arguments import is_number
+from vipo_device.protocol.arguments import is_number, lasting_s
 from vipo_device.protocol.description import MethodSpec
 
-SECONDS = {"MIN": 60.0, "SEC": 1.0, "S": 1.0, "HR": 3600.0, "MilliSEC": 0.001, "": 60.0}
 ASTRAY_M = 0.6
 """How far from the end of its path a robot's next move may begin."""
 CountedObject = tuple[str, int]
@@ -70,13 +69,9 @@ def why_astray(name: str, begin: Point | None, here: Point | None) -> str:
 
 
 def duration_s(method: MethodSpec, arguments: Mapping[str, object]) -> float | None:
-    """Return how long a call's arguments say that it takes: `time` (minutes unless it says otherwise); None if none."""
-    for parameter in method.parameters:
-        value = arguments.get(parameter.name)
-        lasts = parameter.name == "time" or (bool(parameter.unit) and parameter.unit in SECONDS)
-        if lasts and is_number(value):
-            return max(0.0, float(value)) * SECONDS.get(parameter.unit, 60.0)
-    return None
+    """Return how many seconds a call's arguments say that it takes: what the first says that says so; None if none."""
+    said = (lasting_s(spec, arguments.get(spec.name)) for spec in method.parameters)
+    return next((seconds for seconds in said if seconds is not None), None)
 
 
 def counted_object(arguments: Mapping[str, object]) -> CountedObject | str:

@@ -8,6 +8,7 @@ from typing import Any, Literal, TypeGuard
 
 from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec
 from vipo_device.protocol.texts import find_unfit
+from vipo_device.protocol.units import UNITS, unit_code
 
 MOST_CHARACTERS = 256
 MOST_METRES = 1e6
@@ -21,6 +22,17 @@ def is_number(value: object) -> TypeGuard[int | float]:
     if isinstance(value, bool) or not isinstance(value, int | float):
         return False
     return isfinite(value) if isinstance(value, float) else abs(value) <= MOST_WHOLE
+
+
+def lasting_s(spec: ParameterSpec, value: object) -> float | None:
+    """Return how many seconds of work a parameter's value stands for; None where it does not say.
+
+    That is a number in a unit of time, and one called `time` without a unit, which is in minutes.
+    """
+    unit = UNITS.get(unit_code(spec.unit) if spec.unit or spec.name != "time" else "MIN")
+    if unit is None or unit.dimension != "time" or not is_number(value):
+        return None
+    return max(0.0, value * unit.factor)
 
 
 def refusal_of_arguments(method: MethodSpec, arguments: Mapping[str, object]) -> str:

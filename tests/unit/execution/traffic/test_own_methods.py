@@ -7,9 +7,11 @@ import pytest
 from execution.machine.floor_task import Target, TaskOrder
 from execution.traffic import floor
 from execution.traffic import messages as m
+from execution.traffic.dispatch import CALL_LIMIT_S, limit_of
 from execution.traffic.layout import make_layout
 from tests.kit import demo_floor
 from tests.unit.execution.traffic.simulated_floor import PretendFloor
+from vipo_device.kit.arguments import duration_s
 from vipo_device.protocol.description import MethodSpec, ParameterSpec
 
 TIMES = ParameterSpec("times", "number", "", 1, 10)
@@ -158,3 +160,20 @@ def test_a_kept_floor_knows_what_a_robot_is_at():
     world.state = floor.from_json(floor.to_json(world.state))
     world.run_until(lambda: ("a", 1) in world.over, 10)
     assert world.over["a", 1] == ("", "")
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "value", "limit_s"),
+    [
+        ("time", "SEC", 40, 120.0),
+        ("soak", "DAY", 6, 1.5 * 6 * 86_400 + 60),
+        ("soak", "MilliSEC", 40_000, 120.0),
+        ("time", "", 20, 1.5 * 20 * 60 + 60),
+        ("soak", "", 20, CALL_LIMIT_S),
+        ("time", "DEG_C", 20, CALL_LIMIT_S),
+    ],
+)
+def test_a_call_may_take_what_its_arguments_say_and_half_as_long_again(name, unit, value, limit_s):
+    device = replace(demo_floor.devices()[0], methods=(honk(ParameterSpec(name, "number", unit)),))
+    assert limit_of(device, "honk", {name: value}) == pytest.approx(limit_s)
+    assert duration_s(device.methods[0], {name: value}) == (None if limit_s == CALL_LIMIT_S else (limit_s - 60) / 1.5)

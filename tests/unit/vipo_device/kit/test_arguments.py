@@ -53,7 +53,19 @@ def test_objects_are_counted(arguments: dict[str, Any], expected: tuple[str, int
 
 @pytest.mark.parametrize(
     ("name", "unit", "value", "expected"),
-    [("time", "MIN", 2, 120.0), ("time", "", 2, 120.0), ("cure", "SEC", 7, 7.0), ("cure", "DEG_C", 7, None)],
+    [
+        ("time", "MIN", 2, 120.0),
+        ("time", "", 2, 120.0),
+        ("cure", "", 2, None),
+        ("cure", "SEC", 7, 7.0),
+        ("cure", "MilliSEC", 7, 0.007),
+        ("time", "DAY", 2, 172_800.0),
+        ("cure", "d", 2, 172_800.0),
+        ("cure", "DEG_C", 7, None),
+        ("time", "DEG_C", 7, None),
+        ("time", "MIN", -2, 0.0),
+        ("time", "MIN", "2", None),
+    ],
 )
 def test_a_duration_is_the_time_that_a_method_is_given(
     name: str, unit: str, value: float, expected: float | None
