@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import hypot
 
 from simulation.actors import Motion
-from simulation.proximity import Crowd, Near, Obstacles
+from simulation.proximity import REACH_M, Crowd, Near, Obstacles
 from simulation.scene import Layout
 from simulation.world import Contact
 
@@ -16,6 +16,9 @@ TOUCH_M = 0.003
 NEAR_ROBOT_M = 0.10
 NEAR_THING_M = 0.02
 CLOSING_M_S = 1.2
+"""The least that is reckoned with: people push robots, too."""
+LOOK_S = 0.7
+"""The longest that nobody looks, with nothing in reach."""
 PARTING_M = 0.01
 LINGERS_S = 1.0
 Away = tuple[float, float]
@@ -38,7 +41,9 @@ class NearnessWatch:
         self.touching: dict[str, list[Away]] = {}
         self._motions = motions
         self._radii_m = {r.id: r.radius_m for r in layout.robots}
-        self._obstacles = Obstacles([*layout.walls, *layout.machines])
+        self._obstacles = Obstacles([*layout.walls, *layout.machines], max(self._radii_m.values(), default=0.0))
+        fastest_m_s = max((r.speed_m_s for r in layout.robots), default=0.0)
+        self._closing_m_s = {r.id: max(CLOSING_M_S, r.speed_m_s + fastest_m_s) for r in layout.robots}
         self._crowd = Crowd(self._radii_m)
         for name, motion in motions.items():
             self._crowd.put(name, motion.x, motion.y)
@@ -67,8 +72,8 @@ class NearnessWatch:
         around = [(n, NEAR_THING_M) for n in _nearest_each(things)]
         around += [(n, NEAR_ROBOT_M) for n in self._crowd.near(robot)]
         # Nothing can come near sooner than this, so nobody needs to look before.
-        spare_m = min((n.gap_m - limit for n, limit in around), default=0.9)
-        self._look_at_s[robot] = t_s + min(0.7, max(0.0, spare_m / CLOSING_M_S))
+        spare_m = min((n.gap_m - limit for n, limit in around), default=REACH_M - NEAR_ROBOT_M)
+        self._look_at_s[robot] = t_s + min(LOOK_S, max(0.0, spare_m / self._closing_m_s[robot]))
         near = {n.other: n for n, limit in around if n.gap_m < limit}
         self._note_touch(robot, motion, [n for n in near.values() if n.gap_m <= TOUCH_M])
         for other in [o for r, o in self._meetings if r == robot and o not in near]:

@@ -76,29 +76,30 @@ def body_of(device: Description) -> Body:
 
 
 class Obstacles:
-    """Bodies that never move, found by place."""
+    """Bodies that never move, found by place, for robots of at most that radius."""
 
-    def __init__(self, bodies: Sequence[Body]) -> None:
+    def __init__(self, bodies: Sequence[Body], most_radius_m: float) -> None:
         self._cells: dict[tuple[int, int], list[Body]] = defaultdict(list)
+        reach_m = REACH_M + most_radius_m
         for body in bodies:
             span_x, span_y = body.half_span()
-            for column in _cells_between(body.x - span_x, body.x + span_x):
-                for row in _cells_between(body.y - span_y, body.y + span_y):
+            for column in _cells_between(body.x - span_x - reach_m, body.x + span_x + reach_m):
+                for row in _cells_between(body.y - span_y - reach_m, body.y + span_y + reach_m):
                     self._cells[column, row].append(body)
 
     def near(self, x: float, y: float, radius_m: float) -> list[Near]:
-        """Return what is within `REACH_M` of the point, with the gap to a robot of that radius standing there."""
+        """Return what is within `REACH_M` of the surface of a robot of that radius standing there, with the gap."""
         found = []
         for body in self._cells.get((floor(x), floor(y)), ()):
             nearest_x, nearest_y = body.nearest_point(x, y)
             distance = hypot(x - nearest_x, y - nearest_y)
-            if distance < REACH_M:
+            if distance - radius_m < REACH_M:
                 found.append(Near(body.name, distance - radius_m, nearest_x, nearest_y))
         return found
 
 
 def _cells_between(low: float, high: float) -> range:
-    return range(floor(low - REACH_M), ceil(high + REACH_M))
+    return range(floor(low), ceil(high))
 
 
 class Crowd:

@@ -20,11 +20,12 @@ WALL_HEIGHT_M = 1.0
 
 @dataclass(frozen=True, slots=True)
 class RobotStart:
-    """Where a robot begins, and how big it is."""
+    """Where a robot begins, how big it is, and how fast it drives at most."""
 
     id: str
     pose: Pose
     radius_m: float
+    speed_m_s: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +48,8 @@ class Actors:
 def make_layout(scene: Scene, actors: Actors) -> Layout:
     """Return the bodies of a scene."""
     robots = tuple(
-        RobotStart(robot.description.id, scene.poses.get(robot.description.id, robot.description.pose), robot.radius_m)
-        for robot in actors.robots.values()
+        RobotStart(name, scene.poses.get(name, robot.description.pose), robot.radius_m, robot.speed_m_s)
+        for name, robot in actors.robots.items()
     )
     solid = [d for d in scene.devices if d.id not in scene.bodiless]
     return Layout(tuple(wall_bodies(wall_boxes(scene.grid))), tuple(machine_bodies(solid)), robots)

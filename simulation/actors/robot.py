@@ -57,8 +57,8 @@ class Robot(Actor):
         self.battery = float(known) if isinstance(known, int | float) else 100.0
         self._machines, self._bounds = surroundings.machines, surroundings.bounds
         self._tasks: deque[Task] = deque()
-        speed_m_s = description.speed_m_s or self.behaviour.speed_m_s
-        self._follower = Follower(speed_m_s / self.paces.get("move", 1.0))
+        self.speed_m_s = (description.speed_m_s or self.behaviour.speed_m_s) / self.paces.get("move", 1.0)
+        self._follower = Follower(self.speed_m_s)
         self._at = Motion(description.pose.x, description.pose.y, description.pose.theta)
         self._start_readings()
 

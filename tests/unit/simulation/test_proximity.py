@@ -22,9 +22,10 @@ def test_distance_to_a_turned_box() -> None:
     assert turned.half_span() == pytest.approx((0.5, 1.0))
 
 
-def test_obstacles_within_a_metre_are_found_with_the_gap() -> None:
-    obstacles = Obstacles(wall_bodies([(0.0, 0.0, 10.0, 0.1), (5.0, 3.0, 5.1, 9.0)]))
+def test_obstacles_within_a_metre_of_a_robots_surface_are_found_with_the_gap() -> None:
+    obstacles = Obstacles(wall_bodies([(0.0, 0.0, 10.0, 0.1), (5.0, 3.0, 5.1, 9.0)]), 0.18)
     assert [(n.other, round(n.gap_m, 3)) for n in obstacles.near(5.05, 0.6, 0.18)] == [("wall", 0.32)]
+    assert [(n.other, round(n.gap_m, 3)) for n in obstacles.near(2.0, 1.2, 0.18)] == [("wall", 0.92)]
     assert obstacles.near(2.0, 1.5, 0.18) == []
     assert obstacles.near(-50.0, -50.0, 0.18) == []
 
