@@ -71,7 +71,7 @@ class Twin:
     def __init__(self, plan: TwinPlan, make_connection: ConnectionMaker) -> None:
         self._plan, self._facts, self._make_connection = plan, plan.facts, make_connection
         self._inbox: SimpleQueue[ConnectionEvent] = SimpleQueue()
-        memory = read_memory(plan.memory_path)
+        self._memory = memory = read_memory(plan.memory_path)
         self._boots = {**memory.boots, **{name: memory.next_boot(name) for name in plan.speaking}}
         self._world: World = self._make_world(memory)
         self._obstacles: Sequence[Obstacle] = ()
@@ -218,7 +218,7 @@ class Twin:
             return
         if facts == self._facts:
             return
-        memory = snapshot(self._world, self._boots)
+        memory = self._remember()
         self._world.close()
         self._facts = facts
         self._world = self._make_world(memory)
@@ -231,9 +231,13 @@ class Twin:
         return make_world(scene=scene, driver=self._plan.driver)
 
     def _save(self) -> None:
-        memory = snapshot(self._world, self._boots)
+        memory = self._remember()
         self._saved_under_way = self._world.under_way()
         write_memory(self._plan.memory_path, memory)
+
+    def _remember(self) -> TwinMemory:
+        self._memory = snapshot(self._world, self._boots).over(self._memory)
+        return self._memory
 
 
 def make_scene(plan: TwinPlan, facts: SiteFacts) -> Scene:

@@ -34,6 +34,17 @@ class TwinMemory:
         """Return the number of the start that comes now."""
         return self.boots.get(device, self.first_boot - 1) + 1
 
+    def over(self, older: TwinMemory) -> TwinMemory:
+        """Return this with what an older one knows of devices that are not in the world now: they may come back."""
+        return replace(
+            self,
+            poses={**older.poses, **self.poses},
+            carrying={**older.carrying, **self.carrying},
+            stocks={**older.stocks, **self.stocks},
+            readings={**older.readings, **self.readings},
+            remembered={**older.remembered, **self.remembered},
+        )
+
     def put_into(self, scene: Scene) -> Scene:
         """Return the scene as it was left.
 

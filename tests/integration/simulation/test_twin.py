@@ -219,6 +219,28 @@ def test_the_world_goes_on_where_it_was_left_with_a_higher_boot_number(
     assert answers == [("long", "ACCEPTED"), ("long", "RUNNING"), ("go", "DONE")]
 
 
+def test_devices_that_are_taken_out_and_let_back_go_on_where_they_were(tmp_path: Path) -> None:
+    now = {"facts": FACTS}
+    plan = TwinPlan(FACTS, VOICES, tmp_path / "memory.json", driver="kinematic", refresh=lambda: now["facts"])
+    twin = Twin(plan, lambda device, will: pytest.fail("Nobody connects here."))
+    world = twin._world
+    place = world.robots()["robot01"].pose
+    world.command("robot01", "move", {"path": [[place.x + 0.5, place.y]]}, "c1")
+    world.command("itemInventory01", "dispense", {"object": "box", "value": 1}, "c2")
+    world.advance(30)
+    moved = world.robots()["robot01"].pose
+    assert moved.x > place.x + 0.4
+    for out in ({"robot01", "itemInventory01"}, {"robot01"}, set()):
+        left = tuple(d for d in FACTS.devices if d.description.id not in out)
+        now["facts"] = replace(FACTS, devices=left)
+        twin._refresh()
+        assert set(twin._world.robots()).isdisjoint(out)
+        twin._save()
+    assert twin._world.robots()["robot01"].pose == moved
+    remembered = twin._world.remembered()
+    assert [[ack.command for ack in remembered[name]] for name in ("robot01", "itemInventory01")] == [["c1"], ["c2"]]
+
+
 def test_a_memory_that_cannot_be_read_begins_anew_and_boots_still_rise(
     bus: Mosquitto, ear: Ear, tmp_path: Path
 ) -> None:
