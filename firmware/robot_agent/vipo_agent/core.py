@@ -187,7 +187,6 @@ class Core:
         self._goal = None
         self._failures += 1
         if self._failures >= TRIES:
-            self._failures = 0
             self._end(self._tasks[0], "FAILED", why)
             self._end_moves("The way before it failed.")
         self.settle(now_s)
@@ -358,6 +357,7 @@ class Core:
 
     def _end(self, task: Task, status: str, why: str = "") -> None:
         self._tasks.remove(task)
+        self._failures = 0  # what ends takes its failures along: the next move is tried twice, too
         self._say(task.command, status, why)
 
     def _say(self, command: str, status: str, why: str = "") -> None:

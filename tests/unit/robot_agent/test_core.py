@@ -85,6 +85,17 @@ def test_a_goal_is_tried_twice() -> None:
     assert bench.out() == ["a FAILED no plan", "b CANCELED The way before it failed."]
 
 
+def test_a_goal_after_a_move_that_was_cancelled_is_tried_twice_too() -> None:
+    bench = Bench()
+    bench.tell("move", "a", path=[[1, 0]])
+    bench.core.failed(1, "a person", 0.0)
+    bench.tell("cancel", "c", command="a")
+    bench.tell("move", "b", path=[[0, 5]])
+    bench.out()
+    bench.core.failed(3, "a person", 0.0)
+    assert [type(each) for each in bench.out()] == [Go]
+
+
 def test_a_pause_halts_and_ends_with_its_command() -> None:
     bench = Bench()
     bench.tell("move", "a", path=[[1, 0]])
