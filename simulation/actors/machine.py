@@ -173,7 +173,7 @@ class Machine(Actor):
             if self.stock.get(name):
                 self.change_stock(t_s, name, -count)
         if job.method not in self.behaviour.hands_over:
-            self._read_all(t_s, self._readings.after(job.told, self.readings))
+            self._read_all(t_s, self._readings.after(job.told, {**self.readings, **self._true_readings}))
         drawn = self._readings.drawn(job.method, self._chance)
         self._read_all(t_s, drawn)
         return drawn

@@ -129,11 +129,11 @@ class MachineReadings:
             changed[name] = within(spec, converted(value, law.unit, "" if spec is None else spec.unit))
         return changed
 
-    def after(self, arguments: Mapping[str, object], shown: Mapping[str, Scalar]) -> dict[str, Scalar]:
-        """Return what a job that ended well leaves: counts, and what was set by an argument of the same name."""
+    def after(self, arguments: Mapping[str, object], true: Mapping[str, Scalar]) -> dict[str, Scalar]:
+        """Return what a job that ended well leaves: counts go on from what is true; arguments set their namesakes."""
         changed: dict[str, Scalar] = {}
         for name in self._names("counts"):
-            before = shown.get(name)
+            before = true.get(name)
             if is_number(before):
                 changed[name] = min(before + 1, within(self._description.property(name), MOST_COUNTED))
         for spec in self._description.properties:

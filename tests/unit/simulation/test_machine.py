@@ -14,7 +14,7 @@ from simulation.behaviour import behaviour_of
 from simulation.kind_file import default_kinds
 from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
 from tests.unit.simulation.stage_set import BENCH, OVEN, ROLLERS, SHELF
-from vipo_device.protocol.description import Description
+from vipo_device.protocol.description import Description, PropertySpec
 
 
 class Watched:
@@ -287,6 +287,18 @@ def test_painting_uses_up_a_can() -> None:
     machine.tell("paint", time=1)
     machine.wait(60)
     assert machine.machine.stock == {"can": 0, "box": 1}
+
+
+def test_a_counter_that_shows_a_wrong_value_goes_on_from_the_true_one() -> None:
+    counting = replace(BENCH, properties=(*BENCH.properties, PropertySpec("cycles", "number")))
+    wrong = Fault("bench", "wrong_value", for_s=20.0, name="cycles", value=1000)
+    bench = Watched(counting, faults=(wrong,))
+    bench.wait(1)
+    bench.tell("weld", mode="slow")
+    bench.wait(10)
+    assert (bench.answers()[-1], bench.machine.readings["cycles"]) == ("DONE", 1000)
+    bench.wait(20)
+    assert bench.machine.readings["cycles"] == 1
 
 
 def test_a_fault_makes_the_next_command_fail_and_only_that() -> None:
