@@ -6,8 +6,8 @@ import pytest
 from playwright.sync_api import Request, Route, WebSocket, expect
 
 from tests.e2e.conftest import SignIn
-from tests.kit.demo import Demo
 from tests.e2e.screens import until
+from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
 HOME = "/sites/painting-factory"
