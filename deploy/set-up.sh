@@ -11,7 +11,11 @@ chmod 700 secrets
 
 if [ "${1:-}" = --renew ]; then
     case ${2:-} in
-    django-key | redis-password | broker-password) rm -f "secrets/$2" ;;
+    django-key) # the former keys stay in further lines: they read what was sealed with them, and sign nothing
+        { openssl rand -hex 32 && cat secrets/django-key; } >secrets/django-key.new
+        mv -f secrets/django-key.new secrets/django-key
+        ;;
+    redis-password | broker-password) rm -f "secrets/$2" ;;
     broker | web) rm -f "secrets/$2/server.crt" "secrets/$2/server.key" ;;
     *)
         echo "usage: deploy/set-up.sh --renew django-key|redis-password|broker-password|broker|web" >&2

@@ -14,6 +14,7 @@ from django.core.exceptions import ImproperlyConfigured
 LEAST_SECRET = 12
 """So many characters a secret of a served site has at least, of which LEAST_DIFFERENT differ."""
 LEAST_DIFFERENT = 5
+LEAST_KEY = 32
 WIDEST_PROXIES = {4: 8, 6: 32}
 """The shortest prefix of a network of proxies; whoever names a wider one has named strangers."""
 LOG_LEVELS = ("DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")
@@ -50,9 +51,26 @@ def secret(name: str) -> str:
 def required_secret(name: str, least: int = LEAST_SECRET) -> str:
     """Return a secret that is long enough not to be guessed."""
     value = secret(name) or required(name)
+    _check_secret(name, value, least)
+    return value
+
+
+def signing_keys(name: str) -> list[str]:
+    """Return the key that signs, and those before it, each in a line of its own: what these sealed is still read."""
+    keys = lines_of(secret(name) or required(name))
+    for key in keys:
+        _check_secret(name, key, LEAST_KEY)
+    return keys
+
+
+def lines_of(text: str) -> list[str]:
+    """Return the lines of a text that say something."""
+    return [line.strip() for line in text.splitlines() if line.strip()]
+
+
+def _check_secret(name: str, value: str, least: int) -> None:
     if len(value) < least or len(set(value)) < LEAST_DIFFERENT:
         raise ImproperlyConfigured(f"{name} can be guessed: take {least} random characters at least.")
-    return value
 
 
 def with_password(name: str) -> str:

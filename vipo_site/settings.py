@@ -15,6 +15,7 @@ from vipo_site.environment import (
     has_demo,
     is_https,
     is_local,
+    lines_of,
     local_secret,
     log_words,
     mail_sender,
@@ -27,6 +28,7 @@ from vipo_site.environment import (
     secret,
     served_hosts,
     sign_on_providers,
+    signing_keys,
     whole_number,
     with_password,
 )
@@ -52,9 +54,12 @@ _SIGNS = VIPO_PROCESS in {"", "web"}
 _SPEAKS_FOR_VIPO = VIPO_PROCESS in {"", "web", "gateway", "mirror", "stand-ins"}
 if SERVED:
     # What signs nothing has a key of its own: what it signed by mistake would be worth nothing elsewhere.
-    SECRET_KEY = required_secret("VIPO_SECRET_KEY", 32) if _SIGNS else secrets.token_urlsafe(32)
+    _KEYS = signing_keys("VIPO_SECRET_KEY") if _SIGNS else [secrets.token_urlsafe(32)]
 else:
-    SECRET_KEY = local_secret(VIPO_STATE_DIR, "django")
+    _KEYS = lines_of(local_secret(VIPO_STATE_DIR, "django"))
+SECRET_KEY, *VIPO_FORMER_KEYS = _KEYS
+"""Former keys are none of Django's fallbacks: what they signed is worth nothing, and sessions end with a new key. They
+read the second factors and enrolment keys that were sealed with them."""
 DEBUG = False
 ALLOWED_HOSTS = served_hosts(required("VIPO_HOSTS") if SERVED else "127.0.0.1,localhost,[::1]")
 CSRF_TRUSTED_ORIGINS = [o for o in os.environ.get("VIPO_ORIGINS", "").split(",") if o]

@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import base64
 import hmac
+import logging
 import re
 import secrets
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 
 import pyotp
 import segno
-from cryptography.fernet import Fernet, InvalidToken, MultiFernet
+from cryptography.fernet import Fernet, InvalidToken
 from django.conf import settings
 from django.db import transaction
 from django.db.models import F
@@ -27,6 +29,7 @@ from registry.errors import RegistryError
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import Membership, RecoveryCode, SecondFactor, User
 
+log = logging.getLogger(__name__)
 STEP_S = 30
 TOLERANCE = (0, -1, 1)
 """How many steps a clock may go wrong, the likeliest first."""
@@ -101,7 +104,7 @@ def begin_factor(*, user: User) -> NewFactor:
         User.objects.select_for_update().get(pk=user.pk)
         if has_factor(user=user):
             raise FactorStands("You have a second factor already. Turn it off before you set up another one.")
-        kept = {"secret": _fernet().encrypt(secret.encode()).decode(), "confirmed_at": None, "last_step": 0}
+        kept = {"secret": _seal(secret), "confirmed_at": None, "last_step": 0}
         SecondFactor.objects.update_or_create(user=user, defaults=kept)
     address = pyotp.TOTP(secret).provisioning_uri(name=user.email, issuer_name="VIPO")
     picture = segno.make(address, error="m").svg_data_uri(scale=5, border=3, dark="#171b26", light="#ffffff")
@@ -185,13 +188,16 @@ def _take_step(row: SecondFactor, code: str, now: datetime) -> bool:
     if not _DIGITS.fullmatch(digits) or not digits.isascii():
         return False
     try:
-        totp = pyotp.TOTP(_fernet().decrypt(row.secret.encode()).decode())
-    except InvalidToken:  # the server's key is another one: nobody's codes can be read, `vipo account` resets them
+        secret, is_of_today = _unseal(row.secret)
+    except InvalidToken:
+        log.warning("The second factor of %s was sealed with a key that VIPO_SECRET_KEY does not name.", row.user_id)
         return False
+    totp = pyotp.TOTP(secret)
     here = int(now.timestamp()) // STEP_S
     found = [here + off for off in TOLERANCE if hmac.compare_digest(totp.generate_otp(here + off), digits)]
     rows = SecondFactor.objects.filter(pk=row.pk, secret=row.secret)
-    return any(rows.filter(last_step__lt=step).update(last_step=step) for step in found)
+    sealed = row.secret if is_of_today else _seal(secret)
+    return any(rows.filter(last_step__lt=step).update(last_step=step, secret=sealed) for step in found)
 
 
 def _take_recovery_code(user: User, code: str, now: datetime) -> bool:
@@ -219,13 +225,25 @@ def _hashes(user: User, code: str) -> list[str]:
 
 
 def _keys() -> list[str | bytes]:
-    return [settings.SECRET_KEY, *settings.SECRET_KEY_FALLBACKS]
+    return [settings.SECRET_KEY, *settings.VIPO_FORMER_KEYS]
 
 
-def _fernet() -> MultiFernet:
-    """Return what encrypts with the server's key, and reads by its former ones, too."""
+def _fernets() -> list[Fernet]:
+    """Return what encrypts with the server's key, and what reads by its former ones."""
     digests = (salted_hmac("vipo second factor", "", secret=key, algorithm="sha256").digest() for key in _keys())
-    return MultiFernet([Fernet(base64.urlsafe_b64encode(digest)) for digest in digests])
+    return [Fernet(base64.urlsafe_b64encode(digest)) for digest in digests]
+
+
+def _seal(secret: str) -> str:
+    return _fernets()[0].encrypt(secret.encode()).decode()
+
+
+def _unseal(sealed: str) -> tuple[str, bool]:
+    """Return a secret, and whether it was sealed with the server's key of today. Raises InvalidToken."""
+    for number, fernet in enumerate(_fernets()):
+        with suppress(InvalidToken):
+            return fernet.decrypt(sealed.encode()).decode(), number == 0
+    raise InvalidToken
 
 
 def _end_sessions(user: User) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 from datetime import datetime, timedelta
 from hashlib import sha256
 
-from cryptography.fernet import Fernet, InvalidToken
+from cryptography.fernet import Fernet, InvalidToken, MultiFernet
 from django.conf import settings
 from django.db import IntegrityError, transaction
 from django.utils import timezone
@@ -262,9 +262,15 @@ def replace_enrolment_key(*, site: str, key: str) -> str:
     return key
 
 
-def _seal() -> Fernet:
-    """Return what seals a key with the secret of this VIPO, so that the database alone does not tell it."""
-    return Fernet(urlsafe_b64encode(sha256(b"join-key:" + settings.SECRET_KEY.encode()).digest()))
+def _seal() -> MultiFernet:
+    """Return what seals a key with the secret of this VIPO, so that the database alone does not tell it.
+
+    What was sealed with a former secret is read, too.
+    """
+    secrets = (settings.SECRET_KEY, *settings.VIPO_FORMER_KEYS)
+    return MultiFernet(
+        [Fernet(urlsafe_b64encode(sha256(b"join-key:" + secret.encode()).digest())) for secret in secrets]
+    )
 
 
 def _unsealed(row: Site) -> str:

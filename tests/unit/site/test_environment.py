@@ -200,6 +200,14 @@ def test_secrets_are_read_from_files(tmp_path: Path, read_settings: ReadSettings
     assert gone.endswith("which cannot be read: No such file or directory.")
 
 
+def test_former_keys_stand_in_further_lines_and_sign_nothing(tmp_path: Path, read_settings: ReadSettings) -> None:
+    (tmp_path / "keys").write_text(f"{SERVED['VIPO_SECRET_KEY']}\n{'a former key of it, of the same length' * 2}\n\n")
+    named = {**SERVED, "VIPO_SECRET_KEY": None, "VIPO_SECRET_KEY_FILE": str(tmp_path / "keys")}
+    assert read_settings(named) == read_settings(dict(SERVED))
+    (tmp_path / "keys").write_text(f"{SERVED['VIPO_SECRET_KEY']}\nshort\n")
+    assert read_settings(named)[1] == "VIPO_SECRET_KEY can be guessed: take 32 random characters at least."
+
+
 @pytest.mark.parametrize(
     ("process", "needs_none_of"),
     [

@@ -173,12 +173,21 @@ def test_who_serves_vipo_resets_it(hall: str, capsys: pytest.CaptureFixture[str]
     assert "There is no second factor." in capsys.readouterr().err
 
 
-def test_a_former_key_of_the_server_still_reads_it(hall: str, settings: Settings) -> None:
-    secret, codes = set_up(signed_in("author"))
+def test_a_former_key_of_the_server_still_reads_it_and_is_needed_until_one_has_signed_in(
+    hall: str, settings: Settings
+) -> None:
+    before = signed_in("author")
+    secret, codes = set_up(before)
+    assert before.get("/api/sites").status_code == 200
     former, settings.SECRET_KEY = settings.SECRET_KEY, "another key of the server, as long as it should be 0123456789"
     assert refusal(sign_in(code_at(secret, 1))) == (422, "wrong_code")
-    settings.SECRET_KEY_FALLBACKS = [former]
-    assert [sign_in(code).status_code for code in (code_at(secret, 1), codes[0])] == [200, 200]
+    settings.VIPO_FORMER_KEYS = [former]
+    assert before.get("/api/sites").status_code == 401, "what the former key signed is worth nothing"
+    assert sign_in(codes[0]).status_code == 200
+    assert sign_in(code_at(secret, 1)).status_code == 200
+    settings.VIPO_FORMER_KEYS = []
+    SecondFactor.objects.update(last_step=0)
+    assert [sign_in(code).status_code for code in (codes[1], code_at(secret, 1))] == [422, 200]
 
 
 def test_a_step_that_was_taken_takes_none_before_it(hall: str) -> None:
