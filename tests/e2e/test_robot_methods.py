@@ -35,3 +35,17 @@ def test_a_robot_honks_without_a_line_of_code(sign_in: SignIn) -> None:
     start_run(page)
     expect(run_state(page)).to_contain_text("Finished")
     expect(page.get_by_text(re.compile("TurtleBot [123].*honk", re.IGNORECASE)).first).to_be_visible()
+
+
+def test_what_is_tried_again_in_one_dialog_can_be_cancelled_again(sign_in: SignIn) -> None:
+    page = sign_in("author", "/sites/painting-factory/devices/paintMixer02")
+    page.get_by_role("button", name="Try mixPaint").click()
+    dialog = page.get_by_role("dialog")
+    for parameter in dialog.get_by_role("textbox").all():
+        parameter.fill("9")
+    for _ in range(2):
+        dialog.get_by_role("button", name="Start").click()
+        dialog.get_by_role("button", name="Cancel it").click()
+        expect(dialog.get_by_text("Cancelled", exact=True)).to_be_visible()
+        expect(dialog.get_by_role("button", name="Cancel it")).to_have_count(0)
+    assert violations(page) == []

@@ -115,6 +115,7 @@ export function TryMethod({ site, device, method, onClose }: TryMethodProps) {
   const [problems, setProblems] = useState<Readonly<Record<string, Problem>>>({});
   const { start, cancel, call } = useCall(site.slug, device.id);
   const busy = start.isPending || (call !== null && !call.over);
+  const isEnding = cancel.isPending || (cancel.isSuccess && cancel.variables === call?.id);
   const submit = (event: FormEvent) => {
     event.preventDefault();
     if (busy) return;
@@ -151,11 +152,13 @@ export function TryMethod({ site, device, method, onClose }: TryMethodProps) {
             {problemText(start.error, t("shell.problem.screen"))}
           </Alert>
         ) : null}
+        {cancel.isError && cancel.variables === call?.id ? (
+          <Alert color="red" role="alert">
+            {problemText(cancel.error, t("shell.problem.screen"))}
+          </Alert>
+        ) : null}
         {call ? <CallProgress call={call} /> : null}
-        <Buttons
-          busy={busy}
-          cancel={busy && call && !cancel.isPending && !cancel.isSuccess ? () => cancel.mutate() : null}
-        />
+        <Buttons busy={busy} cancel={busy && call && !isEnding ? () => cancel.mutate(call.id) : null} />
       </form>
     </Modal>
   );
@@ -181,6 +184,6 @@ export function useCall(slug: string, device: string) {
     refetchInterval: (query) => (query.state.data?.over ? false : FOLLOW_MS),
     staleTime: 0,
   });
-  const cancel = useMutation({ mutationFn: () => api.post(`${path}/cancel`) });
+  const cancel = useMutation({ mutationFn: (id: string) => api.post(`/sites/${slug}/calls/${id}/cancel`) });
   return { start, cancel, call: start.data ? (followed.data ?? start.data) : null };
 }

@@ -48,11 +48,26 @@ test.each([
   expect(readArguments(method({}), { time: typed })).toEqual({ problems: { time: problem } });
 });
 
-test.each(["3", "3, x", "1 2 3 4 5"])("%s is no location", (typed) => {
-  expect(readArguments(method({ name: "to", type: "location" }), { to: typed })).toEqual({
-    problems: { to: "location" },
-  });
+test.each([
+  ["3,2; -4,1", [3.2, -4.1]],
+  ["3,2 -4,1", [3.2, -4.1]],
+  ["3.2,-4.1", [3.2, -4.1]],
+  ["3.2 , -4", [3.2, -4]],
+  ["3, 2", [3, 2]],
+  ["1, 2, 0, 1.5", [1, 2, 0, 1.5]],
+  [" 3;2; ", [3, 2]],
+])("%s is read as it is meant", (typed, to) => {
+  expect(readArguments(method({ name: "to", type: "location" }), { to: typed })).toEqual({ args: { to } });
 });
+
+test.each(["3", "3, x", "1 2 3 4 5", "3,2", "3,2,-4,1", "1, 2,5", "1.5 2,5", "1,2,3 4", "0x3 4", ","])(
+  "%s is no location",
+  (typed) => {
+    expect(readArguments(method({ name: "to", type: "location" }), { to: typed })).toEqual({
+      problems: { to: "location" },
+    });
+  },
+);
 
 test("a parameter may have the name of what every object has", () => {
   const one = method({ name: "constructor" });

@@ -33,12 +33,33 @@ export function readArguments(method: DeviceMethod, typed: Typed): Read {
 function readOne(parameter: MethodParameter, value: Scalar): { value: Argument } | { problem: Problem } {
   if (parameter.type === "number") return readNumber(parameter, Number(value));
   if (parameter.type !== "location") return { value };
-  const numbers = String(value)
-    .split(/[\s,;]+/)
-    .filter(Boolean)
-    .map(Number);
+  const numbers = readPoint(String(value));
   const fits = numbers.length >= 2 && numbers.length <= 4 && numbers.every(Number.isFinite);
   return fits ? { value: numbers } : { problem: "location" };
+}
+
+/**
+ * The numbers of a place as people write them; NaN where they can be read in two ways.
+ *
+ * A comma within a number is a decimal sign where blanks or semicolons part the numbers; without these, commas part
+ * them where points are there for the decimals.
+ */
+function readPoint(text: string): number[] {
+  const parts = text
+    .replace(/\s+,/g, ",")
+    .split(/[\s;]+/)
+    .filter(Boolean);
+  const bare = parts.map((part) => part.replace(/,$/, ""));
+  const hasPoint = text.includes(".");
+  if (parts.length === 1) return hasPoint ? bare[0]!.split(",").map(readWritten) : [NaN];
+  const hasDecimalComma = bare.some((part) => part.includes(","));
+  const hasPartingComma = parts.some((part, at) => part !== bare[at]);
+  if (hasDecimalComma && (hasPartingComma || hasPoint)) return [NaN];
+  return bare.map((part) => readWritten(part.replace(",", ".")));
+}
+
+function readWritten(text: string): number {
+  return /^[+-]?\d+(\.\d*)?$|^[+-]?\.\d+$/.test(text) ? Number(text) : NaN;
 }
 
 function readNumber({ minimum, maximum }: MethodParameter, value: number): { value: number } | { problem: Problem } {
