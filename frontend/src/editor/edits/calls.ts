@@ -4,7 +4,7 @@ import { moved, toCentimetre } from "./clipping";
 import type { Decision, Edit } from "./edits";
 import { type Position, type ProgramDocument, type Step, textOf } from "@/program/document/document";
 import { branchOf, neighbours, roomAt, type MakeId } from "./joints";
-import { substituted } from "./substitution";
+import { paramsWith } from "./substitution";
 import { EVENTS, readTree, withDescendants } from "@/program/document/tree";
 
 /** Make a function of the steps and call it where they stood; they must be neighbours in one branch. */
@@ -93,7 +93,7 @@ function expansionOf(document: ProgramDocument, call: Step, functionId: string, 
     steps.set(makeId(), { kind: "set", place: null, pos: call.pos, params: { variable: name, value } });
   const first = [...steps.keys()];
   for (const [old, id] of fresh) {
-    const copy = copyOf(document.steps[old], call, fresh, given.replace);
+    const copy = copyOf(document, old, call, fresh, given.replace);
     if (copy) steps.set(id, copy);
   }
   const order = tops.map((step) => fresh.get(step) ?? "").filter((step) => steps.has(step));
@@ -102,13 +102,15 @@ function expansionOf(document: ProgramDocument, call: Step, functionId: string, 
 
 /** A step of the body for its new place; the result goes to the call's variable. */
 function copyOf(
-  step: Step | undefined,
+  document: ProgramDocument,
+  old: string,
   call: Step,
   fresh: ReadonlyMap<string, string>,
   values: ReadonlyMap<string, unknown>,
 ): Step | null {
+  const step = document.steps[old];
   if (!step) return null;
-  const params = substituted(step.params, values) as Step["params"];
+  const params = paramsWith(document, old, step, values);
   const [parent, branch, order] = step.place ?? ["", "", ""];
   const place = [fresh.get(parent) ?? parent, branch, order] as const;
   if (step.kind !== "return") return { ...step, place, params };

@@ -1,7 +1,7 @@
-/** A parameter under another name, with everything that reads or gives it. */
-import { ownEntry } from "@/design/ownEntry";
+/** A parameter under another name, with everything that reads, sets or gives it. */
 import type { Edit } from "./edits";
-import { substituted } from "./substitution";
+import { namesSetIn, ownNames } from "./scopes";
+import { paramsWith } from "./substitution";
 import { ancestors } from "@/program/document/tree";
 import type { FunctionDefinition, Parameter, ProgramDocument } from "@/program/document/document";
 
@@ -24,7 +24,7 @@ export function changeParameter(
   const inside = (top: string) => top === functionId;
   return [
     change,
-    ...renameReads(document, before.name, next.name, inside),
+    ...renameIn(document, before.name, next.name, inside),
     ...renameArguments(document, functionId, before.name, next.name),
   ];
 }
@@ -34,23 +34,18 @@ export function changeProgramParameter(document: ProgramDocument, id: string, ne
   const before = document.parameters[id];
   const change: Edit = { do: "set_parameter", id, value: next };
   if (!before || before.name === next.name) return [change];
-  const shadowed = (top: string) =>
-    ownEntry(document.functions, top)?.parameters.some((each) => each.name === before.name);
-  return [change, ...renameReads(document, before.name, next.name, (top) => !shadowed(top))];
+  const set = namesSetIn(document);
+  const hiding = Object.keys(document.functions).filter((each) => ownNames(document, each, set).has(before.name));
+  return [change, ...renameIn(document, before.name, next.name, (top) => !hiding.includes(top))];
 }
 
-function renameReads(
-  document: ProgramDocument,
-  before: string,
-  after: string,
-  applies: (top: string) => boolean,
-): Edit[] {
+/** The steps that read or set the name, but for those in a loop that has it for itself. */
+function renameIn(document: ProgramDocument, before: string, after: string, applies: (top: string) => boolean): Edit[] {
   const names = new Map([[before, { param: after }]]);
   return Object.entries(document.steps).flatMap(([id, step]) => {
     if (!applies(ancestors(document, id).at(-1) ?? "")) return [];
-    return Object.entries(step.params).flatMap(([name, value]): Edit[] => {
-      const next = substituted(value, names);
-      return JSON.stringify(next) === JSON.stringify(value) ? [] : [{ do: "set_param", id, name, value: next }];
+    return Object.entries(paramsWith(document, id, step, names)).flatMap(([name, value]): Edit[] => {
+      return JSON.stringify(value) === JSON.stringify(step.params[name]) ? [] : [{ do: "set_param", id, name, value }];
     });
   });
 }

@@ -1,6 +1,28 @@
-/** Values put in for the names of parameters, wherever they stand in a step's parameters. */
+/** Values put in for names, wherever a step's parameters read or set them. */
+import { textOf, type ProgramDocument, type Step } from "@/program/document/document";
+import { namesOfLoops, settingFields } from "./scopes";
 
-export function substituted(value: unknown, values: ReadonlyMap<string, unknown>): unknown {
+/**
+ * The parameters of a step with values for the names that it reads. Where the value is another name, what sets the
+ * old one sets that. Names that a loop around the step gives are the loop's, and stay.
+ */
+export function paramsWith(
+  document: ProgramDocument,
+  id: string,
+  step: Step,
+  values: ReadonlyMap<string, unknown>,
+): Step["params"] {
+  const ofLoops = namesOfLoops(document, id);
+  const meant = new Map([...values].filter(([name]) => !ofLoops.has(name)));
+  const params = substituted(step.params, meant) as Step["params"];
+  const renamed = settingFields(step).flatMap((field) => {
+    const name = parameterOf(meant.get(textOf(step.params[field])));
+    return name === null ? [] : [[field, name] as const];
+  });
+  return { ...params, ...Object.fromEntries(renamed) };
+}
+
+function substituted(value: unknown, values: ReadonlyMap<string, unknown>): unknown {
   if (Array.isArray(value)) return value.map((item) => substituted(item, values));
   if (typeof value !== "object" || value === null) return value;
   const name = parameterOf(value);
@@ -13,9 +35,9 @@ export function substituted(value: unknown, values: ReadonlyMap<string, unknown>
   );
 }
 
-function parameterOf(value: object): string | null {
-  const keys = Object.keys(value);
-  return keys.length === 1 && "param" in value && typeof value.param === "string" ? value.param : null;
+function parameterOf(value: unknown): string | null {
+  if (typeof value !== "object" || value === null || Object.keys(value).length !== 1) return null;
+  return "param" in value && typeof value.param === "string" ? value.param : null;
 }
 
 /** A reading names its device by id alone, where an argument is `{device}`. */
