@@ -24,7 +24,16 @@ export type Edit =
   | { readonly do: "set_start"; readonly pos: Position };
 
 /** Why a gesture changes nothing; a key of the catalogue. */
-export type Refusal = "cycle" | "one_branch" | "event" | "drafts" | "no_frame" | "not_inside" | "returns" | "nothing";
+export type Refusal =
+  | "cycle"
+  | "one_branch"
+  | "event"
+  | "drafts"
+  | "no_frame"
+  | "not_inside"
+  | "returns"
+  | "hidden"
+  | "nothing";
 
 /** A gesture's outcome: what to change, or why nothing changes. */
 export type Decision = { readonly edits: readonly Edit[] } | { readonly refused: Refusal };

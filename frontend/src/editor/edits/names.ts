@@ -44,7 +44,7 @@ function renameIn(document: ProgramDocument, before: string, after: string, appl
   const names = new Map([[before, { param: after }]]);
   return Object.entries(document.steps).flatMap(([id, step]) => {
     if (!applies(ancestors(document, id).at(-1) ?? "")) return [];
-    return Object.entries(paramsWith(document, id, step, names)).flatMap(([name, value]): Edit[] => {
+    return Object.entries(paramsWith(document, id, names)).flatMap(([name, value]): Edit[] => {
       return JSON.stringify(value) === JSON.stringify(step.params[name]) ? [] : [{ do: "set_param", id, name, value }];
     });
   });

@@ -51,3 +51,25 @@ export function ownNames(
   const locals = [...(set.get(functionId) ?? NOTHING)].filter((name) => !ofProgram.has(name));
   return new Set([...parameters.map(({ name }) => name), ...locals]);
 }
+
+/** All names that steps set, loops give and parameters have, without those of one function and its body. */
+export function namesBeside(document: ProgramDocument, functionId: string | null): ReadonlySet<string> {
+  const others = Object.entries(document.functions).filter(([id]) => id !== functionId);
+  const parameters = [...Object.values(document.parameters), ...others.flatMap(([, each]) => each.parameters)];
+  const steps = Object.entries(document.steps).filter(
+    ([id]) => functionId === null || ancestors(document, id).at(-1) !== functionId,
+  );
+  const named = steps.flatMap(([, step]) => [
+    ...loopNames(step),
+    ...settingFields(step).map((field) => textOf(step.params[field])),
+  ]);
+  return new Set([...parameters.map(({ name }) => name), ...named]);
+}
+
+/** The name itself, or with the first number that makes it one of its own. */
+export function numbered(stem: string, taken: ReadonlySet<string>): string {
+  for (let count = 1; ; count += 1) {
+    const name = count === 1 ? stem : `${stem}${count}`;
+    if (!taken.has(name)) return name;
+  }
+}

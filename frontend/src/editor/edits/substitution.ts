@@ -3,15 +3,16 @@ import { textOf, type ProgramDocument, type Step } from "@/program/document/docu
 import { namesOfLoops, settingFields } from "./scopes";
 
 /**
- * The parameters of a step with values for the names that it reads. Where the value is another name, what sets the
+ * The parameters of a step of the document with values for the names that it reads. Where the value is another name, what sets the
  * old one sets that. Names that a loop around the step gives are the loop's, and stay.
  */
 export function paramsWith(
   document: ProgramDocument,
   id: string,
-  step: Step,
   values: ReadonlyMap<string, unknown>,
 ): Step["params"] {
+  const step = document.steps[id];
+  if (!step) return {};
   const ofLoops = namesOfLoops(document, id);
   const meant = new Map([...values].filter(([name]) => !ofLoops.has(name)));
   const params = substituted(step.params, meant) as Step["params"];

@@ -95,3 +95,8 @@ test("a step in a further catch knows the problem", () => {
   const problem = (id: string) => knownNames(document, id).some(({ name }) => name === "problem.kind");
   expect([problem("tell"), problem("work")]).toEqual([true, false]);
 });
+
+test("a fresh name is no parameter of a function either", () => {
+  const functions = { f: { name: "f", parameters: [{ name: "item", type: "number" }] } };
+  expect(freshName({ ...EMPTY_DOCUMENT, functions }, "item")).toBe("item2");
+});

@@ -1,6 +1,7 @@
 /** The names that a step can read: loop variables, parameters and what is set anywhere; none is declared. */
 import { isCatch } from "@/program/document/catches";
 import { ancestors } from "@/program/document/tree";
+import { namesBeside, numbered } from "./scopes";
 import type { Answer, Parameter, ProgramDocument, Step } from "@/program/document/document";
 
 /** Nearest first: loops and catches around the step, its function's parameters, what is set, the program's parameters. */
@@ -34,15 +35,7 @@ export function namesSet(document: ProgramDocument, functionId: string | null): 
 
 /** A name that nothing has yet: "item", "item2", … */
 export function freshName(document: ProgramDocument, stem: string): string {
-  const taken = new Set(
-    Object.values(document.steps)
-      .flatMap((step) => [step.params.variable ?? step.params.result, step.params.index])
-      .concat(Object.values(document.parameters).map((parameter) => parameter.name)),
-  );
-  for (let count = 1; ; count += 1) {
-    const name = count === 1 ? stem : `${stem}${count}`;
-    if (!taken.has(name)) return name;
-  }
+  return numbered(stem, namesBeside(document, null));
 }
 
 /** A name as the script can have it. */
