@@ -6,32 +6,54 @@ import {
   type ProgramDocument,
   type Role,
   type Step,
+  type Zone,
 } from "@/program/document/document";
 import { endOfBranch, roomAt, type Goal, type MakeId } from "./joints";
-import { roleOfStep } from "@/program/operation";
+import { DEFAULT_ROLE, givenToRole, roleOfStep } from "@/program/operation";
 import { EVENTS, outermost, readTree, withDescendants, type ProgramTree } from "@/program/document/tree";
+import { paramsWithIds, withIds } from "./substitution";
+import { idsNamedBy } from "./uses";
 
-/** Steps with all inside them, the functions they call with their bodies, and the roles they name. */
+/** Steps with all inside them, the functions they call with their bodies, and the roles and zones that they name. */
 export interface Clipping {
+  /** The program that they were cut out of, where that is known. */
+  readonly program?: string;
   readonly steps: Readonly<Record<string, Step>>;
   /** Those that stand in no other one, in their order. */
   readonly outer: readonly string[];
   readonly functions: Readonly<Record<string, FunctionDefinition>>;
   readonly bodies: Readonly<Record<string, Step>>;
   readonly roles: Readonly<Record<string, Role>>;
+  readonly zones: Readonly<Record<string, Zone>>;
 }
 
 const MARK = "vipo steps 2";
 
-export function clip(document: ProgramDocument, ids: readonly string[]): Clipping {
+export function clip(document: ProgramDocument, ids: readonly string[], program?: string): Clipping {
   const outer = sortByReading(readTree(document), outermost(document, ids));
   const steps = pickSteps(document, withDescendants(document, outer));
   const functions = calledBy(document, Object.values(steps));
   const bodies = pickSteps(document, bodiesOf(document, functions));
-  const named = [...Object.values(steps), ...Object.values(bodies)].map((step) => roleOfStep(step) ?? "");
-  const roles = Object.fromEntries(Object.entries(document.roles).filter(([id]) => named.includes(id)));
+  const all = [...Object.values(steps), ...Object.values(bodies)];
   const definitions = Object.entries(document.functions).filter(([id]) => functions.has(id));
-  return { steps, outer, functions: Object.fromEntries(definitions), bodies, roles };
+  return {
+    ...(program === undefined ? {} : { program }),
+    steps,
+    outer,
+    functions: Object.fromEntries(definitions),
+    bodies,
+    roles: namedOf(document.roles, all, "role"),
+    zones: namedOf(document.zones, all, "zone"),
+  };
+}
+
+function namedOf<T>(
+  known: Readonly<Record<string, T>>,
+  steps: readonly Step[],
+  key: "role" | "zone",
+): Record<string, T> {
+  const named = new Set(steps.flatMap((step) => [...idsNamedBy(step, key)]));
+  return Object.fromEntries(Object.entries(known).filter(([id]) => named.has(id)));
 }
 
 export function clippingToText(clipping: Clipping): string {
@@ -42,11 +64,19 @@ export function clippingToText(clipping: Clipping): string {
 export function clippingFromText(text: string): Clipping | null {
   if (!text.includes(MARK)) return null;
   try {
-    const { type, steps, outer, functions, bodies, roles } = JSON.parse(text) as { type?: string } & Clipping;
-    const whole = [steps, functions, bodies, roles].every((part) => typeof part === "object" && part);
+    const {
+      type,
+      zones = {},
+      ...rest
+    } = JSON.parse(text) as { type?: string } & Omit<Clipping, "zones"> & {
+        /** Missing in what was copied before clippings had them. */
+        zones?: Clipping["zones"];
+      };
+    const { program, steps, outer, functions, bodies, roles } = rest;
+    const whole = [steps, functions, bodies, roles, zones].every((part) => typeof part === "object" && part);
     const sound = type === MARK && whole && Array.isArray(outer) && outer.every((id: string) => isStep(steps[id]));
     const all = sound && [...Object.values(steps), ...Object.values(bodies)].every(isStep);
-    return all ? { steps, outer, functions, bodies, roles } : null;
+    return all ? { ...(program ? { program } : {}), steps, outer, functions, bodies, roles, zones } : null;
   } catch {
     return null;
   }
@@ -90,25 +120,35 @@ export function sortByReading(tree: ProgramTree, ids: readonly string[]): string
   return [...ids].sort((one, other) => (order.get(one) ?? 0) - (order.get(other) ?? 0));
 }
 
-/** Put copies with ids of their own at a goal, a little beside the originals. */
+/** How far copies stand from their originals, in metres. */
+const BESIDE: Position = [0.5, -0.5];
+
+/**
+ * Put copies with ids of their own at a goal of a program, a little beside the originals. What their own program calls
+ * by an id is what it has under it now; in another one what has that id and is something else stays as it is.
+ */
 export function paste(
   document: ProgramDocument,
   clipping: Clipping,
   goal: Goal,
   makeId: MakeId,
-  offset: Position = [0.5, -0.5],
+  here = clipping.program,
 ): { edits: Edit[]; added: string[] } {
   const fresh = new Map(Object.keys(clipping.steps).map((id) => [id, makeId()]));
+  const missing = missingFunctions(document, clipping);
+  const brought = [...Object.values(clipping.steps), ...Object.values(missing.bodies)];
+  const company = companyOf(document, clipping, brought, here === clipping.program, makeId);
   const copies = Object.entries(clipping.steps).map(([id, step]): Edit => {
     const inner = clipping.outer.includes(id) ? null : placeInCopy(step, fresh);
-    return { do: "add_step", id: fresh.get(id) ?? id, step: moved({ ...step, place: inner }, offset) };
+    const copy = withOthers({ ...step, place: inner }, company.others);
+    return { do: "add_step", id: fresh.get(id) ?? id, step: moved(copy, BESIDE) };
   });
   const among = (id: string) => fresh.get(id) ?? id;
   const places = [
     ...placesFor(document, clipping, goal, among, (kind) => kind !== "comment" && kind !== "on_event"),
     ...placesFor(document, clipping, endOfBranch(document, EVENTS), among, (kind) => kind === "on_event"),
   ];
-  const edits = [...missingRoles(document, clipping), ...missingFunctions(document, clipping, makeId), ...copies];
+  const edits = [...company.edits, ...functionEdits(missing, company.others, makeId), ...copies];
   return { edits: [...edits, ...places], added: clipping.outer.map((id) => fresh.get(id) ?? id) };
 }
 
@@ -132,23 +172,112 @@ function placesFor(
   ];
 }
 
-function missingRoles(document: ProgramDocument, clipping: Clipping): Edit[] {
-  const missing = Object.entries(clipping.roles).filter(([id]) => !(id in document.roles));
-  return missing.map(([id, value]) => ({ do: "set_role", id, value }));
+/** What steps name and the program lacks, and other ids for what it has under the same ids for something else. */
+interface Company {
+  readonly edits: readonly Edit[];
+  readonly others: Others;
+}
+type Others = Readonly<Record<"role" | "zone", ReadonlyMap<string, string>>>;
+
+function companyOf(
+  document: ProgramDocument,
+  clipping: Clipping,
+  brought: readonly Step[],
+  own: boolean,
+  makeId: MakeId,
+): Company {
+  const isTaken = (id: string) => id === DEFAULT_ROLE && isNamed(document, id);
+  const roles = meeting<Role>(namedOf(clipping.roles, brought, "role"), document.roles, makeId, {
+    stays: (id) => id in document.roles || (own && isTaken(id)),
+    isTaken,
+    // Of one robot, or of robots that can do and must meet the same.
+    isAlike: (one, other) => (other.device ? one.device === other.device : isEqual(one, other)),
+  });
+  const zones = meeting<Zone>(namedOf(clipping.zones, brought, "zone"), document.zones, makeId, {
+    stays: (id, zone) => id in document.zones && (own || isEqual(document.zones[id], zone)),
+    isTaken: (id) => id in document.zones,
+    isAlike: isEqual,
+  });
+  return {
+    edits: [
+      ...roles.fresh.map(([id, other, role]): Edit => ({ do: "set_role", id: other, value: roleAs(role, id, other) })),
+      ...zones.fresh.map(([, other, zone]): Edit => ({ do: "set_zone", id: other, value: zone })),
+    ],
+    others: { role: roles.others, zone: zones.others },
+  };
 }
 
-/** Functions that the document does not have come with their bodies. */
-function missingFunctions(document: ProgramDocument, clipping: Clipping, makeId: MakeId): Edit[] {
-  const missing = Object.entries(clipping.functions).filter(([id]) => !(id in document.functions));
-  const kept = new Map(missing.map(([id]) => [id, id]));
-  const fresh = new Map([...kept, ...Object.keys(clipping.bodies).map((id) => [id, makeId()] as const)]);
-  const bodies = Object.entries(clipping.bodies).flatMap(([id, step]): Edit[] => {
-    const belongs = topOf(clipping.bodies, step);
-    return kept.has(belongs)
-      ? [{ do: "add_step", id: fresh.get(id) ?? id, step: { ...step, place: placeInCopy(step, fresh) } }]
-      : [];
-  });
-  return [...missing.map(([id, value]): Edit => ({ do: "set_function", id, value })), ...bodies];
+interface Rules<T> {
+  /** What is there under the id is meant. */
+  readonly stays: (id: string, value: T) => boolean;
+  /** Something else has the id. */
+  readonly isTaken: (id: string) => boolean;
+  readonly isAlike: (one: T, other: T) => boolean;
+}
+
+/** What comes in, each with its id before and now, and the ids by which the steps have to name what they named. */
+function meeting<T>(
+  wanted: Readonly<Record<string, T>>,
+  there: Readonly<Record<string, T>>,
+  makeId: MakeId,
+  { stays, isTaken, isAlike }: Rules<T>,
+): { fresh: [id: string, other: string, value: T][]; others: Map<string, string> } {
+  const fresh: [string, string, T][] = [];
+  const others = new Map<string, string>();
+  for (const [id, value] of Object.entries(wanted)) {
+    if (stays(id, value)) continue;
+    const alike = isTaken(id) ? Object.entries(there).find(([, each]) => isAlike(each, value))?.[0] : undefined;
+    const other = alike ?? (isTaken(id) ? makeId() : id);
+    if (other !== id) others.set(id, other);
+    if (alike === undefined) fresh.push([id, other, value]);
+  }
+  return { fresh, others };
+}
+
+/** The role under another id, which its own condition names, too. */
+function roleAs(role: Role, id: string, other: string): Role {
+  if (other === id) return role;
+  return withIds({ ...role, name: role.name ?? id }, (each) => (each === id ? other : each)) as Role;
+}
+
+/** Every program has the usual role, though it says nothing of it: it is taken by the steps that have it. */
+function isNamed(document: ProgramDocument, role: string): boolean {
+  return Object.values(document.steps).some((step) => idsNamedBy(step, "role").has(role));
+}
+
+function isEqual(one: unknown, other: unknown): boolean {
+  return JSON.stringify(one) === JSON.stringify(other);
+}
+
+function withOthers(step: Step, others: Others): Step {
+  const params = paramsWithIds(step.params, (id, key) => (key === "function" ? id : (others[key].get(id) ?? id)));
+  const role = others.role.get(roleOfStep(step) ?? "");
+  if (role === undefined) return { ...step, params };
+  const { name, value } = givenToRole(step, role);
+  return { ...step, params: { ...params, [name]: value } };
+}
+
+type Missing = Pick<Clipping, "functions" | "bodies">;
+
+/** Functions that the document does not have, with their bodies. */
+function missingFunctions(document: ProgramDocument, { functions, bodies }: Clipping): Missing {
+  const missing = Object.fromEntries(Object.entries(functions).filter(([id]) => !(id in document.functions)));
+  return {
+    functions: missing,
+    bodies: Object.fromEntries(Object.entries(bodies).filter(([, step]) => topOf(bodies, step) in missing)),
+  };
+}
+
+function functionEdits({ functions, bodies }: Missing, others: Others, makeId: MakeId): Edit[] {
+  const kept = Object.keys(functions).map((id) => [id, id] as const);
+  const fresh = new Map([...kept, ...Object.keys(bodies).map((id) => [id, makeId()] as const)]);
+  return [
+    ...Object.entries(functions).map(([id, value]): Edit => ({ do: "set_function", id, value })),
+    ...Object.entries(bodies).map(([id, step]): Edit => {
+      const copy = withOthers({ ...step, place: placeInCopy(step, fresh) }, others);
+      return { do: "add_step", id: fresh.get(id) ?? id, step: copy };
+    }),
+  ];
 }
 
 /** The function that a step of a body stands in. */

@@ -64,6 +64,7 @@ test("roles and zones come in with the function; what is there under the same na
     functions: {},
     steps: {
       go: { kind: "move", place: ["f", "body", "A"], params: { role: "porter", to: { at: { role: "lifter" } } } },
+      call: { kind: "call", place: ["f", "body", "C"], params: { function: "f", args: { role: "porter" } } },
       clean: { kind: "cover", place: ["f", "body", "B"], params: { role: "robot", zone: "z" } },
     },
     roles: { porter: { name: "Porter", can: ["pick"] }, lifter: { name: "Lifter", can: ["lift"] } },
@@ -81,6 +82,8 @@ test("roles and zones come in with the function; what is there under the same na
   expect(after.roles.porter).toEqual({ name: "Doorkeeper", can: [] });
   expect(after.roles[porter]).toEqual({ name: "Porter", can: ["pick"] });
   expect(go?.params.to).toEqual({ at: { role: "lifter" } });
+  const [call] = Object.values(after.steps).filter((step) => step.kind === "call");
+  expect(call?.params.args).toEqual({ role: "porter" });
   expect(Object.keys(after.roles)).toHaveLength(3);
   expect(after.zones).toEqual({ z: zone });
 });

@@ -2,6 +2,7 @@
 import type { Edit } from "./edits";
 import type { FunctionDefinition, ProgramDocument, Role, Step, Zone } from "@/program/document/document";
 import { deleteSteps, type MakeId } from "./joints";
+import { paramsWithIds } from "./substitution";
 
 /** A function cut out of a program: its body and the functions that it calls. */
 export interface CutOut {
@@ -79,15 +80,10 @@ export function replaceFunction(
   return [...deleteSteps(document, body), ...importFunction(document, cut, source, makeId, functionId).edits];
 }
 
-const NAMING: readonly string[] = ["function", "role", "zone"];
-
 function renameStep(step: Step, renamed: (id: string) => string): Step {
-  const params = JSON.stringify(step.params, (key, value: unknown) =>
-    NAMING.includes(key) && typeof value === "string" ? renamed(value) : value,
-  );
   return {
     ...step,
     place: step.place ? [renamed(step.place[0]), step.place[1], step.place[2]] : null,
-    params: JSON.parse(params) as Step["params"],
+    params: paramsWithIds(step.params, renamed),
   };
 }

@@ -1,4 +1,4 @@
-/** Values put in for names, wherever a step's parameters read or set them. */
+/** Values put in for names, and ids for other ids, wherever a step's parameters have them. */
 import { textOf, type ProgramDocument, type Step } from "@/program/document/document";
 import { namesOfLoops, settingFields } from "./scopes";
 
@@ -47,4 +47,29 @@ function readingOf(reading: readonly unknown[], values: ReadonlyMap<string, unkn
   const given = substituted(device, values);
   const named = typeof given === "object" && given !== null && "device" in given ? given.device : given;
   return [named, ...rest];
+}
+
+/** The keys of parameters and values that hold an id of the program. */
+export type IdKey = "function" | "role" | "zone";
+const ID_KEYS: readonly string[] = ["function", "role", "zone"] satisfies IdKey[];
+
+/** Parameters with other ids for functions, roles and zones; what arguments are called does not count. */
+export function paramsWithIds(params: Step["params"], other: (id: string, key: IdKey) => string): Step["params"] {
+  return Object.fromEntries<unknown>(
+    Object.entries(params).map(([name, value]) => {
+      if (name !== "args" || typeof value !== "object" || value === null) return [name, idIn(name, value, other)];
+      return [name, Object.fromEntries(Object.entries(value).map(([each, given]) => [each, withIds(given, other)]))];
+    }),
+  );
+}
+
+function idIn(key: string, value: unknown, other: (id: string, key: IdKey) => string): unknown {
+  return ID_KEYS.includes(key) && typeof value === "string" ? other(value, key as IdKey) : withIds(value, other);
+}
+
+/** A value with other ids in it. */
+export function withIds(value: unknown, other: (id: string, key: IdKey) => string): unknown {
+  if (Array.isArray(value)) return value.map((item) => withIds(item, other));
+  if (typeof value !== "object" || value === null) return value;
+  return Object.fromEntries(Object.entries(value).map(([key, item]) => [key, idIn(key, item, other)]));
 }

@@ -18,6 +18,8 @@ const document: ProgramDocument = {
     why: step("notify", { message: { param: "problem.text" } }),
     mix: step("call", { function: "f1", args: {}, result: "shade" }),
     clean: step("cover", { role: "other", zone: "z1" }),
+    inside: step("if", { condition: { op: "in", args: [{ at: { role: "robot" } }, { zone: "z1" }] } }),
+    named: step("call", { function: "f1", args: { zone: "z1", role: "other" } }),
   },
 };
 
@@ -29,8 +31,8 @@ test("a device is used by the steps that name it, read it, or are done by the ro
 
 test("places, zones and functions are used where they are named", () => {
   expect(usesOf(document, { kind: "place", id: "door" })).toEqual(["drive"]);
-  expect(usesOf(document, { kind: "zone", id: "z1" })).toEqual(["clean"]);
-  expect(usesOf(document, { kind: "function", id: "f1" })).toEqual(["mix"]);
+  expect(usesOf(document, { kind: "zone", id: "z1" })).toEqual(["clean", "inside"]);
+  expect(usesOf(document, { kind: "function", id: "f1" })).toEqual(["mix", "named"]);
 });
 
 test("a variable is used where it is set and where it is read, and all names are found", () => {

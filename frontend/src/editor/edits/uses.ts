@@ -30,12 +30,24 @@ export function variablesOf(document: ProgramDocument): string[] {
   return [...found].sort();
 }
 
+/** The roles or zones that a step names, the role that it has without saying so among them. */
+export function idsNamedBy(step: Step, key: "role" | "zone"): ReadonlySet<string> {
+  const { args, ...params } = step.params;
+  const usual = key === "role" ? roleOfStep(step) : null;
+  const found = new Set(usual === null ? [] : [usual]);
+  look([params, Object.values(args ?? {})], (name, value) => {
+    if (name === key && typeof value === "string" && value) found.add(value);
+    return false;
+  });
+  return found;
+}
+
 /** The parameters by which steps give a value to a name. */
 const SETS = ["variable", "result", "index"];
 
 function names(document: ProgramDocument, step: Step, { kind, id }: Used): boolean {
   if (kind === "function") return step.kind === "call" && step.params.function === id;
-  if (kind === "zone") return step.params.zone === id;
+  if (kind === "zone") return idsNamedBy(step, kind).has(id);
   if (kind === "variable") return SETS.some((key) => step.params[key] === id) || reads(step.params, id);
   if (kind === "device" && boundTo(document, step, id)) return true;
   return look(step.params, (key, value) => (key === kind && value === id) || isReadingOf(key, value, id));

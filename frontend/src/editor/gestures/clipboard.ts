@@ -4,7 +4,7 @@ import { clippingOf } from "@/api/localCopies";
 import { useKeymap } from "@/shell/keys/keymap";
 import { clip, type Clipping, clippingFromText, clippingToText } from "../edits/clipping";
 import { clippedScript } from "../script/clippedScript";
-import { copySelected, pasteClipping, removeSelected } from "../state/actions";
+import { pasteClipping, removeSelected } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { isTyping } from "../state/focus";
 import type { Names } from "../state/putting";
@@ -20,11 +20,11 @@ function takeSelected(open: OpenProgram, cut: boolean): string | null {
   const { document, apply, canEdit } = open;
   const { selected } = useUi.getState();
   if (selected.length === 0) return null;
-  const clipping = clip(document, selected);
+  const clipping = clip(document, selected, open.program.id);
   const drawn = clippingToText(clipping);
   const text = scriptOf(open, clipping) ?? drawn;
   keepDrawn({ text, drawn, names: namesOf(open) });
-  copySelected(document);
+  useUi.setState({ clipboard: clipping });
   if (cut && canEdit) removeSelected(document, apply);
   return text;
 }

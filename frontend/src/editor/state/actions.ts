@@ -53,11 +53,6 @@ export function removeSelected(document: ProgramDocument, apply: Apply): number 
   return edits.length;
 }
 
-export function copySelected(document: ProgramDocument): void {
-  const { selected } = useUi.getState();
-  if (selected.length > 0) useUi.setState({ clipboard: clip(document, selected) });
-}
-
 export function duplicateSelected(document: ProgramDocument, apply: Apply): void {
   const { selected } = useUi.getState();
   if (selected.length === 0) return;
@@ -67,13 +62,13 @@ export function duplicateSelected(document: ProgramDocument, apply: Apply): void
 }
 
 /** Copies go behind the selected step, else to the end of the branch. */
-function copiesOf(document: ProgramDocument, clipping: Clipping): ReturnType<typeof paste> {
-  return paste(document, clipping, goalNow(document), makeId);
+function copiesOf(document: ProgramDocument, clipping: Clipping, here?: string): ReturnType<typeof paste> {
+  return paste(document, clipping, goalNow(document), makeId, here);
 }
 
 /** Put steps from the clipboard into the program; devices that are not known here are asked for. */
 export function pasteClipping(open: OpenProgram, clipping: Clipping, names: Names): void {
-  const { edits, added } = copiesOf(open.document, clipping);
+  const { edits, added } = copiesOf(open.document, clipping, open.program.id);
   putEdits(open, edits, added, names);
 }
 
