@@ -110,3 +110,15 @@ test("what is left open is a hole: a field without a value, a condition as a who
   expect(params(put, "each")).toEqual({ variable: "v", items: [{ device: "here" }] });
   expect(put[0]).toEqual({ do: "set_role", id: "r", value: { name: "Robot" } });
 });
+
+test("the device that opens a passage is asked for, and left open it is left out", () => {
+  const open = { name: "Gate", rule: "door" as const, points: [] };
+  const zone = { ...open, door: "gate9" };
+  const edits: readonly Edit[] = [{ do: "set_zone", id: "z", value: zone }];
+  const [gate] = strangersIn(edits, KNOWN);
+  expect([gate?.id, gate?.needs.methods]).toEqual(["gate9", ["open"]]);
+  expect(withChosen(edits, new Map([["gate9", "gate"]]))).toEqual([
+    { do: "set_zone", id: "z", value: { ...zone, door: "gate" } },
+  ]);
+  expect(withChosen(edits, new Map([["gate9", null]]))).toEqual([{ do: "set_zone", id: "z", value: open }]);
+});

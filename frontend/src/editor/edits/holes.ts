@@ -1,6 +1,6 @@
 /** Devices and places of another site in steps that are put into this one: which they are, what they must be able to
 do, what fits best here, and the steps with others in their stead or with a hole where nobody is. Pure. */
-import { textOf, type Role, type Step } from "@/program/document/document";
+import { textOf, type Role, type Step, type Zone } from "@/program/document/document";
 import { operatedRole, roleOfStep } from "@/program/operation";
 import type { SiteDevice } from "@/program/surroundings";
 import type { Edit } from "./edits";
@@ -44,6 +44,7 @@ export function strangersIn(edits: readonly Edit[], known: Known): Stranger[] {
   };
   const roles = rolesOf(edits);
   for (const [, role] of roles) if (role.device) meet("device", role.device, { robot: true });
+  for (const door of doorsOf(edits)) meet("device", door, { methods: ["open"] });
   for (const step of stepsOf(edits)) meetStep(step, roles, meet);
   return [...found.values()];
 }
@@ -89,6 +90,10 @@ function rolesOf(edits: readonly Edit[]): ReadonlyMap<string, Role> {
   return new Map(
     edits.flatMap((edit) => (edit.do === "set_role" && edit.value ? [[edit.id, edit.value] as const] : [])),
   );
+}
+
+function doorsOf(edits: readonly Edit[]): string[] {
+  return edits.flatMap((edit) => (edit.do === "set_zone" && edit.value?.door ? [edit.value.door] : []));
 }
 
 function stepsOf(edits: readonly Edit[]): Step[] {
@@ -164,11 +169,19 @@ export function withChosen(edits: readonly Edit[], chosen: Chosen): Edit[] {
     if (edit.do === "add_step")
       return { ...edit, step: { ...edit.step, params: filledParams(edit.step.params, chosen) } };
     if (edit.do === "set_param") return { ...edit, value: filled(edit.value, chosen) ?? null };
-    if (edit.do !== "set_role" || !edit.value?.device || !chosen.has(edit.value.device)) return edit;
-    const { device, ...role } = edit.value;
-    const other = chosen.get(device);
-    return { ...edit, value: other ? { ...role, device: other } : role };
+    if (edit.do === "set_role" && edit.value) return { ...edit, value: withDevice(edit.value, "device", chosen) };
+    if (edit.do === "set_zone" && edit.value) return { ...edit, value: withDevice(edit.value, "door", chosen) };
+    return edit;
   });
+}
+
+/** A role or a zone with what was chosen for the device that it names. */
+function withDevice<T extends Role | Zone>(value: T, key: keyof T, chosen: Chosen): T {
+  const other = chosen.get(String(value[key]));
+  if (other === undefined) return value;
+  return Object.fromEntries(
+    Object.entries({ ...value, [key]: other }).filter(([name]) => name !== key || other !== null),
+  ) as T;
 }
 
 function filledParams(params: Step["params"], chosen: Chosen): Step["params"] {
