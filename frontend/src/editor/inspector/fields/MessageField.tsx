@@ -1,7 +1,7 @@
 /** A sentence for people with values in it: known names and readings are put in with braces around them. */
 import { Select, Textarea } from "@mantine/core";
 import { useEffect, useMemo, useRef, useState } from "react";
-import { insertsOf, messageFrom, messageText, type Insert } from "../../edits/message";
+import { insertsFor, messageFrom, messageText, type Insert } from "../../edits/message";
 import type { Value } from "@/program/document/document";
 import { readingsOfRoles } from "@/program/robotReadings";
 import { valueText } from "@/program/words/stepWords";
@@ -17,14 +17,23 @@ function useMessage(field: string) {
   const { step, set } = useStepEditor();
   const value = step.params[field] as Value | undefined;
   const labelOf = useMemo(() => (each: Value) => valueText(each, { ...speaker, full: true }) ?? "?", [speaker]);
-  const stored = messageText(value, labelOf) ?? "";
-  const groups = useInserts();
+  const offered = useOffered();
+  const inserts = useMemo(
+    () =>
+      insertsFor(
+        value,
+        offered.flatMap((each) => each.inserts),
+        labelOf,
+      ),
+    [value, offered, labelOf],
+  );
+  const stored = messageText(value, inserts);
   const [text, setText] = useState(stored);
   useEffect(() => setText(stored), [stored]);
   const area = useRef<HTMLTextAreaElement>(null);
   const keep = (next: string) => {
     if (next === stored) return;
-    set(field, messageFrom(next, [...groups.flatMap((each) => each.inserts), ...insertsOf(value, labelOf)]));
+    set(field, messageFrom(next, inserts));
   };
   const insert = (name: string | null) => {
     if (!name) return;
@@ -34,6 +43,13 @@ function useMessage(field: string) {
     keep(next);
     area.current?.focus();
   };
+  const groups = useMemo(() => {
+    const labels = new Map(inserts.map((each) => [JSON.stringify(each.value), each.label]));
+    return offered.map((each) => ({
+      group: each.group,
+      items: each.inserts.map(({ label, value: put }) => labels.get(JSON.stringify(put)) ?? label),
+    }));
+  }, [offered, inserts]);
   return { text, setText, keep, insert, area, groups };
 }
 
@@ -64,7 +80,7 @@ export function MessageField({ label, field, placeholder }: { label: string; fie
             className={classes.between}
             aria-label={t("message.insert")}
             placeholder={t("message.insert")}
-            data={groups.map(({ group, inserts }) => ({ group, items: inserts.map((each) => each.label) }))}
+            data={groups}
             value={null}
             onChange={insert}
             searchable
@@ -77,30 +93,27 @@ export function MessageField({ label, field, placeholder }: { label: string; fie
   );
 }
 
-/** Names first, then the readings of each machine; a label stands once. */
-function useInserts(): readonly { group: string; inserts: readonly Insert[] }[] {
+/** Names first, then the readings of the program's robots and of each device. */
+function useOffered(): readonly { group: string; inserts: readonly Insert[] }[] {
   const { devices, document, speaker, t } = useOpenProgram();
   const { parameters } = useStepEditor();
   return useMemo(() => {
-    const seen = new Set<string>();
-    const once = (insert: Insert) => !seen.has(insert.label) && seen.add(insert.label) !== null;
     const names = parameters.map((each) => ({ label: each.name, value: { param: each.name } }));
     const robots = readingsOfRoles(document, devices).map(({ role, readings: reported }) => ({
       group: roleName(role, speaker),
-      inserts: reported
-        .map((each): Insert => ({
-          label: `${roleName(role, speaker)} ${each.name}`,
-          value: { property: [{ role }, each.name] },
-        }))
-        .filter(once),
+      inserts: reported.map((each): Insert => ({
+        label: `${roleName(role, speaker)} ${each.name}`,
+        value: { property: [{ role }, each.name] },
+      })),
     }));
     const readings = devices.map((device) => ({
       group: device.name,
-      inserts: device.properties
-        .map((each): Insert => ({ label: `${device.name} ${each.name}`, value: { property: [device.id, each.name] } }))
-        .filter(once),
+      inserts: device.properties.map((each): Insert => ({
+        label: `${device.name} ${each.name}`,
+        value: { property: [device.id, each.name] },
+      })),
     }));
-    return [{ group: t("message.names"), inserts: names.filter(once) }, ...robots, ...readings].filter(
+    return [{ group: t("message.names"), inserts: names }, ...robots, ...readings].filter(
       (each) => each.inserts.length > 0,
     );
   }, [devices, document, parameters, speaker, t]);
