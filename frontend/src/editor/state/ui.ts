@@ -103,9 +103,11 @@ export function resetUi(): void {
   useUi.setState({ ...START, clipboard, drawer, tallDrawer });
 }
 
+/** A field that waits for a press on the map is not looked at any more, and waits no longer. */
 export function select(ids: readonly string[]): void {
   useUi.setState((ui) => ({
     selected: ids,
+    fieldPick: null,
     fresh: ui.fresh !== null && ids.includes(ui.fresh) ? ui.fresh : null,
     into: null,
     device: null,

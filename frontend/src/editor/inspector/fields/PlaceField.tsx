@@ -1,9 +1,10 @@
 /** A device, a named place, or a parameter; the map can be pressed instead. */
 import { ActionIcon, Select, Tooltip } from "@mantine/core";
 import { Crosshair } from "lucide-react";
+import { useEffect, useRef } from "react";
 import type { Place } from "@/program/document/document";
 import { useOpenProgram } from "../../state/context";
-import { useUi } from "../../state/ui";
+import { type FieldPick, useUi } from "../../state/ui";
 import { FieldFrame } from "./FieldFrame";
 import classes from "../../panel.module.css";
 import { useStepEditor } from "./stepEditor";
@@ -66,18 +67,23 @@ export function PlaceField(props: PlaceFieldProps) {
   );
 }
 
+/** The next press on a machine is the field's answer, given to the field as it is then; one that has gone takes none. */
 function PickOnMap({ field, onPick }: { field: string; onPick: (device: string) => void }) {
   const { t } = useOpenProgram();
   const { disabled } = useStepEditor();
+  const latest = useRef(onPick);
+  useEffect(() => {
+    latest.current = onPick;
+  });
+  const waiting = useRef<FieldPick | null>(null);
+  useEffect(() => () => useUi.setState((ui) => (ui.fieldPick === waiting.current ? { fieldPick: null } : ui)), []);
+  const wait = () => {
+    waiting.current = { field, choose: (device) => latest.current(device) };
+    useUi.setState({ fieldPick: waiting.current });
+  };
   return (
     <Tooltip label={t("field.pick_on_map")}>
-      <ActionIcon
-        variant="default"
-        size={34}
-        aria-label={t("field.pick_on_map")}
-        onClick={() => useUi.setState({ fieldPick: { field, choose: onPick } })}
-        disabled={disabled}
-      >
+      <ActionIcon variant="default" size={34} aria-label={t("field.pick_on_map")} onClick={wait} disabled={disabled}>
         <Crosshair size={16} aria-hidden="true" />
       </ActionIcon>
     </Tooltip>
