@@ -2,10 +2,10 @@
 import { toPixels, type Point } from "@/map/plane/projection";
 import type { PixelPoint } from "@/map/plane/paths";
 import type { MovedNode } from "@/program/canvas/useMovingNodes";
+import { takenAlong } from "../edits/arranging";
 import type { Edit } from "../edits/edits";
 import { liftOut } from "../edits/branches";
 import { moveStep } from "../edits/joints";
-import { withDescendants } from "@/program/document/tree";
 import { frameAt } from "@/program/scene/frames";
 import { boxAt, gap, nearestOn } from "@/program/scene/geometry";
 import { START_ID } from "@/program/canvas/buildNodes";
@@ -29,14 +29,13 @@ export function moveChips(open: OpenProgram, moved: readonly MovedNode[]): void 
 
 /** What stands inside a frame moves with its head. */
 function carried(open: OpenProgram, moved: readonly { id: string; at: Point }[]): Edit[] {
-  const { document, scene } = open;
+  const { document } = open;
   const own = new Set(moved.map((each) => each.id));
   return moved.flatMap(({ id, at }) => {
-    const frame = scene.frames.find((each) => each.id === id);
     const before = document.steps[id]?.pos;
-    if (!frame || !before) return [];
+    if (!before) return [];
     const [dx, dy] = [at[0] - before[0], at[1] - before[1]];
-    return [...withDescendants(document, frame.holds)].flatMap((inner): Edit[] => {
+    return [...takenAlong(open, id)].flatMap((inner): Edit[] => {
       const pos = document.steps[inner]?.pos;
       if (!pos || own.has(inner)) return [];
       const rounded = (value: number) => Math.round(value * 100) / 100;

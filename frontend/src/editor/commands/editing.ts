@@ -25,9 +25,9 @@ export function directionOf(keys: string | undefined): Position {
   return DIRECTIONS[keys?.split("+").at(-1) ?? ""] ?? [0, 0];
 }
 
-function nudge({ document, apply }: OpenProgram, { keys }: On, metres: number): void {
+function nudge(open: OpenProgram, { keys }: On, metres: number): void {
   const [dx, dy] = directionOf(keys);
-  nudgeSelected(document, apply, [dx * metres, dy * metres]);
+  nudgeSelected(open, [dx * metres, dy * metres]);
 }
 
 function remove({ document, apply, t }: OpenProgram): void {

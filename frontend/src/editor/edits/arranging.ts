@@ -2,6 +2,7 @@
 import { type Box, type Point, PIXELS_PER_METRE } from "@/map/plane/projection";
 import { withDescendants } from "@/program/document/tree";
 import type { ProgramDocument } from "@/program/document/document";
+import type { Frame } from "@/program/scene/frames";
 import type { Edit } from "./edits";
 
 export interface Standing {
@@ -81,16 +82,34 @@ export function shifted(steps: readonly Standing[], shifts: Shifts): readonly St
 export function moveBy(document: ProgramDocument, shifts: Shifts): readonly Edit[] {
   return [...shifts].flatMap(([id, { x, y }]) => {
     if (Math.abs(x) < 0.5 && Math.abs(y) < 0.5) return [];
-    return [...withDescendants(document, [id])].flatMap((each): Edit[] => {
-      const pos = document.steps[each]?.pos;
-      return pos ? [{ do: "set_pos", id: each, pos: movedPoint(pos, x, y) }] : [];
-    });
+    return movedBy(document, withDescendants(document, [id]), [x / PIXELS_PER_METRE, -y / PIXELS_PER_METRE]);
   });
 }
 
-function movedPoint([x, y]: Point, dx: number, dy: number): Point {
+/** What is drawn: the document, and the frames on the map. */
+interface Drawn {
+  readonly document: ProgramDocument;
+  readonly scene: { readonly frames: readonly Frame[] };
+}
+
+/** What a step takes along when it is put elsewhere: all that stands in its frame, with what is in that. */
+export function takenAlong({ document, scene }: Drawn, id: string): ReadonlySet<string> {
+  const frame = scene.frames.find((each) => each.id === id);
+  return withDescendants(document, frame?.holds ?? []);
+}
+
+/** The steps, each with what it takes along, moved by so many metres. */
+export function moveTogether(drawn: Drawn, ids: readonly string[], by: Point): readonly Edit[] {
+  const all = ids.flatMap((id) => [id, ...takenAlong(drawn, id)]);
+  return movedBy(drawn.document, new Set(all), by);
+}
+
+function movedBy(document: ProgramDocument, ids: ReadonlySet<string>, [dx, dy]: Point): readonly Edit[] {
   const round = (value: number) => Math.round(value * 100) / 100 + 0;
-  return [round(x + dx / PIXELS_PER_METRE), round(y - dy / PIXELS_PER_METRE)];
+  return [...ids].flatMap((id): Edit[] => {
+    const pos = document.steps[id]?.pos;
+    return pos ? [{ do: "set_pos", id, pos: [round(pos[0] + dx), round(pos[1] + dy)] }] : [];
+  });
 }
 
 export function boxOf(steps: readonly Standing[]): Box {

@@ -8,7 +8,7 @@ import type { Point } from "@/map/plane/projection";
 import { toMetres } from "@/map/plane/projection";
 import { knownBox } from "@/map/floor/floor";
 import { formatNumber } from "@/i18n/format";
-import type { Edit } from "../edits/edits";
+import { moveTogether } from "../edits/arranging";
 import { decideJoin, joinByDot } from "../gestures/connection";
 import { settle } from "../state/actions";
 import type { OpenProgram } from "../state/context";
@@ -244,18 +244,12 @@ function letterJump(
   return key.length === 1 && key !== " " ? byLetter(marks, mode.landmark, key) : null;
 }
 
-/** Where the point is: a new step of the tool in hand, or the steps that stood elsewhere, as far from each other as before. */
+/** At the point: a new step of the tool in hand, or the steps that stood elsewhere, as far from each other as before. */
 function setDown(open: OpenProgram, { steps, from, at }: Extract<Mode, { kind: "place" }>): void {
   if (steps.length === 0) {
     createOnFloor(open, useUi.getState().gesture, at);
     return;
   }
-  const moved = (value: number, axis: 0 | 1) => Math.round((value + at[axis] - from[axis]) * 100) / 100;
-  open.apply(
-    steps.flatMap((id): Edit[] => {
-      const pos = open.document.steps[id]?.pos;
-      return pos ? [{ do: "set_pos", id, pos: [moved(pos[0], 0), moved(pos[1], 1)] }] : [];
-    }),
-  );
+  open.apply(moveTogether(open, steps, [at[0] - from[0], at[1] - from[1]]));
   select(steps);
 }

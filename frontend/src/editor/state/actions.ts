@@ -13,6 +13,7 @@ import {
   type NewStep,
   shiftStep,
 } from "../edits/joints";
+import { moveTogether } from "../edits/arranging";
 import { wrapIn } from "../edits/branches";
 import { changedSince } from "../edits/undo";
 import type { OpenProgram } from "./context";
@@ -80,14 +81,9 @@ function goalNow(document: ProgramDocument): Goal {
   return into || !goal || branch?.branch === "events" ? endOfBranch(document, branchNow(document)) : goal;
 }
 
-export function nudgeSelected(document: ProgramDocument, apply: Apply, by: Position): void {
-  const edits = useUi.getState().selected.flatMap((id): Edit[] => {
-    const pos = document.steps[id]?.pos;
-    if (!pos) return [];
-    const moved = (axis: 0 | 1) => Math.round((pos[axis] + by[axis]) * 100) / 100;
-    return [{ do: "set_pos", id, pos: [moved(0), moved(1)] }];
-  });
-  apply(edits);
+/** Metres; a frame takes along what stands in it. */
+export function nudgeSelected(open: Pick<OpenProgram, "document" | "scene" | "apply">, by: Position): void {
+  open.apply(moveTogether(open, useUi.getState().selected, by));
 }
 
 export function undoLast({ shared, t }: Pick<OpenProgram, "shared" | "t">): void {
