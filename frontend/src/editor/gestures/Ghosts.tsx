@@ -2,14 +2,13 @@
 import { useEffect } from "react";
 import { toPixels } from "@/map/plane/projection";
 import { FloatAt } from "../canvas/FloatAt";
-import { clip } from "../edits/clipping";
-import type { Edit } from "../edits/edits";
 import type { SharedProgram } from "../shared/sharedProgram";
 import { outermost } from "@/program/document/tree";
 import { useOpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";
 import classes from "../canvas/gestures.module.css";
 import { useGestures, type Ghost } from "../state/gestures";
+import { keptOf, putBack } from "./keptSteps";
 
 export function Ghosts() {
   const { shared, canEdit } = useOpenProgram();
@@ -28,14 +27,14 @@ function keepGhosts(shared: SharedProgram, gone: readonly string[]): void {
     gone.filter((id) => concerns(id) && Object.hasOwn(before.steps, id)),
   );
   if (lost.length === 0) return;
-  const fresh = lost.map((id): Ghost => ({ id, clipping: clip(before, [id]), changed: shared.isUnsaved(id) }));
+  const fresh = lost.map((id): Ghost => ({ id, steps: keptOf(before, id, gone), changed: shared.isUnsaved(id) }));
   useGestures.setState(({ ghosts }) => ({ ghosts: [...ghosts.filter(({ id }) => !lost.includes(id)), ...fresh] }));
   select(useUi.getState().selected.filter((id) => !gone.includes(id)));
 }
 
 function GhostCard({ ghost }: { ghost: Ghost }) {
   const { document, apply, shared, people, t } = useOpenProgram();
-  const step = ghost.clipping.steps[ghost.id];
+  const step = ghost.steps[ghost.id];
   const back = Object.hasOwn(document.steps, ghost.id);
   useEffect(() => {
     if (back) letGo(ghost.id);
@@ -44,7 +43,7 @@ function GhostCard({ ghost }: { ghost: Ghost }) {
   if (!step || back) return null;
   const words = ghost.changed ? "gesture.ghost.changed_" : "gesture.ghost.";
   const keep = () => {
-    apply(Object.entries(ghost.clipping.steps).map(([id, each]): Edit => ({ do: "add_step", id, step: each })));
+    apply(putBack(document, ghost.steps));
     letGo(ghost.id);
     select([ghost.id]);
   };

@@ -2,8 +2,7 @@
 import type { ComponentType } from "react";
 import { create } from "zustand";
 import { select } from "./ui";
-import type { Position } from "@/program/document/document";
-import type { Clipping } from "../edits/clipping";
+import type { Position, Step } from "@/program/document/document";
 
 export interface MenuItem {
   readonly id: string;
@@ -25,7 +24,8 @@ export interface OpenMenu {
 /** A step that this person had selected, or had changed unsaved, when somebody else took it away. */
 export interface Ghost {
   readonly id: string;
-  readonly clipping: Clipping;
+  /** The step, and what stood in it and went with it, as they were. */
+  readonly steps: Readonly<Record<string, Step>>;
   /** A change of this person's went with it, made without a connection, say. */
   readonly changed: boolean;
 }
