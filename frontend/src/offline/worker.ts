@@ -39,17 +39,19 @@ async function openPage(request: Request): Promise<Response> {
   const asked = fetch(request).catch(() => null);
   const page = await Promise.race([asked, late]);
   if (page && !isAway(page.status)) return page;
-  return (await matchPrecache("/index.html")) ?? page ?? (await asked) ?? Response.error();
+  const kept = await matchPrecache("/index.html").catch(() => undefined);
+  return kept ?? page ?? (await asked) ?? Response.error();
 }
 
 async function answer(request: Request, url: URL): Promise<Response> {
   const asked = round;
   const told = await fetch(request).catch(() => null);
   if (told && !isAway(told.status)) {
-    await keep(url.pathname, told, asked);
+    // A browser that keeps nothing, as its disk is full, say, is one without a copy: what the server says counts all the same.
+    await keep(url.pathname, told, asked).catch(() => {});
     return told;
   }
-  const kept = await look(url.pathname);
+  const kept = await look(url.pathname).catch(() => undefined);
   if (kept && isFresh(kept, Date.now())) return kept;
   return told ?? Response.error();
 }
@@ -65,7 +67,11 @@ async function keep(path: string, told: Response, asked: number): Promise<void> 
     if (person === null) return;
   } else if (known === null || asked !== round) return; // nobody knows whose it is
   const kept = await toKeep(path, told, Date.now());
-  await (await caches.open(ANSWERS)).put(path, kept);
+  try {
+    await (await caches.open(ANSWERS)).put(path, kept);
+  } catch {
+    await forget(); // some answers of now beside some of before would show what never was
+  }
 }
 
 /** Whose answers are kept; null while there are none: the first that is kept says who it is. */
@@ -81,7 +87,7 @@ function look(path: string): Promise<Response | undefined> {
 
 async function changePerson(request: Request): Promise<Response> {
   const told = await fetch(request);
-  if (told.ok) await forget();
+  if (told.ok) await forget().catch(() => {}); // the next answer of `/api/me` tells that somebody else is here
   return told;
 }
 
