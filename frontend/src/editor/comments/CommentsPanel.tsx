@@ -116,6 +116,7 @@ function titleOf({ label }: About, t: (key: string, values?: Record<string, stri
   return label === "" ? t("comments.onProgram") : t("comments.on", { what: label });
 }
 
+/** What is being written stays in the form when another thing is chosen that it is about. */
 function NewThread() {
   const { t } = useTranslation();
   const { program } = useOpenProgram();
@@ -125,10 +126,11 @@ function NewThread() {
   return (
     <CommentForm
       key={JSON.stringify(about.anchor)}
+      draft={`program/${program.id}`}
       label={titleOf(about, t)}
       send={t("comments.begin")}
       onSend={(words) => act.start({ ...words, ...about })}
-      onDone={() => useComments.setState({ writing: null })}
+      onDone={() => useComments.setState((ui) => (ui.writing === about ? { writing: null } : ui))}
     />
   );
 }

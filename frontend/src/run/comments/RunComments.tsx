@@ -35,7 +35,7 @@ export function RunComments({ run, role, comments, about, tell, onMoment }: RunC
   return (
     <TalkContext value={talk}>
       <div className={styles.panel}>
-        <Shown comments={comments} onMoment={onMoment}>
+        <Shown run={run.id} comments={comments} onMoment={onMoment}>
           {comments.allowed && comments.writing === null ? (
             <Button
               size="compact-sm"
@@ -56,12 +56,13 @@ export function RunComments({ run, role, comments, about, tell, onMoment }: RunC
 }
 
 interface ShownProps {
+  run: string;
   comments: Comments;
   onMoment: (t_s: number) => void;
   children: ReactNode;
 }
 
-function Shown({ comments, onMoment, children }: ShownProps) {
+function Shown({ run, comments, onMoment, children }: ShownProps) {
   const { t } = useTranslation();
   const me = useMe().data?.user?.id;
   const { query, threads, opened } = comments;
@@ -86,7 +87,7 @@ function Shown({ comments, onMoment, children }: ShownProps) {
         />
         {children}
       </div>
-      <NewThread comments={comments} />
+      <NewThread draft={`run/${run}`} comments={comments} />
       {query.error ? <LoadProblem error={query.error} again={() => void query.refetch()} /> : null}
       {query.data && shown.length === 0 ? <p className={classes.none}>{t(`comments.run.none.${filter}`)}</p> : null}
       <ul className={classes.threads}>
@@ -117,7 +118,8 @@ function Card({ thread, me, comments, onMoment }: CardProps) {
   return <ThreadCard thread={thread} me={me} about={about} aboutLine={line} opened={opened} isFirst={opened} />;
 }
 
-function NewThread({ comments }: { comments: Comments }) {
+/** What is being written stays in the form when another moment is chosen. */
+function NewThread({ draft, comments }: { draft: string; comments: Comments }) {
   const { t } = useTranslation();
   const { writing } = comments;
   if (!writing || !comments.allowed) return null;
@@ -125,6 +127,7 @@ function NewThread({ comments }: { comments: Comments }) {
   return (
     <CommentForm
       key={writing.t_s}
+      draft={draft}
       label={t("comments.on", { what })}
       send={t("comments.begin")}
       onSend={(words) => comments.begin({ ...words, ...writing })}

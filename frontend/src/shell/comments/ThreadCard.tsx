@@ -9,6 +9,7 @@ import { formatMoment } from "@/i18n/format";
 import { problemText } from "../LoadProblem";
 import { CommentForm } from "./CommentForm";
 import classes from "./comments.module.css";
+import { useDraft } from "./drafts";
 import { piecesOf } from "./mentions";
 import { useTalk } from "./talk";
 import { useCommenting } from "./threads";
@@ -85,23 +86,32 @@ function useInSight(isFirst: boolean) {
   return card;
 }
 
+/** Whether a form is open: since it was asked for, or since something is being written in it. */
+function useForm(draft: string) {
+  const [asked, setAsked] = useState(false);
+  const { isBegun } = useDraft(draft);
+  return { draft, isOpen: asked || isBegun, quiet: !asked, setAsked };
+}
+
 /** A button that opens the form; it closes once the answer is sent, or when it is not wanted. */
 function Answer({ thread }: { thread: string }) {
   const { t } = useTranslation();
   const { act } = useActs();
-  const [opened, setOpened] = useState(false);
-  if (opened)
+  const { draft, isOpen, quiet, setAsked } = useForm(`thread/${thread}`);
+  if (isOpen)
     return (
       <CommentForm
+        draft={draft}
+        quiet={quiet}
         label={t("comments.answer")}
         send={t("comments.send")}
         onSend={(words) => act.answer(thread, words)}
-        onDone={() => setOpened(false)}
+        onDone={() => setAsked(false)}
       />
     );
   return (
     <div className={classes.acts}>
-      <Button size="compact-xs" variant="subtle" onClick={() => setOpened(true)}>
+      <Button size="compact-xs" variant="subtle" onClick={() => setAsked(true)}>
         {t("comments.send")}
       </Button>
     </div>
@@ -112,17 +122,19 @@ function Written({ comment, isMine }: { comment: Comment; isMine: boolean }) {
   const { t } = useTranslation();
   const { role } = useTalk();
   const { act, now } = useActs();
-  const [edits, setEdits] = useState(false);
+  const { draft, isOpen, quiet, setAsked } = useForm(`comment/${comment.id}`);
   const edit = isMine && mayComment(role);
-  if (edits)
+  if (edit && isOpen)
     return (
       <li>
         <CommentForm
+          draft={draft}
+          quiet={quiet}
           label={t("comments.edit")}
           send={t("comments.save")}
           first={comment.text}
           onSend={(words) => act.edit(comment.id, words)}
-          onDone={() => setEdits(false)}
+          onDone={() => setAsked(false)}
         />
       </li>
     );
@@ -132,7 +144,7 @@ function Written({ comment, isMine }: { comment: Comment; isMine: boolean }) {
         <b>{comment.author?.name ?? t("comments.nobody")}</b> {formatMoment(comment.written_at)}
         {comment.edited_at ? ` · ${t("comments.edited")}` : null}
         {edit ? (
-          <Button size="compact-xs" variant="subtle" onClick={() => setEdits(true)}>
+          <Button size="compact-xs" variant="subtle" onClick={() => setAsked(true)}>
             {t("comments.edit")}
           </Button>
         ) : null}
