@@ -5,7 +5,8 @@ import { useTranslation } from "react-i18next";
 import { VipoIcon } from "@/design/VipoIcon";
 import { drawPasted } from "../script/pastedScript";
 import { useOpenProgram } from "../state/context";
-import { say, useUi } from "../state/ui";
+import { useUi } from "../state/ui";
+import { sayDone } from "../state/undoing";
 import classes from "./beginning.module.css";
 import { TemplatePreview } from "./TemplatePreview";
 import { type Bound, type Chosen, filled, lacking, type Slot, type Template, TEMPLATES } from "./templates";
@@ -128,7 +129,7 @@ function Take({ bound }: { bound: Bound }) {
     await drawPasted(open, bound.script, new Map());
     setBusy(false);
     close();
-    if (open.shared.getDocument() !== before) say(t("first.templates.taken"), true);
+    if (open.shared.getDocument() !== before) sayDone(open, t("first.templates.taken"));
   };
   return (
     <Button loading={busy} disabled={!open.compiled} onClick={() => void take()} className={classes.take}>

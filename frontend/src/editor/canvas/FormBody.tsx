@@ -12,6 +12,7 @@ import {
 import { flushSync } from "react-dom";
 import { focusMap } from "../state/focus";
 import { useOpenProgram } from "../state/context";
+import { undoDownTo } from "../state/undoing";
 import classes from "../panel.module.css";
 
 export function FormBody({ children }: { children: ReactNode }) {
@@ -45,12 +46,12 @@ export function FormBody({ children }: { children: ReactNode }) {
 
 /** From where a field gets the keyboard to where it gives it up: one entry to undo, which Esc takes back. */
 function useVisit() {
-  const { shared } = useOpenProgram();
+  const { shared, t } = useOpenProgram();
   const begun = useRef<{ readonly field: EventTarget; readonly entries: number } | null>(null);
   useEffect(() => () => shared.visits.end(), [shared]);
   const onFocus = ({ target }: FocusEvent) => {
     if (begun.current?.field === target) return;
-    begun.current = { field: target, entries: shared.undo.undoStack.length };
+    begun.current = { field: target, entries: shared.undo.length };
     shared.visits.begin();
   };
   /** Whoever looks at another window is still in the field. */
@@ -61,7 +62,7 @@ function useVisit() {
   };
   const takeBack = () => {
     const entries = begun.current?.entries ?? Infinity;
-    while (shared.undo.undoStack.length > entries) shared.undo.undo();
+    undoDownTo({ shared, t }, entries);
     begun.current = null;
     shared.visits.end();
     shared.awareness.setLocalStateField("editing", null);

@@ -11,6 +11,7 @@ import { boxAt, gap, nearestOn } from "@/program/scene/geometry";
 import { START_ID } from "@/program/canvas/buildNodes";
 import type { OpenProgram } from "../state/context";
 import { say } from "../state/ui";
+import { sayDone } from "../state/undoing";
 
 const ON_LINK = 14;
 const OUTSIDE = 24;
@@ -23,9 +24,18 @@ export function moveChips(open: OpenProgram, moved: readonly MovedNode[]): void 
   for (const { id, at } of steps) edits.push({ do: "set_pos", id, pos: at });
   edits.push(...carried(open, steps));
   const [only] = steps;
-  if (steps.length === 1 && only) edits.push(...joined(open, only.id, only.pointed));
-  apply(edits);
+  const dropped = steps.length === 1 && only ? joined(open, only.id, only.pointed) : STAYS;
+  apply([...edits, ...dropped.edits]);
+  if (dropped.done !== undefined) sayDone(open, dropped.done);
 }
+
+interface Dropped {
+  readonly edits: readonly Edit[];
+  /** What is said of it, once it is done. */
+  readonly done?: string;
+}
+
+const STAYS: Dropped = { edits: [] };
 
 /** What stands inside a frame moves with its head. */
 function carried(open: OpenProgram, moved: readonly { id: string; at: Point }[]): Edit[] {
@@ -45,7 +55,7 @@ function carried(open: OpenProgram, moved: readonly { id: string; at: Point }[])
 }
 
 /** Dropped on a dotted link: inserted there. Dropped into a frame: the last in it. Dragged out of one: behind it. */
-function joined(open: OpenProgram, id: string, at: Point): readonly Edit[] {
+function joined(open: OpenProgram, id: string, at: Point): Dropped {
   const { document, scene, t } = open;
   const point = toPixels(at);
   const link = scene.links.find((each) => {
@@ -64,17 +74,16 @@ function joined(open: OpenProgram, id: string, at: Point): readonly Edit[] {
       : null;
   if (!goal) return draggedOut(open, id, point);
   const decision = moveStep(document, id, goal.branch, goal.after);
-  if ("edits" in decision) return decision.edits;
+  if ("edits" in decision) return decision;
   if (decision.refused === "cycle") say(t("refused.cycle"));
-  return [];
+  return STAYS;
 }
 
 /** A chip that stood inside its frame and now stands well outside it follows the frame. */
-function draggedOut({ document, scene, t }: OpenProgram, id: string, point: PixelPoint): readonly Edit[] {
+function draggedOut({ document, scene, t }: OpenProgram, id: string, point: PixelPoint): Dropped {
   const frame = scene.frames.find((each) => each.holds.has(id));
-  if (!frame || gap(frame.box, boxAt(point, 0, 0)) < OUTSIDE) return [];
+  if (!frame || gap(frame.box, boxAt(point, 0, 0)) < OUTSIDE) return STAYS;
   const decision = liftOut(document, [id]);
-  if (!("edits" in decision)) return [];
-  say(t("gesture.lifted", { frame: t(`kind.${frame.kind}`) }), true);
-  return decision.edits;
+  if (!("edits" in decision)) return STAYS;
+  return { edits: decision.edits, done: t("gesture.lifted", { frame: t(`kind.${frame.kind}`) }) };
 }

@@ -17,6 +17,7 @@ import { openEnds } from "../state/freeSpot";
 import { type Landing, useLanding } from "./landing";
 import { askOf, suggestedLoads, suits, withDevice, type Gesture } from "../state/tool";
 import { say, useUi } from "../state/ui";
+import { sayDone } from "../state/undoing";
 
 export interface Drawing {
   readonly takeDevice: (device: string) => void;
@@ -135,7 +136,7 @@ function useTakeLoad(open: OpenProgram, gesture: Gesture, path: DrawnPath) {
         pos: spotOnMachine(deviceBox(place), taken),
         params: { ...common, at: { device: place.id } },
       });
-    say(t("made"), true);
+    sayDone(open, t("made"));
   };
 }
 

@@ -2,10 +2,11 @@
 import { ClipboardPaste, Copy, CopyPlus, Move, Redo2, Scissors, Trash2, Undo2 } from "lucide-react";
 import type { Position } from "@/program/document/document";
 import { copyToSystem, pasteCopied } from "../gestures/clipboard";
-import { duplicateSelected, nudgeSelected, removeSelected, undoLast } from "../state/actions";
+import { duplicateSelected, nudgeSelected, removeSelected } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { useGestures } from "../state/gestures";
-import { say, useUi } from "../state/ui";
+import { useUi } from "../state/ui";
+import { goBack, sayDone } from "../state/undoing";
 import { removeZone } from "../zones/zoneTool";
 import { command, needsRight, needsSteps, type Command, type On } from "./command";
 
@@ -30,9 +31,9 @@ function nudge(open: OpenProgram, { keys }: On, metres: number): void {
   nudgeSelected(open, [dx * metres, dy * metres]);
 }
 
-function remove({ document, apply, t }: OpenProgram): void {
-  const count = removeSelected(document, apply);
-  if (count > 0) say(t("removed", { count }), true);
+function remove(open: OpenProgram): void {
+  const count = removeSelected(open.document, open.apply);
+  if (count > 0) sayDone(open, open.t("removed", { count }));
 }
 
 const EDIT = { group: "edit" } as const;
@@ -45,8 +46,9 @@ export const EDIT_COMMANDS: readonly Command[] = [
     icon: Undo2,
     keys: ["Ctrl+Z"],
     menus: ["floor"],
-    whyNot: (open, on) => needsRight(open, on) ?? (open.shared.undo.canUndo() ? null : "commands.why.nothing_to_undo"),
-    run: (open) => undoLast(open),
+    whyNot: (open, on) =>
+      needsRight(open, on) ?? (open.shared.undo.next("undo") ? null : "commands.why.nothing_to_undo"),
+    run: (open) => goBack(open, "undo"),
   }),
   command({
     id: "redo",
@@ -54,8 +56,9 @@ export const EDIT_COMMANDS: readonly Command[] = [
     icon: Redo2,
     keys: ["Ctrl+Shift+Z", "Ctrl+Y"],
     menus: ["floor"],
-    whyNot: (open, on) => needsRight(open, on) ?? (open.shared.undo.canRedo() ? null : "commands.why.nothing_to_redo"),
-    run: ({ shared }) => void shared.undo.redo(),
+    whyNot: (open, on) =>
+      needsRight(open, on) ?? (open.shared.undo.next("redo") ? null : "commands.why.nothing_to_redo"),
+    run: (open) => goBack(open, "redo"),
   }),
   command({
     id: "copy",

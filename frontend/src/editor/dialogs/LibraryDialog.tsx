@@ -14,6 +14,7 @@ import { branchNow, makeId } from "../state/actions";
 import { freeSpot } from "../state/freeSpot";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
+import { sayDone } from "../state/undoing";
 import { useAskedFunction } from "./askedFunction";
 import { useScreenTexts } from "./screenTexts";
 import classes from "./dialogs.module.css";
@@ -115,5 +116,5 @@ function bringIn(open: ReturnType<typeof useOpenProgram>, entry: LibraryFunction
   const call = addStep(after, branchNow(document), { id: callId, kind: "call", pos: freeSpot(open), params });
   apply([...before, ...call]);
   select([callId]);
-  say(t("library.imported", { name: entry.name }), true);
+  sayDone(open, t("library.imported", { name: entry.name }));
 }

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { applyEdits, type Edit } from "./edits";
 import { EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/document";
-import { changedSince } from "./undo";
+import { asTheyAre, changedSince } from "./undo";
 
 const step = { kind: "wait", place: ["program", "body", "A"], pos: [1, -1], params: { duration: 5 } } as const;
 const before: ProgramDocument = { ...EMPTY_DOCUMENT, steps: { a: step, b: step } };
@@ -32,4 +32,34 @@ test("zones, functions and the start count as well", () => {
   expect(changedSince(before, [{ do: "set_start", pos: [3, 3] }])).toBe(true);
   expect(changedSince(before, [{ do: "set_zone", id: "z", value: null }])).toBe(false);
   expect(changedSince(before, [{ do: "set_function", id: "f", value: { name: "f", parameters: [] } }])).toBe(true);
+});
+
+test("a step that I removed and somebody put back was changed after me", () => {
+  expect(changedSince(before, [{ do: "remove_step", id: "a" }])).toBe(true);
+  expect(changedSince(applyEdits(before, [{ do: "remove_step", id: "a" }]), [{ do: "remove_step", id: "a" }])).toBe(
+    false,
+  );
+});
+
+test("what was set is told as it is now, each field once", () => {
+  const edits: readonly Edit[] = [
+    ...mine,
+    { do: "set_pos", id: "b", pos: [9, 9] },
+    { do: "set_start", pos: [3, 3] },
+    { do: "set_zone", id: "z", value: null },
+    { do: "remove_step", id: "b" },
+    { do: "add_step", id: "c", step },
+    { do: "set_param", id: "c", name: "duration", value: 7 },
+  ];
+  expect(asTheyAre({ ...before, start_pos: [1, 1] }, edits)).toEqual([
+    { do: "set_place", id: "a", place: step.place },
+    { do: "set_param", id: "a", name: "duration", value: 5 },
+    { do: "set_pos", id: "b", pos: step.pos },
+    { do: "set_start", pos: [1, 1] },
+    { do: "set_zone", id: "z", value: null },
+    { do: "add_step", id: "b", step },
+    { do: "remove_step", id: "c" },
+    { do: "set_param", id: "c", name: "duration", value: 7 },
+  ]);
+  expect(changedSince(before, asTheyAre(before, edits))).toBe(false);
 });

@@ -1,14 +1,15 @@
-/** Whether somebody changed after me what my last gesture set, so that undoing it would undo theirs, too. */
+/** Whether somebody changed after me what I set last, so that undoing or redoing it would overwrite theirs. */
 import type { Edit } from "./edits";
 import type { ProgramDocument } from "@/program/document/document";
 
-/** What the edits set, by field; the last one counts. */
+/** What the edits set, by field; the last one counts. Whether a step is there is one, too. */
 function fieldsOf(edits: readonly Edit[]): ReadonlyMap<string, Edit> {
   const fields = new Map<string, Edit>();
   for (const edit of edits) {
     const id = "id" in edit ? edit.id : "";
     const name = edit.do === "set_param" ? edit.name : "";
-    if (edit.do !== "add_step" && edit.do !== "remove_step") fields.set(JSON.stringify([edit.do, id, name]), edit);
+    const field = edit.do === "add_step" || edit.do === "remove_step" ? "step" : edit.do;
+    fields.set(JSON.stringify([field, id, name]), edit);
   }
   return fields;
 }
@@ -20,9 +21,28 @@ export function changedSince(document: ProgramDocument, edits: readonly Edit[]):
   });
 }
 
-/** The field as it is now and as the edit set it; undefined where the step has gone. */
+/** Edits that set the fields of these as they are now; a step that is away has none. */
+export function asTheyAre(document: ProgramDocument, edits: readonly Edit[]): readonly Edit[] {
+  return [...fieldsOf(edits).values()].map((edit) => {
+    if (edit.do === "add_step" || edit.do === "remove_step") return presence(document, edit.id);
+    const [now] = valuesOf(document, edit);
+    if (now === undefined) return edit;
+    const field =
+      edit.do === "set_place" ? "place" : edit.do === "set_pos" || edit.do === "set_start" ? "pos" : "value";
+    return { ...edit, [field]: now };
+  });
+}
+
+function presence({ steps }: ProgramDocument, id: string): Edit {
+  const step = steps[id];
+  return step ? { do: "add_step", id, step } : { do: "remove_step", id };
+}
+
+/** The field as it is now and as the edit set it; undefined where the step has gone, or was added by it. */
 function valuesOf(document: ProgramDocument, edit: Edit): readonly [now: unknown, mine: unknown] {
   switch (edit.do) {
+    case "remove_step":
+      return [document.steps[edit.id], null];
     case "set_place":
       return [document.steps[edit.id]?.place, edit.place];
     case "set_pos":

@@ -10,7 +10,8 @@ import { knownNames } from "../edits/variables";
 import { kindOf } from "@/program/kinds";
 import { duplicateSelected, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
-import { say, useUi } from "../state/ui";
+import { useUi } from "../state/ui";
+import { sayDone } from "../state/undoing";
 import { FormBody } from "../canvas/FormBody";
 import classes from "../panel.module.css";
 import { StepEditorContext, useStepEditor, type StepEditor } from "./fields/stepEditor";
@@ -150,7 +151,8 @@ function Editing() {
 }
 
 function Footer() {
-  const { t, canEdit, document, apply, people } = useOpenProgram();
+  const open = useOpenProgram();
+  const { t, canEdit, document, apply, people } = open;
   const me = people.find((person) => person.me);
   return (
     <footer className={classes.foot}>
@@ -164,7 +166,7 @@ function Footer() {
           <IconButton
             label={t("delete")}
             className={classes.delete}
-            onClick={() => say(t("removed", { count: removeSelected(document, apply) }), true)}
+            onClick={() => sayDone(open, t("removed", { count: removeSelected(document, apply) }))}
           >
             <Trash2 size={16} aria-hidden="true" />
           </IconButton>

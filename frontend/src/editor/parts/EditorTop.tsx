@@ -13,7 +13,6 @@ import { problemText } from "@/shell/LoadProblem";
 import { Crumb, TopBar } from "@/shell/TopBar";
 import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
-import { undoLast } from "../state/actions";
 import { FollowButton } from "../gestures/FollowButton";
 import { Arm } from "./Arm";
 import { focusMap } from "../state/focus";
@@ -22,6 +21,7 @@ import { VersionChip } from "./VersionChip";
 import { useOpenProgram } from "../state/context";
 import { useScreen } from "../state/screen";
 import { say, select, showTab, useUi } from "../state/ui";
+import { goBack } from "../state/undoing";
 import classes from "./top.module.css";
 
 export function EditorTop() {
@@ -92,25 +92,15 @@ function ProgramName() {
 
 function UndoButtons() {
   const { shared, t, canEdit } = useOpenProgram();
-  const [, setRound] = useState(0);
-  useEffect(() => {
-    const changed = () => setRound((round) => round + 1);
-    const events = ["stack-item-added", "stack-item-popped", "stack-cleared"] as const;
-    for (const event of events) shared.undo.on(event, changed);
-    return () => {
-      for (const event of events) shared.undo.off(event, changed);
-    };
-  }, [shared]);
+  const { undo } = shared;
+  const undone = useSyncExternalStore(undo.subscribe, () => undo.next("undo"));
+  const redone = useSyncExternalStore(undo.subscribe, () => undo.next("redo"));
   return (
     <>
-      <IconButton
-        label={t("undo")}
-        disabled={!canEdit || !shared.undo.canUndo()}
-        onClick={() => undoLast({ shared, t })}
-      >
+      <IconButton label={t("undo")} disabled={!canEdit || !undone} onClick={() => goBack({ shared, t }, "undo")}>
         <Undo2 size={17} aria-hidden="true" />
       </IconButton>
-      <IconButton label={t("redo")} disabled={!canEdit || !shared.undo.canRedo()} onClick={() => shared.undo.redo()}>
+      <IconButton label={t("redo")} disabled={!canEdit || !redone} onClick={() => goBack({ shared, t }, "redo")}>
         <Redo2 size={17} aria-hidden="true" />
       </IconButton>
     </>

@@ -10,29 +10,28 @@ import { placeWords } from "../state/nextPlace";
 import { type Ask, askOf, type Gesture } from "../state/tool";
 import { ZONE_TOOL } from "../state/tools";
 import { hideProgram, PROGRAM_BUTTON, useUi } from "../state/ui";
+import { takeOffer } from "../state/undoing";
 
 const TOAST_MS = 6000;
 
 export function Toast() {
-  const { t, shared } = useOpenProgram();
+  const open = useOpenProgram();
+  const { t } = open;
   const toast = useUi((ui) => ui.toast);
+  const offer = toast?.offer ?? null;
   useEffect(() => {
     if (!toast) return;
     const timer = setTimeout(() => useUi.setState({ toast: null }), TOAST_MS);
     return () => clearTimeout(timer);
   }, [toast]);
   if (!toast) return null;
-  const undo = () => {
-    shared.undo.undo();
-    useUi.setState({ toast: null });
-  };
   return (
     <div className={classes.toast} role="status">
-      {toast.undo ? <CircleCheck size={16} aria-hidden="true" /> : null}
+      {offer ? <CircleCheck size={16} aria-hidden="true" /> : null}
       {toast.text}
-      {toast.undo ? (
-        <button type="button" onClick={undo}>
-          {t("undo")}
+      {offer ? (
+        <button type="button" onClick={() => takeOffer(open, offer)}>
+          {t(offer.way)}
         </button>
       ) : null}
     </div>

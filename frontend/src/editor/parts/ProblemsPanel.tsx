@@ -12,6 +12,7 @@ import type { Diagnostic, Fix } from "@/program/document/document";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
+import { sayDone } from "../state/undoing";
 import classes from "./drawer.module.css";
 
 export function ProblemsPanel({ titled = false }: { titled?: boolean }) {
@@ -134,7 +135,7 @@ function useBringVersion() {
       if (!found.definition) return;
       const cut = found.definition as unknown as CutOut;
       apply(replaceFunction(shared.getDocument(), wanted.function, cut, { library, version }, makeId));
-      say(t("problems.brought", { version }), true);
+      sayDone({ shared }, t("problems.brought", { version }));
     } catch (problem) {
       say(problem instanceof Error ? problem.message : String(problem));
     }

@@ -2,6 +2,7 @@ import { beforeEach, expect, test } from "vitest";
 import * as Y from "yjs";
 import type { Edit } from "../edits/edits";
 import { FieldVisits } from "./fieldVisits";
+import { editsOf } from "./undoList";
 
 const ME = Symbol("me");
 let doc: Y.Doc, undo: Y.UndoManager, visits: FieldVisits;
@@ -33,7 +34,8 @@ test("what a visit stores in parts is one entry, undone and done again as a whol
   for (const value of [1, 12, 120]) store("time", value);
   visits.end();
   expect(undo.undoStack).toHaveLength(1);
-  expect(visits.lastEdits().map((edit) => "value" in edit && edit.value)).toEqual([1, 12, 120]);
+  const [entry] = undo.undoStack;
+  expect(entry && editsOf(entry).map((edit) => "value" in edit && edit.value)).toEqual([1, 12, 120]);
   undo.undo();
   expect(fields().get("time")).toBe(3);
   undo.redo();

@@ -1,14 +1,13 @@
 /** Visits to fields: what is stored during one is one entry of the undo list, however often its field stores. */
 import type * as Y from "yjs";
 import type { Edit } from "../edits/edits";
+import { editsOf, keepEdits } from "./undoList";
 
 /** One visit; known by being itself. */
 export type FieldVisit = object;
 
 /** Under this name an entry of the undo list keeps the visit that made it. */
 const VISIT = "visit";
-/** And under this one its edits. */
-const EDITS = "edits";
 
 export class FieldVisits {
   #now: FieldVisit | null = null;
@@ -54,18 +53,7 @@ export class FieldVisits {
     undo.stopCapturing();
     const entry = undo.undoStack.at(-1);
     if (!entry || (!joins && undo.undoStack.length === length)) return; // nothing has changed
-    entry.meta.set(EDITS, joins ? [...editsOf(entry), ...edits] : edits);
+    keepEdits(entry, joins ? [...editsOf(entry), ...edits] : edits);
     entry.meta.set(VISIT, this.#now);
   }
-
-  /** What the gesture or the visit set that would be undone next. */
-  lastEdits(): readonly Edit[] {
-    return editsOf(this.undo.undoStack.at(-1));
-  }
-}
-
-type Entry = Y.UndoManager["undoStack"][number];
-
-function editsOf(entry: Entry | undefined): readonly Edit[] {
-  return (entry?.meta.get(EDITS) as readonly Edit[] | undefined) ?? [];
 }

@@ -8,6 +8,7 @@ import { FieldVisits } from "./fieldVisits";
 import { SavedChanges } from "./savedChanges";
 import { CompiledForm } from "./compiledForm";
 import { LocalCopy, TAKEN_OVER, type Waiting } from "./localCopy";
+import { UndoList } from "./undoList";
 import { writeEdit } from "./writer";
 import { changedBy, readDocument, rereadDocument, ROOTS } from "./snapshot";
 import type { ProgramDocument } from "@/program/document/document";
@@ -50,7 +51,7 @@ const START: Saving = {
 /** One open program. Call `close` when its screen goes. */
 export class SharedProgram {
   readonly doc = new Y.Doc();
-  readonly undo: Y.UndoManager;
+  readonly undo: UndoList;
   readonly visits: FieldVisits;
   readonly provider: WebsocketProvider;
   #provider: WebsocketProvider | null = null;
@@ -77,12 +78,13 @@ export class SharedProgram {
   ) {
     this.#nothing = this.#document = readDocument(this.doc);
     const roots = ROOTS.map((name) => this.doc.getMap(name));
-    this.undo = new Y.UndoManager(roots, {
+    const manager = new Y.UndoManager(roots, {
       trackedOrigins: new Set([this.#origin]),
       captureTimeout: 0,
       ignoreRemoteMapChanges: true,
     });
-    this.visits = new FieldVisits(this.undo);
+    this.undo = new UndoList(manager);
+    this.visits = new FieldVisits(manager);
     ROOTS.forEach((name, index) => roots[index]?.observeDeep((events) => this.#note(name, events)));
     this.doc.on("afterTransaction", () => this.#publish());
     this.doc.on("update", (_update, origin) => {
@@ -149,11 +151,6 @@ export class SharedProgram {
     applyEditsToDoc(this.doc, edits);
   }
 
-  /** What the gesture set that would be undone next. */
-  lastEdits(): readonly Edit[] {
-    return this.visits.lastEdits();
-  }
-
   /** Wait until the database holds what is on this screen, also of others: before something is made of the program. */
   async stored(): Promise<void> {
     const seen = Y.encodeSnapshot(Y.snapshot(this.doc));
@@ -176,7 +173,6 @@ export class SharedProgram {
     this.#closed = true;
     this.#saved.close();
     this.provider.destroy();
-    this.undo.destroy();
     void this.#copy.close();
     this.doc.destroy();
   }

@@ -15,7 +15,6 @@ import {
 } from "../edits/joints";
 import { moveTogether } from "../edits/arranging";
 import { wrapIn } from "../edits/branches";
-import { changedSince } from "../edits/undo";
 import type { OpenProgram } from "./context";
 import { type Names, putEdits } from "./putting";
 import { finish } from "./tool";
@@ -84,11 +83,6 @@ function goalNow(document: ProgramDocument): Goal {
 /** Metres; a frame takes along what stands in it. */
 export function nudgeSelected(open: Pick<OpenProgram, "document" | "scene" | "apply">, by: Position): void {
   open.apply(moveTogether(open, useUi.getState().selected, by));
-}
-
-export function undoLast({ shared, t }: Pick<OpenProgram, "shared" | "t">): void {
-  if (changedSince(shared.getDocument(), shared.lastEdits())) say(t("gesture.overwritten"), true);
-  else shared.undo.undo();
 }
 
 export function settle({ apply, t }: OpenProgram, decision: Decision): boolean {

@@ -2,6 +2,7 @@
 import { create } from "zustand";
 import type { BranchRef } from "@/program/document/tree";
 import type { Clipping } from "../edits/clipping";
+import type { Entry, Way } from "../shared/undoList";
 import { RESTING, type Gesture } from "./tool";
 
 export type DrawerTab = "script" | "problems" | "steps" | "tests" | "comments";
@@ -41,6 +42,14 @@ export interface QuickAdd {
   readonly device: string | null;
 }
 
+/** One entry that a toast offers to undo or redo. */
+export interface Offer {
+  readonly way: Way;
+  readonly entry: Entry;
+  /** It was asked whether what somebody else has set since may be overwritten. */
+  readonly asked: boolean;
+}
+
 export interface EditorUi {
   gesture: Gesture;
   selected: readonly string[];
@@ -68,7 +77,7 @@ export interface EditorUi {
   fieldPick: FieldPick | null;
   clipboard: Clipping | null;
   collapsed: ReadonlySet<string>;
-  toast: { readonly text: string; readonly undo: boolean; readonly at: number } | null;
+  toast: { readonly text: string; readonly offer: Offer | null; readonly at: number } | null;
 }
 
 const START: EditorUi = {
@@ -139,6 +148,6 @@ export function showTab(tab: DrawerTab): void {
   useUi.setState({ drawer: { open: true, tab } });
 }
 
-export function say(text: string, undo = false): void {
-  useUi.setState({ toast: { text, undo, at: Date.now() } });
+export function say(text: string, offer: Offer | null = null): void {
+  useUi.setState({ toast: { text, offer, at: Date.now() } });
 }

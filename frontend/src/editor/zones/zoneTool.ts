@@ -5,7 +5,8 @@ import { makeId } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { freeSpot } from "../state/freeSpot";
 import { finish, RESTING } from "../state/tool";
-import { say, useUi } from "../state/ui";
+import { useUi } from "../state/ui";
+import { sayDone } from "../state/undoing";
 import { selectZone, useGestures } from "../state/gestures";
 import { closes, freshNumber, freshZone, squareAround, withNextCorner } from "./shape";
 
@@ -36,7 +37,7 @@ export function changeZone(open: OpenProgram, id: string, change: Partial<Zone>)
 export function removeZone(open: OpenProgram, id: string): void {
   open.apply([{ do: "set_zone", id, value: null }]);
   selectZone(null);
-  say(open.t("gesture.zone.removed"), true);
+  sayDone(open, open.t("gesture.zone.removed"));
 }
 
 /** Enter: what is drawn so far is the zone; without a corner a square is set down. False while corners are missing. */

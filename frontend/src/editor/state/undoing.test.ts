@@ -1,0 +1,110 @@
+// @vitest-environment jsdom
+import "fake-indexeddb/auto";
+import { afterEach, beforeEach, expect, test } from "vitest";
+import type { Edit } from "../edits/edits";
+import { applyEditsToDoc, SharedProgram } from "../shared/sharedProgram";
+import type { OpenProgram } from "./context";
+import { resetUi, useUi } from "./ui";
+import { goBack, sayDone, takeOffer, undoDownTo } from "./undoing";
+
+const STEP = { kind: "wait", place: ["program", "body", "A"], pos: [1, -1], params: { duration: 1 } } as const;
+let shared: SharedProgram;
+let open: Pick<OpenProgram, "shared" | "t">;
+
+const lasts = (id: string, value: number): Edit => ({ do: "set_param", id, name: "duration", value });
+const mine = (...edits: Edit[]) => shared.apply(edits);
+const others = (...edits: Edit[]) => applyEditsToDoc(shared.doc, edits, "somebody else");
+const durationOf = (id: string) => shared.getDocument().steps[id]?.params.duration;
+const said = () => useUi.getState().toast?.text ?? null;
+const pressInToast = () => {
+  const offer = useUi.getState().toast?.offer;
+  if (offer) takeOffer(open, offer);
+};
+
+beforeEach(() => {
+  shared = new SharedProgram("p", "ws://nowhere.invalid", "1");
+  shared.provider.emit("sync", [true]);
+  open = { shared, t: (key: string) => key };
+  others(...["a", "b"].map((id): Edit => ({ do: "add_step", id, step: STEP })));
+  resetUi();
+});
+afterEach(() => shared.close());
+
+test("what nobody has touched since is undone and redone without a question", () => {
+  mine(lasts("a", 2));
+  goBack(open, "undo");
+  expect([durationOf("a"), said()]).toEqual([1, null]);
+  goBack(open, "redo");
+  expect([durationOf("a"), said()]).toEqual([2, null]);
+});
+
+test("Undo asks before it overwrites what somebody has set since, and does it then", () => {
+  mine(lasts("a", 2));
+  others(lasts("a", 5));
+  goBack(open, "undo");
+  expect([durationOf("a"), said()]).toEqual([5, "gesture.overwritten"]);
+  pressInToast();
+  expect([durationOf("a"), said()]).toEqual([1, null]);
+});
+
+test("Redo asks before it overwrites what somebody has set since, and does it then", () => {
+  mine(lasts("a", 2));
+  goBack(open, "undo");
+  others(lasts("a", 5));
+  goBack(open, "redo");
+  expect([durationOf("a"), said()]).toEqual([5, "gesture.overwritten_redo"]);
+  pressInToast();
+  expect([durationOf("a"), said()]).toEqual([2, null]);
+});
+
+test("Undo asks after a Redo, too", () => {
+  mine(lasts("a", 2));
+  for (let round = 0; round < 3; round += 1) {
+    goBack(open, "undo");
+    goBack(open, "redo");
+  }
+  others(lasts("a", 5));
+  goBack(open, "undo");
+  expect([durationOf("a"), said()]).toEqual([5, "gesture.overwritten"]);
+});
+
+test("where nothing is left of the last entry, Undo asks about the one before it", () => {
+  mine(lasts("a", 2));
+  mine(lasts("b", 9));
+  others(lasts("a", 5), { do: "remove_step", id: "b" });
+  goBack(open, "undo");
+  expect([durationOf("a"), said(), shared.undo.length]).toEqual([5, "gesture.overwritten", 1]);
+});
+
+test("a removed step that somebody has put back and worked on is not replaced without a question", () => {
+  mine({ do: "remove_step", id: "a" });
+  others({ do: "add_step", id: "a", step: { ...STEP, params: { duration: 8 } } });
+  goBack(open, "undo");
+  expect([durationOf("a"), said()]).toEqual([8, "gesture.overwritten"]);
+  pressInToast();
+  expect(durationOf("a")).toBe(1);
+});
+
+test("a field that is left by Esc asks before it overwrites what somebody has set since", () => {
+  const { length } = shared.undo;
+  shared.visits.begin();
+  mine(lasts("a", 2));
+  undoDownTo(open, length);
+  expect(durationOf("a")).toBe(1);
+  mine(lasts("a", 3));
+  others(lasts("a", 5));
+  undoDownTo(open, length);
+  expect([durationOf("a"), said()]).toEqual([5, "gesture.overwritten"]);
+});
+
+test("what a toast offers is done to what it names, asked about like any Undo, and only while that comes next", () => {
+  mine({ do: "remove_step", id: "b" });
+  sayDone(open, "removed");
+  mine(lasts("a", 2));
+  pressInToast();
+  expect([durationOf("a"), durationOf("b")]).toEqual([2, undefined]);
+  sayDone(open, "set");
+  others(lasts("a", 5));
+  pressInToast();
+  expect([durationOf("a"), said()]).toEqual([5, "gesture.overwritten"]);
+});

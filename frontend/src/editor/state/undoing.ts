@@ -1,0 +1,41 @@
+/** Undo and redo, which ask before they overwrite what somebody else has set since. */
+import { changedSince } from "../edits/undo";
+import { editsOf, type Way } from "../shared/undoList";
+import type { OpenProgram } from "./context";
+import { type Offer, say, useUi } from "./ui";
+
+type Open = Pick<OpenProgram, "shared" | "t">;
+
+/** Undo or redo what comes next; entries of which nothing is left are passed over. */
+export function goBack(open: Open, way: Way): void {
+  while (open.shared.undo.next(way)) if (settle(open, way)) return;
+}
+
+/** Undo what was done since there were so many entries, for as long as that overwrites nothing of others. */
+export function undoDownTo(open: Open, length: number): void {
+  const { undo } = open.shared;
+  while (undo.length > length) if (settle(open, "undo") === "asked") return;
+}
+
+/** Say what the last gesture did; for as long as it is the last, it can be undone there. */
+export function sayDone({ shared }: Pick<OpenProgram, "shared">, text: string): void {
+  const entry = shared.undo.next("undo");
+  say(text, entry && { way: "undo", entry, asked: false });
+}
+
+/** What a toast offers is done once; nothing happens where something else would be undone or redone by now. */
+export function takeOffer(open: Open, { way, entry, asked }: Offer): void {
+  useUi.setState({ toast: null });
+  if (open.shared.undo.next(way) === entry) settle(open, way, asked);
+}
+
+/** The next entry: done, or asked about; null where nothing of it was left. */
+function settle({ shared, t }: Open, way: Way, asked = false): "done" | "asked" | null {
+  const entry = shared.undo.next(way);
+  if (!entry) return null;
+  if (!asked && changedSince(shared.getDocument(), editsOf(entry))) {
+    say(t(way === "undo" ? "gesture.overwritten" : "gesture.overwritten_redo"), { way, entry, asked: true });
+    return "asked";
+  }
+  return shared.undo.carryOut(way) ? "done" : null;
+}
