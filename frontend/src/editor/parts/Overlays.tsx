@@ -1,6 +1,6 @@
 /** What floats over the map for a moment: a short word with Undo, and where the next step goes. */
 import { CircleCheck, Settings2 } from "lucide-react";
-import { useEffect } from "react";
+import { useEffect, useSyncExternalStore } from "react";
 import { IconButton } from "@/design/IconButton";
 import classes from "../canvas/float.module.css";
 import { useOpenProgram } from "../state/context";
@@ -17,19 +17,22 @@ const TOAST_MS = 6000;
 export function Toast() {
   const open = useOpenProgram();
   const { t } = open;
+  const { undo } = open.shared;
   const toast = useUi((ui) => ui.toast);
   const offer = toast?.offer ?? null;
+  const next = useSyncExternalStore(undo.subscribe, () => offer && undo.next(offer.way));
   useEffect(() => {
     if (!toast) return;
     const timer = setTimeout(() => useUi.setState({ toast: null }), TOAST_MS);
     return () => clearTimeout(timer);
   }, [toast]);
-  if (!toast) return null;
+  const stands = offer !== null && next === offer.entry;
+  if (!toast || (offer?.asked && !stands)) return null; // a question that nobody can answer any more
   return (
     <div className={classes.toast} role="status">
       {offer ? <CircleCheck size={16} aria-hidden="true" /> : null}
       {toast.text}
-      {offer ? (
+      {stands ? (
         <button type="button" onClick={() => takeOffer(open, offer)}>
           {t(offer.way)}
         </button>
