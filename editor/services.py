@@ -37,7 +37,6 @@ from editor.programs.scripts import draw_script
 from editor.programs.versions import (
     compile_version,
     compile_version_to_json,
-    copy_version,
     find_version,
     get_version,
     list_versions,
@@ -75,7 +74,6 @@ __all__ = [
     "compile_content",
     "compile_version",
     "compile_version_to_json",
-    "copy_version",
     "create_program",
     "delete_program",
     "draw_script",

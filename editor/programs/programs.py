@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -55,14 +55,30 @@ def get_program(*, program_id: UUID | str) -> ProgramView:
     return _view(find_program(program_id))
 
 
-def create_program(*, site: str, name: str, document: Mapping[str, Any] | None = None, user: Any = None) -> ProgramView:
-    """Make a program, empty or from a plain document. Raises BadRequest for a bad name."""
+def create_program(
+    *,
+    site: str,
+    name: str,
+    document: Mapping[str, Any] | None = None,
+    user: Any = None,
+    makers: Collection[int] = (),
+) -> ProgramView:
+    """Make a program, empty or from a plain document. Raises BadRequest for a bad name.
+
+    The first version names as those who have drawn the document its `user` and its `makers`, the ids of people.
+    """
     plain = migrate_document(document or empty_document())
     data = encode_document(plain)
     site_id = registry.get_site_id(site=site)
+    drawn = {*makers, user.pk} if document and user else set(makers)
     with transaction.atomic():
         program = Program.objects.create(
-            site_id=site_id, name=_checked_name(name), edited_at=timezone.now(), edited_by=user, last_seq=1
+            site_id=site_id,
+            name=_checked_name(name),
+            edited_at=timezone.now(),
+            edited_by=user,
+            last_seq=1,
+            drawn_by={str(person): 1 for person in sorted(drawn)},
         )
         Snapshot.objects.create(program=program, seq=1, data=data)
         transaction.on_commit(lambda: publish(site, {"type": "programs"}))

@@ -18,8 +18,8 @@ from editor.models import Program, Version, VersionToTest
 from editor.programs.checking import build_surroundings, new_revision
 from editor.programs.compilations import Compilation, compile_program, print_program
 from editor.programs.packing import Content, UnknownPacking, pack, pack_difference, unpack
-from editor.programs.programs import GONE, create_program, find_program
-from editor.programs.views import AuthorView, ProgramView, VersionView, WholeVersionView, view_author
+from editor.programs.programs import GONE, find_program
+from editor.programs.views import AuthorView, VersionView, WholeVersionView, view_author
 from registry import services as registry
 from registry.services import FIRST, Listed, Page
 from vipo_device.protocol.texts import find_unfit, normal
@@ -98,12 +98,6 @@ def name_version(*, program_id: UUID | str, number: int, name: str, message: str
     )
     _ask_for_tests(row.pk, before, row.name)
     return _view(row, row.program.site.slug, _people([row]))
-
-
-def copy_version(*, program_id: UUID | str, number: int, name: str, user: Any) -> ProgramView:
-    """Make a new program of the same site of a version. Raises NoSuchProgram, BadRequest, UnreadableVersion."""
-    version = find_version(program_id=program_id, number=number)
-    return create_program(site=version.site, name=name, document=version.document, user=user)
 
 
 def compile_version(*, version: WholeVersionView) -> Compilation:

@@ -19,6 +19,7 @@ from editor.language.site.signature import Need
 from editor.language.site.surroundings import Surroundings
 from editor.models import Program
 from editor.programs.views import ProgramView
+from editor.reviews.reviews import find_makers
 
 MOST_CANDIDATES = 100
 
@@ -80,8 +81,9 @@ def promote_program(
     _check_chosen(bindings, chosen)
     bound = {binding.id: chosen.get(binding.id, binding.proposed) for binding in bindings}
     made = bind_document(document, bound, _spots(here), _spots(there))
+    makers = find_makers(program_id=program.id, number=pinned.number, site=site)
     with transaction.atomic():
-        view = services.create_program(site=site, name=name, document=made, user=user)
+        view = services.create_program(site=site, name=name, document=made, user=user, makers=makers)
         Program.objects.filter(pk=view.id).update(origin_id=program.id, origin_version=pinned.number)
     return view
 

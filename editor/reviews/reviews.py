@@ -143,6 +143,14 @@ def give_verdict(*, program_id: UUID, user: Any, number: int, verdict: Verdict, 
         _write(program_id, number, verdict, user, note)
 
 
+def find_makers(*, program_id: UUID, number: int, site: str) -> frozenset[int]:
+    """Return the ids of those who have drawn a version since the program was approved last, or pinned it.
+
+    What is approved is judged as `site` would: it is the site at which the version shall run.
+    """
+    return _Line(program_id, site, get_rule(site=site), number).makers()
+
+
 @dataclass(frozen=True, slots=True)
 class _Line:
     """The versions of a program up to one of them, or to what is drawn now."""
@@ -154,23 +162,37 @@ class _Line:
 
     def approved_before(self) -> int | None:
         """Return the last version before it whose content is approved."""
-        approved = list_approved_digests(site=self.site, program_id=self.program, rule=self.rule)
-        rows = Version.objects.filter(program_id=self.program, digest__in=approved)
+        rows = Version.objects.filter(program_id=self.program, digest__in=self._approved())
         if self.number is not None:
             rows = rows.filter(number__lt=self.number)
         last = rows.order_by("-number").only("number").first()
         return last.number if last else None
 
+    def _approved(self) -> frozenset[str]:
+        return list_approved_digests(site=self.site, program_id=self.program, rule=self.rule)
+
     def makers(self) -> frozenset[int]:
-        """Return the ids of those who have drawn since the last approved content, or pinned this version."""
-        if self.number is None:
+        """Return the ids of those who have drawn since the last approved content, or pinned this version.
+
+        An approval is of a content: who had drawn for an earlier version with the same one has drawn this, too, for
+        it may have come back by an undo, or have been restored by somebody else.
+        """
+        rows = Version.objects.filter(program_id=self.program)
+        this = rows.filter(number=self.number).defer("content").first() if self.number is not None else None
+        if this is None:
             return frozenset()
-        rows = Version.objects.filter(
-            program_id=self.program, number__gt=self.approved_before() or 0, number__lte=self.number
-        ).only("number", "authors", "author_id")
-        drawn = {author for row in rows for author in row.authors}
-        pinned = {row.author_id for row in rows if row.number == self.number and row.author_id is not None}
-        return frozenset(drawn | pinned)
+        approved, since = self._approved(), set[int]()
+        made = set() if this.author_id is None else {this.author_id}
+        first = rows.filter(digest=this.digest).order_by("number").values_list("number", flat=True)[0]
+        before = replace(self, number=first).approved_before() or 0
+        later = rows.filter(number__gt=before, number__lte=this.number).order_by("number")
+        for digest, authors in later.values_list("digest", "authors"):
+            since.update(authors)
+            if digest == this.digest:
+                made |= since
+            if digest in approved:
+                since.clear()
+        return frozenset(made)
 
     def why_not(self, user: Any) -> WhyNot:
         """Say why somebody cannot approve it; empty if they can."""

@@ -17,6 +17,7 @@ from editor.library.shapes import MOST_VERSION
 from editor.programs.access import program_for
 from editor.programs.views import ProgramView, VersionView
 from editor.shapes import ProgramName, ProgramShape
+from editor.versions import copying
 from editor.versions.restore import Wanted, apply_sent, look_at_restore, names_of, restore
 from editor.versions.shapes import (
     ChangedShape,
@@ -81,7 +82,7 @@ def name_version(request: HttpRequest, program: UUID, number: int, body: Version
 def copy_version(request: HttpRequest, program: UUID, number: int, body: ProgramName) -> Status[ProgramView]:
     """Make a new program of a version, at the same site."""
     program_for(request.user, program, "author")
-    made = services.copy_version(program_id=program, number=number, name=body.name, user=request.user)
+    made = copying.copy_version(program_id=program, number=number, name=body.name, user=request.user)
     return Status(201, made)
 
 

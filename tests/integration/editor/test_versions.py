@@ -92,7 +92,7 @@ def test_a_version_names_all_who_had_drawn_since_the_one_before(client: Client, 
     assert [(each["number"], sorted(person["id"] for person in each["authors"])) for each in listed] == [
         (3, [other.pk]),
         (2, sorted([author.pk, other.pk])),
-        (1, []),
+        (1, [author.pk]),
     ]
     assert "document" not in listed[0]
     assert "script" not in listed[0]

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from datetime import UTC, datetime
 from typing import Any
 
 import pytest
 
 from editor import services as editor
+from editor.documents.shared_document import SharedDocument
+from editor.documents.store import Change, append_changes, load_document
+from editor.reviews.reviews import give_verdict
 from registry import services as registry
 from registry.models import Device, Site
 from tests.kit.programs import document, operate, step
-from tests.kit.sign_in import ROLES, add_person, post_json, signed_in
+from tests.kit.sign_in import ROLES, add_person, find_person, post_json, signed_in
 from tests.kit.sites import MIXER, ROBOT, describe, make_hall
 from vipo_device.protocol.description import MethodSpec, Pose
 
@@ -212,3 +216,27 @@ def test_who_does_not_see_the_other_site_compares_nothing_of_it(hall: str) -> No
     for side in (f"{program}:1", f"{program}:draft", f"{program}:99"):
         answer = signed_in("local2").get(f"/api/programs/{made}/comparison", {"old": side, "new": "draft"})
         assert answer.status_code == 404
+
+
+def test_a_program_made_elsewhere_names_who_drew_it_here_and_who_promoted_it(hall: str) -> None:
+    drawer, maker = find_person("author"), find_person("both")
+    program = editor.create_program(site="hall", name="Order", document=drawing(), user=drawer).id
+    made = promote(str(program)).json()["id"]
+    version = editor.pin_version(program_id=made, user=maker)
+    assert sorted(each.id for each in version.authors) == sorted([drawer.pk, maker.pk])
+
+
+def test_an_approval_here_counts_elsewhere_only_of_who_may_approve_there(hall: str) -> None:
+    drawer, reviewer, maker = find_person("author"), find_person("admin"), find_person("both")
+    program = editor.create_program(site="hall", name="Order", document=drawing(), user=drawer).id
+    editor.pin_version(program_id=program, user=drawer)
+    give_verdict(program_id=program, user=reviewer, number=1, verdict="approved")
+    shared = SharedDocument(load_document(str(program)).updates)
+    before = shared.state()
+    shared.change_to({**shared.to_json(), "steps": {"w": step("wait", duration=1)}})
+    append_changes(str(program), [Change(maker.pk, shared.encode(before))], datetime.now(UTC))
+    strange = editor.pin_version(program_id=promote(str(program)).json()["id"], user=None)
+    registry.set_member(site="shed", email=reviewer.email, role="author")
+    known = editor.pin_version(program_id=promote(str(program), name="Again").json()["id"], user=None)
+    assert sorted(each.id for each in strange.authors) == sorted([drawer.pk, maker.pk])
+    assert [each.id for each in known.authors] == [maker.pk]

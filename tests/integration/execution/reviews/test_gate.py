@@ -357,23 +357,6 @@ def test_no_member_below_the_role_reviews_and_nobody_their_own(team: Team) -> No
     assert [told[name].json()["args"] for name in ("olga", "ann")] == [{"why": "role"}, {"why": "own"}]
 
 
-def test_who_drew_before_the_last_approved_content_may_approve_what_others_drew_since(team: Team) -> None:
-    approved(team)
-    team.draw("bob", 8)
-    assert team.say("ann", "approved", team.pin("bob")).status_code == 200
-    team.draw("bob", 9)
-    number = team.pin("root")
-    assert [team.look(name, number)["why_not"] for name in ("ann", "bob", "root")] == ["", "own", "own"]
-    assert team.look("ann", number)["compare_with"] == 2
-
-
-def test_what_was_drawn_without_a_version_between_counts_as_ones_own(team: Team) -> None:
-    approved(team)
-    team.draw("bob", 8)
-    team.draw("ann", 9)
-    assert team.say("bob", "approved", team.pin("ann")).json()["args"] == {"why": "own"}
-
-
 def test_changes_are_asked_for_with_a_sentence_and_only_what_was_said_is_withdrawn(team: Team) -> None:
     team.demand(1)
     assert team.say("bob", "changes").status_code == 422
