@@ -29,6 +29,12 @@ test("steps of different kinds have in common what both are told", () => {
   expect(said([pick, step("drop", { role: "robot", at: { device: "a" } })]).map(([name]) => name)).not.toContain("at");
 });
 
+test("a value is common in whatever order its keys come", () => {
+  const until = (value: unknown) => step("wait", { until: value });
+  const two = [until({ op: ">", args: [1, 2] }), until({ args: [1, 2], op: ">" })];
+  expect(said(two)).toEqual(expect.arrayContaining([["until", { op: ">", args: [1, 2] }, false]]));
+});
+
 test("one value is given to all of them in one edit", () => {
   expect(setForAll(["a", "b"], "quantity", 2)).toEqual([
     { do: "set_param", id: "a", name: "quantity", value: 2 },

@@ -1,5 +1,6 @@
 /** What several steps are told alike: the fields that all of them have, and one value for all. Pure. */
 import type { Step } from "@/program/document/document";
+import { isSameValue } from "@/program/document/sameValue";
 import { type FieldRecord, fieldsOf } from "@/program/kinds";
 import type { Edit } from "./edits";
 
@@ -18,9 +19,9 @@ export function commonFields(steps: readonly Step[]): CommonField[] {
     .filter((field, at, all) => all.findIndex(({ name }) => name === field.name) === at)
     .filter((field) => others.every((step) => fieldsOf(step.kind).some((each) => isAlike(each, field))))
     .map((field) => {
-      const values = steps.map((step) => JSON.stringify(step.params[field.name] ?? null));
-      const mixed = values.some((value) => value !== values[0]);
-      return { field, mixed, value: mixed ? undefined : first.params[field.name] };
+      const value = first.params[field.name];
+      const mixed = others.some((step) => !isSameValue(step.params[field.name] ?? null, value ?? null));
+      return { field, mixed, value: mixed ? undefined : value };
     });
 }
 

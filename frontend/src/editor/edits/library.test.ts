@@ -87,3 +87,23 @@ test("roles and zones come in with the function; what is there under the same na
   expect(Object.keys(after.roles)).toHaveLength(3);
   expect(after.zones).toEqual({ z: zone });
 });
+
+test("roles and zones that the document has just so are taken as they are, in whatever order their keys come", () => {
+  const crew: CutOut = {
+    ...cut,
+    functions: {},
+    steps: { clean: { kind: "cover", place: ["f", "body", "A"], params: { role: "r", zone: "z" } } },
+    roles: { r: { can: ["pick", "drop"], name: "Carrier" } },
+    zones: { z: { rule: "slow", name: "Wet", speed_m_s: 0.3, points: [[0, 0]] } },
+  };
+  const document: ProgramDocument = {
+    ...EMPTY_DOCUMENT,
+    roles: { r: { name: "Carrier", can: ["pick", "drop"] } },
+    zones: { z: { name: "Wet", points: [[0, 0]], rule: "slow", speed_m_s: 0.3 } },
+  };
+  let count = 0;
+  const { edits } = importFunction(document, crew, { library: "lib", version: 2 }, () => `n${(count += 1)}`);
+  const after = applyEdits(document, edits);
+  expect([after.roles, after.zones]).toEqual([document.roles, document.zones]);
+  expect(Object.values(after.steps).map(({ params }) => params)).toEqual([{ role: "r", zone: "z" }]);
+});

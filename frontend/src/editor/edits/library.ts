@@ -1,6 +1,7 @@
 /** Functions of the library brought into a document, with ids of their own. */
 import type { Edit } from "./edits";
 import type { FunctionDefinition, ProgramDocument, Role, Step, Zone } from "@/program/document/document";
+import { isSameValue } from "@/program/document/sameValue";
 import { deleteSteps, type MakeId } from "./joints";
 import { paramsWithIds } from "./substitution";
 
@@ -46,7 +47,7 @@ export function importFunction(
   const renamed = (id: string) => fresh.get(id) ?? id;
   const named = (["roles", "zones"] as const).flatMap((root) =>
     Object.entries<Role | Zone>(cut[root] ?? {}).flatMap(([id, value]): Edit[] => {
-      if (JSON.stringify(document[root][id]) === JSON.stringify(value)) return [];
+      if (isSameValue(document[root][id], value)) return [];
       if (document[root][id]) fresh.set(id, makeId());
       return [{ do: root === "roles" ? "set_role" : "set_zone", id: renamed(id), value } as Edit];
     }),

@@ -63,3 +63,9 @@ test("what was set is told as it is now, each field once", () => {
   ]);
   expect(changedSince(before, asTheyAre(before, edits))).toBe(false);
 });
+
+test("the same said in another order of its keys changes nothing", () => {
+  const role: Edit = { do: "set_role", id: "r", value: { name: "Carrier", can: ["pick"] } };
+  const again: Edit = { do: "set_role", id: "r", value: { can: ["pick"], name: "Carrier" } };
+  expect(changedSince(applyEdits(before, [role, again]), [role])).toBe(false);
+});

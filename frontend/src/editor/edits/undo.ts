@@ -1,6 +1,7 @@
 /** Whether somebody changed after me what I set last, so that undoing or redoing it would overwrite theirs. */
 import type { Edit } from "./edits";
 import type { ProgramDocument } from "@/program/document/document";
+import { isSameValue } from "@/program/document/sameValue";
 
 /** What the edits set, by field; the last one counts. Whether a step is there is one, too. */
 function fieldsOf(edits: readonly Edit[]): ReadonlyMap<string, Edit> {
@@ -17,7 +18,7 @@ function fieldsOf(edits: readonly Edit[]): ReadonlyMap<string, Edit> {
 export function changedSince(document: ProgramDocument, edits: readonly Edit[]): boolean {
   return [...fieldsOf(edits).values()].some((edit) => {
     const [now, mine] = valuesOf(document, edit);
-    return now !== undefined && JSON.stringify(now ?? null) !== JSON.stringify(mine ?? null);
+    return now !== undefined && !isSameValue(now ?? null, mine ?? null);
   });
 }
 

@@ -16,6 +16,11 @@ test("steps that are new, gone and different are told apart from those that were
   expect(stepsChanged(before, after)).toEqual({ added: ["d"], removed: ["c"], changed: ["b"] });
 });
 
+test("a step that says the same in another order of its keys is no change", () => {
+  const said = (until: unknown): ProgramDocument => ({ ...before, steps: { a: { ...step(1), params: { until } } } });
+  expect(stepsChanged(said({ op: ">", args: [1, 2] }), said({ args: [1, 2], op: ">" })).changed).toEqual([]);
+});
+
 test("one step is named, several are counted", () => {
   const say = (key: string, values: Record<string, unknown>) =>
     `${String(values.who)} ${key.split(".").at(-1)} ${String(values.count)} ${String(values.step)}`.trim();

@@ -2,6 +2,7 @@
 import { useEffect, useRef } from "react";
 import { useTranslation } from "react-i18next";
 import type { ProgramDocument } from "@/program/document/document";
+import { isSameValue } from "@/program/document/sameValue";
 import type { OpenProgram } from "../state/context";
 import { announce } from "./announcer";
 
@@ -14,7 +15,7 @@ export interface Difference {
 /** Which steps are another; unchanged ones are the same objects, since a document is only changed where it differs. */
 export function stepsChanged(before: ProgramDocument, after: ProgramDocument): Difference {
   const [old, now] = [Object.keys(before.steps), Object.keys(after.steps)];
-  const same = (id: string) => JSON.stringify(before.steps[id]) === JSON.stringify(after.steps[id]);
+  const same = (id: string) => isSameValue(before.steps[id], after.steps[id]);
   return {
     added: now.filter((id) => !before.steps[id]),
     removed: old.filter((id) => !after.steps[id]),

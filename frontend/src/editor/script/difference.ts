@@ -1,6 +1,7 @@
 /** What makes one document of another, as edits: only what differs, so that other people's edits of the rest stay. */
 import type { Edit } from "../edits/edits";
 import type { ProgramDocument, Step } from "@/program/document/document";
+import { isSameValue } from "@/program/document/sameValue";
 
 /** The edits that turn `base` into `next`; applied to a document that went on meanwhile, they change only that. */
 export function differenceOf(base: ProgramDocument, next: ProgramDocument): readonly Edit[] {
@@ -25,7 +26,7 @@ function recordEdits<T>(
   next: Readonly<Record<string, T>>,
   edit: (id: string, value: T | null) => Edit,
 ): Edit[] {
-  const changed = Object.entries(next).filter(([id, value]) => !isSame(base[id], value));
+  const changed = Object.entries(next).filter(([id, value]) => !isSameValue(base[id], value));
   const gone = Object.keys(base).filter((id) => next[id] === undefined);
   return [...changed.map(([id, value]) => edit(id, value)), ...gone.map((id) => edit(id, null))];
 }
@@ -38,21 +39,13 @@ function stepEdits(id: string, before: Step | undefined, step: Step): Edit[] {
       { do: "add_step", id, step },
     ];
   const edits: Edit[] = [];
-  if (!isSame(before.place ?? null, step.place ?? null)) edits.push({ do: "set_place", id, place: step.place ?? null });
-  if (step.pos && !isSame(before.pos ?? null, step.pos)) edits.push({ do: "set_pos", id, pos: step.pos });
+  if (!isSameValue(before.place ?? null, step.place ?? null))
+    edits.push({ do: "set_place", id, place: step.place ?? null });
+  if (step.pos && !isSameValue(before.pos ?? null, step.pos)) edits.push({ do: "set_pos", id, pos: step.pos });
   for (const name of new Set([...Object.keys(before.params), ...Object.keys(step.params)]))
-    if (!isSame(before.params[name] ?? null, step.params[name] ?? null))
+    if (!isSameValue(before.params[name] ?? null, step.params[name] ?? null))
       edits.push({ do: "set_param", id, name, value: step.params[name] ?? null });
   return edits;
-}
-
-function isSame(first: unknown, second: unknown): boolean {
-  if (Object.is(first, second)) return true;
-  if (typeof first !== "object" || typeof second !== "object" || !first || !second) return false;
-  if (Array.isArray(first) !== Array.isArray(second)) return false;
-  const [a, b] = [first as Record<string, unknown>, second as Record<string, unknown>];
-  const keys = Object.keys(a);
-  return keys.length === Object.keys(b).length && keys.every((key) => key in b && isSame(a[key], b[key]));
 }
 
 export interface Drawn {
