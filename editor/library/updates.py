@@ -60,13 +60,11 @@ def _replace(
     for step in list(_steps_below(document["steps"], function)):
         del document["steps"][step]
     fresh = {str(cut["id"]): function} | {each: make_id() for each in (*cut["functions"], *cut["steps"])}
-    for root in ("roles", "zones"):
-        for name, value in (cut.get(root) or {}).items():
-            if document[root].get(name) == value:
-                continue
-            if name in document[root]:
-                fresh[name] = make_id()
-            document[root][fresh.get(name, name)] = value
+    named = {root: cut.get(root) or {} for root in ("roles", "zones")}
+    others = [(root, name) for root, all_ in named.items() for name in all_ if document[root].get(name) != all_[name]]
+    fresh |= {name: make_id() for root, name in others if name in document[root]}
+    for root, name in others:  # a role may name itself
+        document[root][fresh.get(name, name)] = _renamed(named[root][name], fresh)
     document["functions"][function] = {**cut["function"], "source": {"library": source[0], "version": source[1]}}
     document["functions"] |= {fresh[name]: value for name, value in cut["functions"].items()}
     document["steps"] |= {fresh[name]: _renamed_step(step, fresh) for name, step in cut["steps"].items()}

@@ -107,3 +107,22 @@ test("roles and zones that the document has just so are taken as they are, in wh
   expect([after.roles, after.zones]).toEqual([document.roles, document.zones]);
   expect(Object.values(after.steps).map(({ params }) => params)).toEqual([{ role: "r", zone: "z" }]);
 });
+
+test("a role that names itself in its condition does so under its new id, too", () => {
+  const where = (role: string, above: number) => ({ op: ">", args: [{ property: [{ role }, "battery"] }, above] });
+  const carrier = (role: string, above: number) => ({ name: "Carrier", can: ["move"], where: where(role, above) });
+  const crew = {
+    ...cut,
+    functions: {},
+    steps: { go: { kind: "move", place: ["f", "body", "A"], params: { role: "r", to: { place: "dock" } } } },
+    roles: { r: carrier("r", 30) },
+  } as unknown as CutOut;
+  const document = { ...EMPTY_DOCUMENT, roles: { r: carrier("r", 50) } } as unknown as ProgramDocument;
+  let count = 0;
+  const { edits } = importFunction(document, crew, { library: "lib", version: 2 }, () => `n${(count += 1)}`);
+  const after = applyEdits(document, edits);
+  const [go] = Object.values(after.steps);
+  const role = String(go?.params.role);
+  expect(role).not.toBe("r");
+  expect(after.roles).toEqual({ r: carrier("r", 50), [role]: carrier(role, 30) });
+});

@@ -3,7 +3,7 @@ import type { Edit } from "./edits";
 import type { FunctionDefinition, ProgramDocument, Role, Step, Zone } from "@/program/document/document";
 import { isSameValue } from "@/program/document/sameValue";
 import { deleteSteps, type MakeId } from "./joints";
-import { paramsWithIds } from "./substitution";
+import { paramsWithIds, withIds } from "./substitution";
 
 /** A function cut out of a program: its body and the functions that it calls. */
 export interface CutOut {
@@ -45,26 +45,30 @@ export function importFunction(
   const fresh = new Map<string, string>([[cut.id, functionId]]);
   for (const id of [...Object.keys(cut.functions), ...Object.keys(cut.steps)]) fresh.set(id, makeId());
   const renamed = (id: string) => fresh.get(id) ?? id;
-  const named = (["roles", "zones"] as const).flatMap((root) =>
-    Object.entries<Role | Zone>(cut[root] ?? {}).flatMap(([id, value]): Edit[] => {
-      if (isSameValue(document[root][id], value)) return [];
-      if (document[root][id]) fresh.set(id, makeId());
-      return [{ do: root === "roles" ? "set_role" : "set_zone", id: renamed(id), value } as Edit];
-    }),
+  const others = (["roles", "zones"] as const).flatMap((root) =>
+    Object.entries<Role | Zone>(cut[root] ?? {})
+      .filter(([id, value]) => !isSameValue(document[root][id], value))
+      .map(([id, value]) => ({ root, id, value })),
   );
+  for (const { root, id } of others) if (document[root][id]) fresh.set(id, makeId());
+  // A role may name itself, so they are written once all new ids are known.
+  const named = others.map(({ root, id, value }) => {
+    const kind = root === "roles" ? "set_role" : "set_zone";
+    return { do: kind, id: renamed(id), value: withIds(value, renamed) } as Edit;
+  });
   const steps = Object.entries(cut.steps).map(([id, step]): Edit => ({
     do: "add_step",
     id: renamed(id),
     step: renameStep(step, renamed),
   }));
-  const others = Object.entries(cut.functions).map(([id, value]): Edit => ({
+  const parts = Object.entries(cut.functions).map(([id, value]): Edit => ({
     do: "set_function",
     id: renamed(id),
     value,
   }));
   return {
     functionId,
-    edits: [{ do: "set_function", id: functionId, value: { ...cut.function, source } }, ...others, ...named, ...steps],
+    edits: [{ do: "set_function", id: functionId, value: { ...cut.function, source } }, ...parts, ...named, ...steps],
   };
 }
 
