@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Set
 from dataclasses import replace
 from typing import Any
 from uuid import UUID, uuid4
@@ -45,7 +45,8 @@ def with_version(
     if not held:
         raise BadRequest("The program does not hold this function of the library. It may have been deleted from it.")
     for function in held:
-        _replace(document, function, cut, source, make_id)
+        if function in document["functions"]:  # it may have gone with another that alone called it
+            _replace(document, function, cut, source, make_id)
     return document
 
 
@@ -57,8 +58,12 @@ def _library_of(function: Mapping[str, Any]) -> object:
 def _replace(
     document: dict[str, Any], function: str, cut: Mapping[str, Any], source: tuple[str, int], make_id: MakeId
 ) -> None:
-    for step in list(_steps_below(document["steps"], function)):
-        del document["steps"][step]
+    old = _parts_of_only(document, function, {each.get("name") for each in cut["functions"].values()})
+    for emptied in (function, *old):
+        for step in list(_steps_below(document["steps"], emptied)):
+            del document["steps"][step]
+    for part in old:
+        del document["functions"][part]
     fresh = {str(cut["id"]): function} | {each: make_id() for each in (*cut["functions"], *cut["steps"])}
     named = {root: cut.get(root) or {} for root in ("roles", "zones")}
     others = [(root, name) for root, all_ in named.items() for name in all_ if document[root].get(name) != all_[name]]
@@ -68,6 +73,43 @@ def _replace(
     document["functions"][function] = {**cut["function"], "source": {"library": source[0], "version": source[1]}}
     document["functions"] |= {fresh[name]: value for name, value in cut["functions"].items()}
     document["steps"] |= {fresh[name]: _renamed_step(step, fresh) for name, step in cut["steps"].items()}
+
+
+def _parts_of_only(document: Mapping[str, Any], function: str, names: Set[object]) -> set[str]:
+    """Return the functions of these names that a function calls, itself or by others, and that nothing else calls."""
+    functions, calls = document["functions"], _calls_of(document["steps"])
+    called = _reached(calls, {function}) - {function}
+    parts = {each for each in called if each in functions and functions[each].get("name") in names}
+    others = {each for owner in calls.keys() - {function, *parts} for each in calls[owner]}
+    return parts - _reached({part: calls.get(part, set()) & parts for part in parts}, others & parts)
+
+
+def _calls_of(steps: Mapping[str, Any]) -> dict[str, set[str]]:
+    """Return which functions are called below each function, the program and each draft."""
+    calls: dict[str, set[str]] = {}
+    for name, step in steps.items():
+        called = step["params"].get("function") if step["kind"] == "call" else None
+        if isinstance(called, str):
+            calls.setdefault(_top_of(steps, name), set()).add(called)
+    return calls
+
+
+def _top_of(steps: Mapping[str, Any], name: str) -> str:
+    seen: set[str] = set()
+    while name in steps and name not in seen and (place := steps[name].get("place")):
+        seen.add(name)
+        name = place[0]
+    return name
+
+
+def _reached(calls: Mapping[str, Set[str]], start: Set[str]) -> set[str]:
+    """Return these and all that they call, one by another."""
+    found, left = set(start), list(start)
+    while left:
+        more = calls.get(left.pop(), frozenset()) - found
+        found |= more
+        left += more
+    return found
 
 
 def _steps_below(steps: Mapping[str, Any], parent: str) -> Iterator[str]:

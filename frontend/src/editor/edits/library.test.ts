@@ -126,3 +126,52 @@ test("a role that names itself in its condition does so under its new id, too", 
   expect(role).not.toBe("r");
   expect(after.roles).toEqual({ r: carrier("r", 50), [role]: carrier(role, 30) });
 });
+
+test("functions that came with the former version go with it, but for those that something else calls", () => {
+  const call = (parent: string, called: string) => ({
+    kind: "call",
+    place: [parent, "body", "A"] as const,
+    params: { function: called, args: {} },
+  });
+  const wait = (parent: string) => ({ kind: "wait", place: [parent, "body", "B"] as const, params: { duration: 1 } });
+  const named = (name: string) => ({ name, parameters: [] });
+  const document: ProgramDocument = {
+    ...EMPTY_DOCUMENT,
+    functions: { mix: named("mixPaint"), old: named("rinse"), deep: named("drain"), own: named("myOwn") },
+    steps: {
+      main: call("program", "mix"),
+      body: call("mix", "old"),
+      more: { ...call("mix", "own"), place: ["mix", "body", "B"] },
+      rinse: wait("old"),
+      down: call("old", "deep"),
+      drain: wait("deep"),
+      mine: wait("own"),
+    },
+  };
+  const next: CutOut = {
+    ...cut,
+    functions: { g: named("rinse"), h: named("drain") },
+    steps: { ...cut.steps, drained: call("g", "h"), idle: wait("h") },
+  };
+  const take = (from: ProgramDocument) => {
+    let count = 0;
+    const source = { library: "lib", version: 3 };
+    return applyEdits(
+      from,
+      replaceFunction(from, "mix", next, source, () => `n${(count += 1)}`),
+    );
+  };
+  const namesIn = (after: ProgramDocument) => Object.values(after.functions).map(({ name }) => name);
+  const after = take(document);
+  expect(namesIn(after).sort()).toEqual(["drain", "mixPaint", "myOwn", "rinse"]);
+  expect([after.steps.rinse, after.steps.down, after.steps.drain]).toEqual([undefined, undefined, undefined]);
+  expect(after.steps.mine).toEqual(document.steps.mine);
+  // A draft counts as well.
+  const draft = { ...call("program", "deep"), place: null };
+  const kept = take({ ...document, steps: { ...document.steps, draft } });
+  expect(namesIn(kept).sort()).toEqual(["drain", "drain", "mixPaint", "myOwn", "rinse"]);
+  expect([kept.functions.old, kept.steps.drain]).toEqual([undefined, document.steps.drain]);
+  // What calls itself, or is called by what its own parts call, stands in nobody's way.
+  const again = { ...call("deep", "old"), place: ["deep", "body", "C"] as const };
+  expect(namesIn(take({ ...document, steps: { ...document.steps, again } })).sort()).toEqual(namesIn(after).sort());
+});

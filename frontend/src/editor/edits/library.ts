@@ -1,7 +1,9 @@
 /** Functions of the library brought into a document, with ids of their own. */
+import { ownEntry } from "@/design/ownEntry";
 import type { Edit } from "./edits";
 import type { FunctionDefinition, ProgramDocument, Role, Step, Zone } from "@/program/document/document";
 import { isSameValue } from "@/program/document/sameValue";
+import { ancestors } from "@/program/document/tree";
 import { deleteSteps, type MakeId } from "./joints";
 import { paramsWithIds, withIds } from "./substitution";
 
@@ -72,7 +74,10 @@ export function importFunction(
   };
 }
 
-/** The function's definition and body as another version of the library has them; its calls stay. */
+/**
+ * The function's definition and body as another version of the library has them; its calls stay. Of the functions that
+ * came with it, those go that nothing else calls and that come anew under the same name.
+ */
 export function replaceFunction(
   document: ProgramDocument,
   functionId: string,
@@ -81,8 +86,50 @@ export function replaceFunction(
   makeId: MakeId,
 ): readonly Edit[] {
   if (!document.functions[functionId]) return [];
-  const body = Object.keys(document.steps).filter((id) => document.steps[id]?.place?.[0] === functionId);
-  return [...deleteSteps(document, body), ...importFunction(document, cut, source, makeId, functionId).edits];
+  const names = new Set(Object.values(cut.functions).map(({ name }) => name));
+  const old = partsOfOnly(document, functionId, names);
+  const emptied = new Set([functionId, ...old]);
+  const bodies = Object.keys(document.steps).filter((id) => emptied.has(document.steps[id]?.place?.[0] ?? ""));
+  return [
+    ...deleteSteps(document, bodies),
+    ...old.map((id): Edit => ({ do: "set_function", id, value: null })),
+    ...importFunction(document, cut, source, makeId, functionId).edits,
+  ];
+}
+
+/** The functions of these names that a function calls, itself or by others, and that nothing else calls. */
+function partsOfOnly(document: ProgramDocument, functionId: string, names: ReadonlySet<string>): string[] {
+  const calls = callsOf(document);
+  const all = reached(calls, [functionId], () => true);
+  const parts = new Set(
+    [...all].filter((id) => id !== functionId && names.has(ownEntry(document.functions, id)?.name ?? "")),
+  );
+  const elsewhere = [...calls].filter(([owner]) => owner !== functionId && !parts.has(owner));
+  const called = elsewhere.flatMap(([, ids]) => ids).filter((id) => parts.has(id));
+  const kept = reached(calls, called, (id) => parts.has(id));
+  return [...parts].filter((id) => !kept.has(id));
+}
+
+/** Which functions are called below each function, the program and each draft. */
+function callsOf(document: ProgramDocument): ReadonlyMap<string, readonly string[]> {
+  const calls = new Map<string, string[]>();
+  for (const [id, { kind, params }] of Object.entries(document.steps)) {
+    if (kind !== "call" || typeof params.function !== "string") continue;
+    const owner = ancestors(document, id).at(-1) ?? id;
+    calls.set(owner, [...(calls.get(owner) ?? []), params.function]);
+  }
+  return calls;
+}
+
+/** These and all that they call, one by another, as far as it is wanted. */
+function reached(
+  calls: ReadonlyMap<string, readonly string[]>,
+  from: readonly string[],
+  isWanted: (id: string) => boolean,
+): ReadonlySet<string> {
+  const found = new Set(from);
+  for (const each of found) for (const id of calls.get(each) ?? []) if (isWanted(id)) found.add(id);
+  return found;
 }
 
 function renameStep(step: Step, renamed: (id: string) => string): Step {

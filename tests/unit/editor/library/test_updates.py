@@ -48,3 +48,50 @@ def test_a_role_that_names_itself_in_its_condition_does_so_under_its_new_id_too(
     assert role != "r"
     assert after["roles"] == {"r": carrier("r", 50), role: carrier(role, 30)}
     assert errors(after) == []
+
+
+def test_functions_that_came_with_the_former_version_go_with_it_but_for_those_that_something_else_calls() -> None:
+    def calls(parent: str, called: str) -> dict[str, Any]:
+        return step("call", (parent, "body"), function=called, args={})
+
+    def waits(parent: str) -> dict[str, Any]:
+        return step("wait", (parent, "body"), order="2V", duration=1)
+
+    def names(after: dict[str, Any]) -> list[str]:
+        return sorted(each["name"] for each in after["functions"].values())
+
+    named = {name: {"name": name, "parameters": []} for name in ("rinse", "drain", "mine")}
+    steps = {
+        "main": calls("program", "f"),
+        "body": calls("f", "old"),
+        "more": {**calls("f", "own"), "place": ["f", "body", "3V"]},
+        "wet": waits("old"),
+        "down": calls("old", "deep"),
+        "dry": waits("deep"),
+        "kept": waits("own"),
+    }
+    functions = {"f": held(), "old": named["rinse"], "deep": named["drain"], "own": named["mine"]}
+    inner = {"go": calls("f", "g"), "wet": waits("g"), "down": calls("g", "h"), "dry": waits("h")}
+    version = cut(inner, functions={"g": named["rinse"], "h": named["drain"]})
+
+    after = update(document(steps, functions=functions), version)
+    assert names(after) == ["drain", "fetch", "mine", "rinse"]
+    assert not {"wet", "down", "dry", "body", "more"} & after["steps"].keys()
+    assert after["steps"]["kept"] == steps["kept"]
+    assert errors(after) == []
+
+    draft = {**calls("program", "deep"), "place": None}
+    kept = update(document({**steps, "draft": draft}, functions=functions), version)
+    assert names(kept) == ["drain", "drain", "fetch", "mine", "rinse"]
+    assert ("old" in kept["functions"], kept["steps"]["dry"]) == (False, steps["dry"])
+
+    again = {**calls("deep", "old"), "place": ["deep", "body", "3V"]}
+    assert names(update(document({**steps, "again": again}, functions=functions), version)) == names(after)
+
+
+def test_a_function_that_is_held_as_a_part_of_itself_is_updated_once() -> None:
+    steps = {"main": step("call", function="f", args={}), "body": step("call", F, function="f2", args={})}
+    functions = {"f": held(), "f2": held()}
+    version = cut({"go": step("call", F, function="g", args={})}, functions={"g": {"name": "fetch", "parameters": []}})
+    after = update(document(steps, functions=functions), version)
+    assert [each.get("source") for each in after["functions"].values()] == [{"library": "l", "version": 2}, None]
