@@ -30,7 +30,7 @@ from registry.floorplan.plan import FloorPlan, machine_beside
 from vipo_device.protocol.description import Description, Pose
 
 MOST_NUMBER = 1_000_000_000
-_CHANGES_THAT_MATTER = ("lifecycle", "name", "methods", "gives", "takes", "capacity")
+_CHANGES_THAT_MATTER = ("lifecycle", "name", "kind", "methods", "gives", "takes", "capacity", "radius_m", "size")
 
 
 def build_surroundings(*, site: str) -> Surroundings:
@@ -207,7 +207,19 @@ class DeviceWatch:
         device = message["device"]
         known = self._known.setdefault(device["id"], {})
         before = dict(known)
-        known.update({name: device[name] for name in _CHANGES_THAT_MATTER if name in device})
-        if "status" in device:
-            known["reachable"] = device["status"] not in {"offline", "pending"}
+        known.update(_told_of(device))
         return known != before
+
+
+def _told_of(device: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a live message tells of a device that programs depend on: no readings, nor where a robot is."""
+    told = {name: device[name] for name in _CHANGES_THAT_MATTER if name in device}
+    if "status" in device:
+        told["reachable"] = device["status"] not in {"offline", "pending"}
+    if "properties" in device:
+        told["properties"] = [
+            {key: said for key, said in each.items() if key != "value"} for each in device["properties"]
+        ]
+    if "location" in device and device.get("kind") == "machine":
+        told["location"] = device["location"]
+    return told

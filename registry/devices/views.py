@@ -240,16 +240,19 @@ def _method_to_json(method: MethodSpec) -> dict[str, Any]:
 
 
 def changed_fields(before: DeviceView | None, after: DeviceView) -> dict[str, Any]:
-    """Return the id and what a browser does not know yet."""
+    """Return the id and what a browser does not know yet; beside where it is its kind, by which listeners go."""
     new = device_to_json(after)
     old = device_to_json(before) if before else {}
-    return {"id": after.id, **{k: v for k, v in new.items() if k not in old or old[k] != v}}
+    told = {"id": after.id, **{k: v for k, v in new.items() if k not in old or old[k] != v}}
+    return {**told, "kind": after.kind} if "location" in told else told
 
 
 def changed_state(before: DeviceView, after: DeviceView) -> dict[str, Any]:
     """Return the id and what a browser does not know yet, where only the device's state can have changed."""
     new, old = _state_to_json(after), _state_to_json(before)
     told = {"id": after.id, **{k: v for k, v in new.items() if old[k] != v}}
+    if "location" in told:
+        told["kind"] = after.kind
     if any(before.readings.get(p.name) != after.readings.get(p.name) for p in after.canonical.properties):
         told["properties"] = [_property_to_json(p, after.readings.get(p.name)) for p in after.canonical.properties]
     return told
