@@ -139,8 +139,8 @@ def start_thread(*, program: UUID, user: Any, anchor: Anchor, label: str, words:
 
 def answer_thread(*, program: UUID, thread: UUID, user: Any, words: Words, now: datetime) -> ThreadView:
     """Write an answer into a thread. Raises NoSuchProgram, BadRequest, TooManyComments, CommentsFull."""
-    row = _find(program, thread)
     with _writing(program, user, now) as site:
+        row = _hold(program, thread)
         if row.comments.count() >= MOST_IN_THREAD:
             raise _full("thread", MOST_IN_THREAD, "A thread has at most {} comments. Begin another one.")
         _write(row, user, words, now, site)
@@ -167,17 +167,18 @@ def resolve_thread(*, program: UUID, thread: UUID, user: Any, resolved: bool, no
 
 def mark_read(*, program: UUID, thread: UUID, user: Any, to: datetime) -> None:
     """Note up to when a person has read a thread. Raises NoSuchProgram."""
-    _find(program, thread)
-    ThreadReading.objects.update_or_create(thread_id=thread, person=user, defaults={"read_to": to})
+    with transaction.atomic():
+        _hold(program, thread)
+        ThreadReading.objects.update_or_create(thread_id=thread, person=user, defaults={"read_to": to})
 
 
 def change_comment(*, program: UUID, comment: UUID, user: Any, words: Words, now: datetime) -> ThreadView:
     """Let somebody write their own comment anew. Raises NoSuchProgram, NotTheirs, BadRequest."""
-    row = _find_comment(program, comment)
-    if row.author_id != user.pk:
-        raise NotTheirs("Only who wrote a comment changes it. Write an answer.")
-    mentions = _checked(words.mentions, row.thread.program.site.slug)
     with transaction.atomic():
+        row = _hold_comment(program, comment)
+        if row.author_id != user.pk:
+            raise NotTheirs("Only who wrote a comment changes it. Write an answer.")
+        mentions = _checked(words.mentions, row.thread.program.site.slug)
         Comment.objects.filter(pk=row.pk).update(text=words.text, mentions=mentions, edited_at=now)
         note_people(row, set(mentions) - set(row.mentions), words.origin, now)
     _tell(row.thread.program)
@@ -186,11 +187,11 @@ def change_comment(*, program: UUID, comment: UUID, user: Any, words: Words, now
 
 def delete_comment(*, program: UUID, comment: UUID, user: Any, is_admin: bool) -> None:
     """Delete one's own comment, as an admin any; a thread goes with its last. Raises NoSuchProgram, NotTheirs."""
-    row = _find_comment(program, comment)
-    if row.author_id != user.pk and not is_admin:
-        raise NotTheirs("Only who wrote a comment, or an admin, deletes it. Ask one of them.")
-    held = row.thread.program
     with transaction.atomic():
+        row = _hold_comment(program, comment)
+        if row.author_id != user.pk and not is_admin:
+            raise NotTheirs("Only who wrote a comment, or an admin, deletes it. Ask one of them.")
+        held = row.thread.program
         if row.author_id != user.pk:
             by = row.author.display_name if row.author else ""
             facts = {"program": held.name, "author": by}
@@ -255,9 +256,20 @@ def _find(program: UUID, thread: UUID) -> CommentThread:
     return row
 
 
-def _find_comment(program: UUID, comment: UUID) -> Comment:
-    rows = Comment.objects.select_related("author", "thread__program__site")
-    row = rows.filter(pk=comment, thread__program=program).first()
+def _hold(program: UUID, thread: UUID) -> CommentThread:
+    """Return a thread, which nobody else writes in or deletes until the transaction ends. Raises NoSuchProgram."""
+    row = CommentThread.objects.select_for_update().filter(program=program, pk=thread).first()
+    if row is None:
+        raise NoSuchProgram(_GONE)
+    return row
+
+
+def _hold_comment(program: UUID, comment: UUID) -> Comment:
+    """Return a comment, holding its thread as `_hold` does. Raises NoSuchProgram."""
+    rows = Comment.objects.filter(pk=comment, thread__program=program)
+    if (thread := rows.values_list("thread", flat=True).first()) is not None:
+        _hold(program, thread)
+    row = rows.select_related("author", "thread__program__site").first()
     if row is None:
         raise NoSuchProgram(_GONE)
     return row
