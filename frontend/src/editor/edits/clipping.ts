@@ -8,6 +8,7 @@ import {
   type Step,
   type Zone,
 } from "@/program/document/document";
+import { isSameValue } from "@/program/document/sameValue";
 import { endOfBranch, roomAt, type Goal, type MakeId } from "./joints";
 import { DEFAULT_ROLE, givenToRole, roleOfStep } from "@/program/operation";
 import { EVENTS, outermost, readTree, withDescendants, type ProgramTree } from "@/program/document/tree";
@@ -191,12 +192,12 @@ function companyOf(
     stays: (id) => id in document.roles || (own && isTaken(id)),
     isTaken,
     // Of one robot, or of robots that can do and must meet the same.
-    isAlike: (one, other) => (other.device ? one.device === other.device : isEqual(one, other)),
+    isAlike: (one, other) => (other.device ? one.device === other.device : isSameValue(one, other)),
   });
   const zones = meeting<Zone>(namedOf(clipping.zones, brought, "zone"), document.zones, makeId, {
-    stays: (id, zone) => id in document.zones && (own || isEqual(document.zones[id], zone)),
+    stays: (id, zone) => id in document.zones && (own || isSameValue(document.zones[id], zone)),
     isTaken: (id) => id in document.zones,
-    isAlike: isEqual,
+    isAlike: isSameValue,
   });
   return {
     edits: [
@@ -243,10 +244,6 @@ function roleAs(role: Role, id: string, other: string): Role {
 /** Every program has the usual role, though it says nothing of it: it is taken by the steps that have it. */
 function isNamed(document: ProgramDocument, role: string): boolean {
   return Object.values(document.steps).some((step) => idsNamedBy(step, "role").has(role));
-}
-
-function isEqual(one: unknown, other: unknown): boolean {
-  return JSON.stringify(one) === JSON.stringify(other);
 }
 
 function withOthers(step: Step, others: Others): Step {
