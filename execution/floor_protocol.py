@@ -26,6 +26,13 @@ ToFloor = (
 )  # fmt: skip
 """What a floor is told: by runs, by devices' answers, by people. They are events of traffic as they stand."""
 
+FIRST_RETRY_S = 2.0
+"""A command that no device answers is sent again after this, then after twice as long, and so on."""
+LAST_RETRY_S = 15.0
+ASKED_AFTER_S = (5.0, 10.0, LAST_RETRY_S)
+"""A command that was accepted is asked for again after these, by how often it has been sent; an answer that a dead
+gateway was to take waits with the broker until that gateway is back."""
+
 
 @dataclass(frozen=True, slots=True)
 class TaskEnded:

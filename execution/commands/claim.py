@@ -16,16 +16,12 @@ from execution import database
 from execution.clock import steady_s
 from execution.database import preparing_cursor
 from execution.fault_points import fault_point
+from execution.floor_protocol import ASKED_AFTER_S, FIRST_RETRY_S, LAST_RETRY_S
 from execution.models import Command, Run
 from execution.traffic.messages import CONTROLS
 from registry import services as registry
 from vipo_device.protocol import messages
 
-FIRST_RETRY_S = 2.0
-LAST_RETRY_S = 15.0
-ASKED_AFTER_S = (5.0, 10.0, LAST_RETRY_S)
-"""A command that was accepted is asked for again after these, by how often it has been sent; an answer that a dead
-gateway was to take waits with the broker until that gateway is back."""
 CLAIM_HOLDS_S = 1.0
 """Who comes later than that to send what was claimed does not: others are given it after `FIRST_RETRY_S`."""
 NEVER_AGAIN_S = 7 * 86_400.0

@@ -20,9 +20,9 @@ from django.db.models import Q
 from django.utils.dateparse import parse_datetime
 
 from execution import database, mailbox
-from execution.commands.claim import ASKED_AFTER_S, FIRST_RETRY_S, NEVER_AGAIN_S, UNANSWERED
+from execution.commands.claim import NEVER_AGAIN_S, UNANSWERED
 from execution.fault_points import fault_point
-from execution.floor_protocol import CommandEnded, ToFloor, ToRun
+from execution.floor_protocol import ASKED_AFTER_S, FIRST_RETRY_S, CommandEnded, ToFloor, ToRun
 from execution.models import Command
 from execution.reasons import SENTENCES
 from execution.traffic.messages import CONTROLS, CommandAnswered

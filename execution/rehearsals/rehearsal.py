@@ -17,6 +17,7 @@ from execution.floor_protocol import AskingRun, to_floor, to_machine, to_run
 from execution.machine import machine
 from execution.machine import messages as r
 from execution.machine.needs import Facts, clock_fact, needs_of, position_facts
+from execution.rehearsals.open_commands import OpenCommands
 from execution.rehearsals.progress import Progress, has_known_end
 from execution.rehearsals.recorder import Recorder
 from execution.traffic import floor
@@ -24,7 +25,7 @@ from execution.traffic import messages as m
 from execution.traffic.admissions import zone_awaited
 from execution.traffic.layout import Layout, make_layout
 from simulation.services import DriverName, make_world
-from simulation.world import Ack, PropertyChanged, Scene, World, WorldEvent
+from simulation.world import Ack, PropertyChanged, Scene, WorldEvent
 from vipo_device.protocol.description import Scalar
 
 NAMESPACE = "6f1d7a52-6a0c-4d4e-9a5f-0d6b8f3f7c11"
@@ -92,7 +93,8 @@ def rehearse(
     try:
         standing = [replace(d, pose=scene.poses.get(d.id, d.pose)) for d in scene.devices]
         layout = make_layout(scene.grid, standing, places, m.site_zones(zones))
-        return _Rehearsal(plan, layout, world, conditions, follow).run()
+        commands = OpenCommands(world, scene.faults)
+        return _Rehearsal(plan, layout, commands, conditions, follow).run()
     finally:
         world.close()
 
@@ -100,10 +102,13 @@ def rehearse(
 class _Rehearsal:
     """One rehearsal under way."""
 
-    def __init__(self, plan: Plan, layout: Layout, world: World, conditions: Conditions, follow: Follow | None) -> None:
+    def __init__(
+        self, plan: Plan, layout: Layout, commands: OpenCommands, conditions: Conditions, follow: Follow | None
+    ) -> None:
         self.observer = observer = conditions.observer
         self.watch = None if observer is None else observer.carried
-        self.plan, self.layout, self.world = plan, layout, world
+        self.plan, self.layout, self.commands = plan, layout, commands
+        self.world = world = commands.world
         self.limit_s, self.parameters = conditions.limit_s, conditions.parameters
         self.recorder = Recorder(layout, world.readings())
         self.needs = needs_of(plan)
@@ -157,6 +162,7 @@ class _Rehearsal:
         events = self.world.advance(dt_s)
         self.recorder.look(self.world.time_s, dt_s, self.world.robots(), self.world.busy())
         happened = [self._take(event) for event in events]
+        self.commands.send_due()
         if self.world.time_s - self.looked_at >= LOOK_ROUND_S - 1e-9:
             self.looked_at = self.world.time_s
             happened.append(self._look_round())
@@ -173,6 +179,7 @@ class _Rehearsal:
         self.recorder.note_world(event)
         match event:
             case Ack(command=command, status=status, why=why, result=result):
+                self.commands.answered(event)
                 self.floor_events.append(m.CommandAnswered(command, status, why, result))
                 return True
             case PropertyChanged(device=device, name=name, value=value) if name in self.needs.properties:
@@ -235,7 +242,7 @@ class _Rehearsal:
         for action in actions:
             self.recorder.note_floor(now, action)
             if isinstance(action, m.SendCommand):
-                self.world.command(action.device, action.method, action.arguments, action.id)
+                self.commands.send(action)
             told = to_run(action)
             event = to_machine(told[1]) if told else None
             if event is not None:

@@ -103,12 +103,13 @@ class Actor(ABC):
     def command(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> None:
         """Take a command in; what comes of it is emitted."""
         self.notice_faults(t_s)
-        if method not in CONTROLS and self.troubles.hang_on_chance:
+        known = self.ledger.find(command)
+        if known is None and method not in CONTROLS and self.troubles.hang_on_chance:
             chance = None if self._fault_chance is None else self._fault_chance()
             self._befall(t_s, self.troubles.draw(t_s, chance))
         if self.is_silent or self.troubles.has("deaf"):
             return
-        if known := self.ledger.find(command):
+        if known is not None:
             self._utter(t_s, known)
         elif method in CONTROLS:
             self._control(t_s, method, arguments, command)

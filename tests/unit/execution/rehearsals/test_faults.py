@@ -75,6 +75,21 @@ def test_a_device_that_was_dead_for_a_while_goes_on_where_it_was():
     assert (result["ok"], result["duration_s"]) == (True, pytest.approx(80, abs=1))
 
 
+def test_a_command_or_an_answer_that_is_lost_is_asked_for_again_as_by_gateways():
+    lost = mixed(Fault("paintMixer02", "lose_ack"))
+    assert (lost["ok"], lost["duration_s"] - mixed()["duration_s"]) == (True, pytest.approx(15, abs=15))
+    for kind in ("deaf", "offline", "dead"):
+        result = mixed(Fault("paintMixer02", kind, for_s=5.0), times=2)
+        assert (result["ok"], result["duration_s"] - mixed(times=2)["duration_s"]) == (True, pytest.approx(6, abs=1))
+    driven = carried(Fault("robot01", "deaf", for_s=5.0))
+    assert (driven["ok"], driven["duration_s"] - carried()["duration_s"]) == (True, pytest.approx(6, abs=1.5))
+
+
+def test_a_command_that_is_asked_for_again_is_one_for_chance():
+    by_odds = (Fault("paintMixer02", "fail_next", odds=0.5), Fault("paintMixer02", "lose_ack"))
+    assert said(mixed(*by_odds, times=1)) == [(0.0, "answer_lost")]
+
+
 def test_an_answer_said_twice_changes_nothing_for_the_program():
     twice = mixed(Fault("paintMixer02", "doubled"), times=2)
     assert (twice["ok"], twice["duration_s"]) == (True, mixed(times=2)["duration_s"])
