@@ -73,6 +73,8 @@ _VALUES: Final = {
     "wrong_type": "A text stands where a number is needed, or the like.",
     "not_comparable": "The two sides are of different types, or have no order.",
     "wrong_unit": "The two units measure different things, so neither can be converted into the other.",
+    "units_differ": "A variable may hold devices that count the same thing in different units. Which devices those are "
+    "is what any step puts into it, or any call gives a parameter; if nothing says so, every device of the site.",
     "plain_number": "A number without a unit takes that of what it meets only where it is written out, as in "
     "`wait(30)`; a variable, a parameter and what is worked out say their unit.",
     "unit_not_taken": "How often, how many, and what a device takes without a unit are plain numbers; minutes "

@@ -84,7 +84,7 @@ def _body(
     result: ValueType = UNKNOWN_TYPE,
     event: n.Event | None = None,
 ) -> Body:
-    in_loops = types_in_loops(block, types, context.surroundings) if context.tree.holds(n.ForEach) else {}
+    in_loops = types_in_loops(block, types, context.surroundings, context.tree) if context.tree.holds(n.ForEach) else {}
     return Body(name, block, types, in_loops, result, event)
 
 

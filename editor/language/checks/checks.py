@@ -16,15 +16,14 @@ from editor.language.checks.devices import (
     check_place,
     check_role,
     check_route_length,
-    usable_device,
 )
 from editor.language.checks.exits import check_exits
 from editor.language.checks.idle import check_idle
 from editor.language.checks.library import check_library
 from editor.language.checks.limits import check_limited
+from editor.language.checks.machine_methods import check_operate
 from editor.language.checks.parallel import check_branches, check_needed, check_parallel
 from editor.language.checks.paths import check_paths
-from editor.language.checks.possible import check_held_device
 from editor.language.checks.robot_methods import check_own_method
 from editor.language.checks.role_choices import check_choice
 from editor.language.checks.updates import check_updates
@@ -32,7 +31,6 @@ from editor.language.checks.use import check_use
 from editor.language.checks.values import (
     check_argument,
     check_condition,
-    check_given,
     check_kept,
     check_length,
     check_limits,
@@ -44,9 +42,10 @@ from editor.language.checks.values import (
 from editor.language.document.catches import KINDS_OF
 from editor.language.document.outline import PROGRAM, Outline
 from editor.language.expressions import nodes as e
+from editor.language.expressions.constant_values import constant_value
 from editor.language.expressions.nodes import Expression
-from editor.language.expressions.value_types import LIST, NUMBER, SECONDS, TEXT, ValueType, constant_value
-from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
+from editor.language.expressions.value_types import LIST, NUMBER, SECONDS, TEXT, ValueType
+from editor.language.messages.diagnostics import Fix, Problem, fix_value
 from editor.language.messages.phrases import Options
 from editor.language.reading.document import ReadDocument
 from editor.language.site.surroundings import Surroundings, what_programs_see
@@ -55,7 +54,7 @@ from editor.language.tree.nodes import walk
 from editor.language.tree.program import Tree
 from editor.language.tree.traversal import first_uses, needed_of_roles
 from editor.language.tree.variable_types import type_of_items
-from vipo_device.protocol.description import Description, ParameterSpec
+from vipo_device.protocol.description import ParameterSpec
 from vipo_device.protocol.units import PLAIN
 
 
@@ -136,31 +135,6 @@ def _drop(context: Context, node: n.Drop) -> None:
     check_load_place(context, node, gives=False)
     if node.place_field != "target":  # a Pick-and-Drop says what it carries once, with its pick
         check_quantity(context, node)
-
-
-def _operate(context: Context, node: n.Operate) -> None:
-    device = usable_device(context, node, node.device, "device", "missing_machine")
-    if device is not None:
-        _operate_at(context, node, device)
-    check_held_device(context, node, node.device, "device", lambda f: _operate_at(context, node, f.description))
-
-
-def _operate_at(context: Context, node: n.Operate, device: Description) -> None:
-    """Check what a device is asked to do against its description."""
-    known = Options(tuple(method.name for method in device.methods))
-    if not node.method:
-        fix = None
-        if len(device.methods) == 1:
-            only = device.methods[0].name
-            fix = Fix("choose", node.step, "method", only, {"value": only})
-        context.report(node, "missing_method", "method", {"device": device.name, "options": known}, fix)
-        return
-    method = device.method(node.method)
-    if method is None:
-        details: TextArguments = {"device": device.name, "method": node.method, "options": known}
-        context.report(node, "unknown_method", "method", details)
-        return
-    check_given(context, node, method)
 
 
 def _wait(context: Context, node: n.Wait) -> None:
@@ -277,7 +251,7 @@ def _for_each(context: Context, node: n.ForEach) -> None:
         context.report(node, "missing_items", "list" if chosen else "items")
     else:
         check_length(context, node, node.items, "items")
-    items = type_of_items(node, context.variables, context.surroundings)
+    items = type_of_items(node, context.variables, context.surroundings, context.tree)
     for item in node.items:
         if not has_missing(item):
             check_kept(context, node, item, "items", items if items.type == "number" else ValueType(), "A value")
@@ -332,7 +306,7 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Pick: _pick,
     n.Drop: _drop,
     n.Cover: check_cover,
-    n.Operate: _operate,
+    n.Operate: check_operate,
     n.Perform: check_own_method,
     n.Wait: _wait,
     n.WaitUntil: _wait_until,

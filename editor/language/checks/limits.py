@@ -8,8 +8,8 @@ from math import inf
 
 from editor.language.checks.context import Context
 from editor.language.checks.values import range_in
+from editor.language.expressions.constant_values import constant_value
 from editor.language.expressions.nodes import Expression
-from editor.language.expressions.value_types import constant_value
 from editor.language.tree import nodes as n
 
 _MOST_ROUNDS = 10**6

@@ -8,8 +8,8 @@ from itertools import combinations
 
 from editor.language.checks.context import Context
 from editor.language.checks.idle import slow_functions, takes_time
+from editor.language.expressions.constant_values import constant_value
 from editor.language.expressions.nodes import Constant, Expression, Operation, Variable
-from editor.language.expressions.value_types import constant_value
 from editor.language.expressions.values import parts_of
 from editor.language.messages.diagnostics import Fix
 from editor.language.messages.phrases import Options

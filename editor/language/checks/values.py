@@ -9,6 +9,7 @@ from typing import Any
 from editor.language.checks.context import Context
 from editor.language.checks.devices import check_reading, known_device
 from editor.language.expressions import nodes as e
+from editor.language.expressions.constant_values import constant_value
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.expressions.ranges import ANY, NOTHING_KNOWN, Here, Range, first_limited_reading, possible
 from editor.language.expressions.unit_conversion import convert_units
@@ -20,7 +21,6 @@ from editor.language.expressions.value_types import (
     UNKNOWN_TYPE,
     TypeChecker,
     ValueType,
-    constant_value,
     plain_type,
     property_spec,
     type_of_scalar,

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import reduce
 from typing import TYPE_CHECKING, Any
 
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.expressions.products import product_of
 from editor.language.expressions.values import COMPARISONS, parts_of
-from editor.language.site.surroundings import Surroundings
-from vipo_device.protocol.description import PropertySpec, Scalar
+from editor.language.site.surroundings import HeldDevice, Surroundings
+from vipo_device.protocol.description import Description, PropertySpec, Scalar
 from vipo_device.protocol.units import (
     PLAIN,
     UNITS,
@@ -54,6 +52,8 @@ class ValueType:
     unit: str = ""
     of: str = ""
     """The type of the items, where it is a list; then the unit is theirs."""
+    held: frozenset[HeldDevice] = frozenset()
+    """The devices that a variable may hold; empty: not known."""
 
     @property
     def item(self) -> ValueType:
@@ -93,6 +93,16 @@ def property_spec(reading: Reading, surroundings: Surroundings) -> PropertySpec 
         case Located(role=str(role)):
             return surroundings.crew.reading(role, reading.property)
     return None
+
+
+def units_that_differ(name: str, first: tuple[Description, str], other: tuple[Description, str]) -> Mapping[str, str]:
+    """Return the words for two devices, each with the unit that it counts something in that both call the same."""
+    words = {"name": name, "first": first[0].name, "second": other[0].name}
+    return {**words, "wanted": _counted_in(first[1]), "given": _counted_in(other[1])}
+
+
+def _counted_in(unit: str) -> str:
+    return {PLAIN: "plain numbers", UNSAID: "a unit that it does not say"}.get(unit) or unit_word(unit)
 
 
 def joined_spec(specs: Sequence[PropertySpec]) -> PropertySpec | None:
@@ -148,8 +158,23 @@ class TypeChecker:
 
     def reading(self, expression: Reading) -> ValueType:
         """Return the type of a device's property."""
+        if isinstance(expression.device, Variable):
+            return self._read_of_held(self.variable(expression.device).held, expression.property)
         spec = property_spec(expression, self.surroundings)
         return UNKNOWN_TYPE if spec is None else declared_type(spec.type, declared_unit(spec.unit))
+
+    def _read_of_held(self, held: frozenset[HeldDevice], name: str) -> ValueType:
+        """Return the type of a property of a device that a variable holds; numbers must be in one unit, whichever."""
+        told = self.surroundings.crew.told_by_held(held, name)
+        kinds = {plain_type(spec.type) for _, spec in told}
+        numbers = [(device, declared_unit(spec.unit)) for device, spec in told if spec.type == "number"]
+        unit = numbers[0][1] if numbers else ""
+        other = next((each for each in numbers if each[1] != unit), None)
+        if other is not None:
+            words = units_that_differ(name, numbers[0], other)
+            self.mismatches.append(Mismatch("units_differ", words))
+            return UNKNOWN_TYPE
+        return ValueType(kinds.pop() if len(kinds) == 1 else "", unit)
 
     def quantity(self, expression: Quantity) -> ValueType:
         """Return the type of a number with a unit."""
@@ -346,43 +371,3 @@ def is_measured(expression: Expression) -> bool:
         or (isinstance(part, Located) and part.role is not None)
         for part in parts_of(expression)
     )  # fmt: skip
-
-
-_COMPUTE: Mapping[str, Callable[[Any, Any], Any]] = {
-    "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
-    "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "min": min, "max": max,
-    "in": lambda part, whole: operator.contains(whole, part),
-    "not in": lambda part, whole: not operator.contains(whole, part),
-    "and": lambda a, b: a and b, "or": lambda a, b: a or b,
-}  # fmt: skip
-_COMPUTE_ONE: Mapping[str, Callable[[Any], Any]] = {
-    "-": operator.neg, "not": operator.not_, "abs": abs, "round": round,
-}  # fmt: skip
-
-
-def constant_value(expression: Expression) -> object:
-    """Return what an expression without readings and parameters is always worth; None when that cannot be said."""
-    if _depends(expression):
-        return None
-    try:
-        return _compute(expression)
-    except (TypeError, ArithmeticError, ValueError, LookupError):
-        return None
-
-
-def _depends(expression: Expression) -> bool:
-    """Tell whether anything in an expression is measured or given, so that nothing need be worked out."""
-    if isinstance(expression, Operation):
-        return any(map(_depends, expression.arguments))
-    return not isinstance(expression, Constant)
-
-
-def _compute(expression: Expression) -> object:
-    match expression:
-        case Constant(value=value):
-            return value
-        case Operation(operator=name, arguments=(only,)):
-            return _COMPUTE_ONE[name](_compute(only))
-        case Operation(operator=name, arguments=arguments):
-            return reduce(_COMPUTE[name], [_compute(argument) for argument in arguments])
-    raise LookupError("It depends on what is measured or given.")

@@ -76,6 +76,10 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "wrong_type": "{subject}: Hier wird {wanted} gebraucht, und das ist {given}.",
     "not_comparable": "{left} und {right} lassen sich nicht mit {operator} vergleichen.",
     "wrong_unit": "{subject} ist in {wanted}, und dieser Wert ist in {given}.",
+    "units_differ": (
+        "{first} zählt {name} in {wanted}, {second} in {given}. "
+        "Nennen Sie ein Gerät, oder geben Sie jeder Art einen Schritt."
+    ),
     "plain_number": "{subject} ist in {wanted}, und das ist eine bloße Zahl. Geben Sie ihre Einheit an.",
     "unit_not_taken": "{subject} ist eine bloße Zahl, und dieser Wert ist in {given}. Geben Sie an, worin er zählt.",
     "no_such_product": "{left} {operator} {right} misst nichts. Nehmen Sie für eines davon eine bloße Zahl.",
@@ -306,6 +310,8 @@ WORDS_DE: Final[Mapping[str, str]] = {
     "a place": "ein Ort",
     "a robot": "ein Roboter",
     "a zone": "eine Zone",
+    "plain numbers": "bloßen Zahlen",
+    "a unit that it does not say": "einer Einheit, die es nicht angibt",
     "a point": "ein Punkt",
     # what a sentence speaks of
     "A condition": "Eine Bedingung",

@@ -81,6 +81,10 @@ TEXTS: Final[Mapping[str, Text]] = {
     "wrong_type": ("error", "{subject} needs {wanted}, and this is {given}."),
     "not_comparable": ("error", "{left} and {right} cannot be compared by {operator}."),
     "wrong_unit": ("error", "{subject} is in {wanted}, and this value is in {given}."),
+    "units_differ": (
+        "error",
+        "{first} counts {name} in {wanted}, {second} in {given}. Name one device, or give each sort a step of its own.",
+    ),
     "plain_number": ("error", "{subject} is in {wanted}, and this is a plain number. Say its unit."),
     "unit_not_taken": ("error", "{subject} is a plain number, and this value is in {given}. Say what it counts in."),
     "no_such_product": ("error", "{left} {operator} {right} measures nothing. Use a plain number for one of them."),

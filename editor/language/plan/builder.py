@@ -117,10 +117,13 @@ class Builder:
         """Compile what stands in a step; without a step it stands in a function, a branch or an event of its own."""
         return Inside(self, [*self.around, *around] if around else [])
 
-    def describe(self, place: e.PlaceRef) -> Description | None:
-        """Return the description of the device that stands for a place, if it is one of the site."""
+    def devices(self, place: e.PlaceRef) -> tuple[Description, ...]:
+        """Return the devices that may stand for a place: the one that it names, or those that its variable may hold."""
+        if place.value is not None:
+            checker = TypeChecker(self.surroundings, self.types, [])
+            return self.surroundings.crew.held(checker.type_of(place.value).held)
         facts = self.surroundings.devices.get(place.device or "")
-        return None if facts is None else facts.description
+        return () if facts is None else (facts.description,)
 
     def can(self, device: Description, method: str) -> bool:
         """Tell whether a device has a method."""

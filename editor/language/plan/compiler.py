@@ -16,7 +16,7 @@ from editor.language.plan.choices import binding_of
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Function, Tree
-from editor.language.tree.robots import described_alike, robots_for
+from editor.language.tree.robots import described_alike, robots_for, units_taken
 from editor.language.tree.variable_types import types_in_function, types_in_program
 from editor.language.tree.variables import local_variables, program_variables
 
@@ -39,8 +39,8 @@ def _drop(builder: Builder, node: n.Drop, leaves: Leaves) -> None:
 
 def _serve(builder: Builder, node: n.Pick | n.Drop, method: str, *, gives: bool) -> None:
     """A machine that must act for it does so when the robot stands there, before anything is taken or left."""
-    device = builder.describe(node.at)
-    if device is None or not builder.can(device, method):
+    device = next(iter(builder.devices(node.at)), None)
+    if device is None or node.at.value is not None or not builder.can(device, method):
         return
     things = device.gives if gives else device.takes
     if isinstance(node.object, e.Constant) and node.object.value not in things:
@@ -50,9 +50,8 @@ def _serve(builder: Builder, node: n.Pick | n.Drop, method: str, *, gives: bool)
 
 
 def _operate(builder: Builder, node: n.Operate, leaves: Leaves) -> None:
-    device = builder.describe(node.device)
-    method = device.method(node.method) if device else None
-    units = {parameter.name: parameter.unit for parameter in method.parameters} if method else {}
+    taken = units_taken(builder.devices(node.device), node.method)
+    units = {name: units[0][1] for name, units in taken.items()}
     arguments = {name: builder.value(value, units.get(name, "")) for name, value in node.arguments}
     builder.add(p.Call(builder.place(node.device), node.method, arguments), node, leaves=leaves)
 

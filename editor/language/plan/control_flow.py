@@ -56,7 +56,7 @@ def compile_repeat(builder: Builder, node: n.Repeat, leaves: Leaves) -> None:
 
 def compile_for_each(builder: Builder, node: n.ForEach, leaves: Leaves) -> None:
     """Compile a For-each: a hidden variable counts, and tells which item comes next."""
-    value_type = type_of_items(node, builder.types, builder.surroundings)
+    value_type = type_of_items(node, builder.types, builder.surroundings, builder.tree)
     index = e.Variable(builder.hide("item"))
     builder.add(p.Assign(index.name, _ZERO), node, enters=(node.step,))
     choose, count = _chooser(builder, node, index, value_type.unit)

@@ -79,8 +79,16 @@ class FloorFacts(Protocol):
         """Return where a robot of that radius stands to serve a machine; None when it has no room to."""
 
 
+@dataclass(frozen=True, slots=True)
+class HeldDevice:
+    """A device that a variable may hold: by its id, or as the robot of a role, by its name in the script."""
+
+    device: str | None = None
+    role: str | None = None
+
+
 class CrewFacts(Protocol):
-    """The robots that may take the roles of a program."""
+    """The robots that may take the roles of a program, and the devices that its variables may hold."""
 
     def robots(self, role: str) -> tuple[Description, ...]:
         """Return the descriptions of the robots that may take a role, by its name in the script; sorted by id."""
@@ -90,6 +98,12 @@ class CrewFacts(Protocol):
 
     def reading(self, role: str, name: str) -> PropertySpec | None:
         """Return what they say together of a property; None where they do not say the same, or nothing."""
+
+    def held(self, held: frozenset[HeldDevice]) -> tuple[Description, ...]:
+        """Return the devices that a variable may hold, sorted by id; where that is not known, all of the site."""
+
+    def told_by_held(self, held: frozenset[HeldDevice], name: str) -> tuple[tuple[Description, PropertySpec], ...]:
+        """Return which of these report a property, and what they say of it."""
 
 
 class _Nobody:
@@ -101,6 +115,12 @@ class _Nobody:
 
     def reading(self, role: str, name: str) -> PropertySpec | None:
         return None
+
+    def held(self, held: frozenset[HeldDevice]) -> tuple[Description, ...]:
+        return ()
+
+    def told_by_held(self, held: frozenset[HeldDevice], name: str) -> tuple[tuple[Description, PropertySpec], ...]:
+        return ()
 
 
 NOBODY: Final[CrewFacts] = _Nobody()
@@ -126,7 +146,7 @@ class Surroundings:
     zones: tuple[ZoneFacts, ...] = ()
     """What holds on the site's floor for every robot, by id: a program need not say it again."""
     crew: CrewFacts = field(default=NOBODY, compare=False, repr=False)
-    """Whose readings a role's are, in the program that is looked at."""
+    """Whose readings a role's are, or a variable's, in the program that is looked at."""
 
 
 def what_programs_see(surroundings: Surroundings) -> object:

@@ -16,11 +16,13 @@ from editor.language.expressions.names import (
 )
 from editor.language.expressions.value_types import joined_spec
 from editor.language.site.surroundings import Surroundings
+from editor.language.tree.held_devices import Held
 from editor.language.tree.nodes import COMPOSITES, Block, Node, Operate, Perform, blocks_of, with_blocks
 from editor.language.tree.program import Role, Tree
 from editor.language.tree.traversal import in_reading_order
 from editor.language.tree.variables import program_variables
 from vipo_device.protocol.description import Description, MethodSpec, PropertySpec
+from vipo_device.protocol.units import declared_unit
 
 Robots = tuple[Description, ...]
 
@@ -55,6 +57,17 @@ def described_alike(robots: Robots, name: str) -> MethodSpec | None:
         return None
     alike = all(method is not None and _signature(method) == _signature(first) for method in methods)
     return first if alike else None
+
+
+def units_taken(devices: Robots, name: str) -> dict[str, list[tuple[Description, str]]]:
+    """Return in which unit each of the devices that have a method takes its parameters, by their names."""
+    taken: dict[str, list[tuple[Description, str]]] = {}
+    for device in devices:
+        method = device.method(name)
+        for parameter in method.parameters if method is not None else ():
+            if parameter.type == "number":
+                taken.setdefault(parameter.name, []).append((device, declared_unit(parameter.unit)))
+    return taken
 
 
 def _signature(method: MethodSpec) -> object:
@@ -105,7 +118,7 @@ def _different_readings(robots: Robots) -> Iterable[tuple[str, ...]]:
 
 
 class Candidates:
-    """The robots that may take the roles of one program on one site, found when they are asked for."""
+    """The robots that may take a program's roles on one site, and what its variables may hold; found when asked for."""
 
     def __init__(self, roles: Sequence[Role], surroundings: Surroundings) -> None:
         """Know the roles and the site."""
@@ -114,6 +127,8 @@ class Candidates:
         self._found: dict[str, Robots] = {}
         self._told: dict[tuple[str, str], tuple[PropertySpec | None, ...]] = {}
         self._readings: dict[tuple[str, str], PropertySpec | None] = {}
+        self._held: dict[Held, Robots] = {}
+        self._told_by_held: dict[tuple[Held, str], tuple[tuple[Description, PropertySpec], ...]] = {}
 
     def robots(self, role: str) -> Robots:
         """Return the robots that may take a role, by its name in the script."""
@@ -135,6 +150,28 @@ class Candidates:
         if key not in self._readings:
             self._readings[key] = joined_spec([spec for spec in self.told_by(role, name) if spec is not None])
         return self._readings[key]
+
+    def held(self, held: Held) -> Robots:
+        """Return the devices that a variable may hold, sorted by id; all approved ones where that is not known."""
+        if held not in self._held:
+            devices = self._surroundings.devices
+            named = (
+                devices[each.device].description for each in held if each.device is not None and each.device in devices
+            )
+            of_roles = (robot for each in held if each.role is not None for robot in self.robots(each.role))
+            found = {description.id: description for description in (*named, *of_roles)}
+            if not found:
+                found = {key: facts.description for key, facts in devices.items() if facts.lifecycle == "approved"}
+            self._held[held] = tuple(found[key] for key in sorted(found))
+        return self._held[held]
+
+    def told_by_held(self, held: Held, name: str) -> tuple[tuple[Description, PropertySpec], ...]:
+        """Return which devices report a property that a variable may hold, and what they say of it."""
+        key = (held, name)
+        if key not in self._told_by_held:
+            told = ((device, device.property(name)) for device in self.held(held))
+            self._told_by_held[key] = tuple((device, spec) for device, spec in told if spec is not None)
+        return self._told_by_held[key]
 
 
 def with_crew(surroundings: Surroundings, roles: Sequence[Role]) -> Surroundings:

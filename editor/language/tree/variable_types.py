@@ -15,7 +15,7 @@ from editor.language.expressions.value_types import NUMBER, TEXT, UNKNOWN_TYPE, 
 from editor.language.expressions.values import parts_of
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
-from editor.language.tree.nodes import blocks_of
+from editor.language.tree.held_devices import NOT_KNOWN, Held, Key, held_devices, with_loops
 from editor.language.tree.program import Function, Parameter, Tree
 from editor.language.tree.variables import read_by, set_by
 from vipo_device.protocol.units import PLAIN, UNSAID, is_measure
@@ -31,6 +31,16 @@ def types_of_parameters(parameters: Iterable[Parameter]) -> dict[str, ValueType]
     return {p.name: declared_type(p.type, p.unit) for p in parameters}
 
 
+def _holding(types: Types, tree: Tree, owner: object) -> dict[str, ValueType]:
+    """Return types that say, too, which devices these variables of one owner may hold."""
+    held = held_devices(tree)
+    return {name: _held_by(found, held, (owner, name)) for name, found in types.items()}
+
+
+def _held_by(found: ValueType, held: Mapping[Key, Held], key: Key) -> ValueType:
+    return found if not held and not found.held else replace(found, held=held.get(key, NOT_KNOWN))
+
+
 def types_in_program(tree: Tree, shared: frozenset[str], surroundings: Surroundings) -> dict[str, ValueType]:
     """Return what the program's parameters and variables hold."""
     known = {**dict.fromkeys(OF_PROBLEM, TEXT), **types_of_parameters(tree.parameters)}
@@ -40,15 +50,15 @@ def types_in_program(tree: Tree, shared: frozenset[str], surroundings: Surroundi
 
 def types_in_function(tree: Tree, function: Function, outside: Types, surroundings: Surroundings) -> Types:
     """Return what can be seen in a function; `outside` is what the program's parameters and variables hold."""
-    known = {**outside, **types_of_parameters(function.parameters)}
+    known = {**outside, **_holding(types_of_parameters(function.parameters), tree, function.method)}
     own = frozenset(map(set_by, n.walk(function.body))) - known.keys() - {""}
-    return _with_types_set_in((function.body,), own, known, tree, surroundings)
+    return _with_types_set_in((function.body,), own, known, tree, surroundings, function.method)
 
 
-def type_of_items(loop: n.ForEach, types: Types, surroundings: Surroundings) -> ValueType:
-    """Return what the variable of a loop over values holds."""
-    found = _item_type(loop, TypeChecker(surroundings, types, []))
-    return UNKNOWN_TYPE if found is None else _settled(found)
+def type_of_items(loop: n.ForEach, types: Types, surroundings: Surroundings, tree: Tree) -> ValueType:
+    """Return what the variable of a loop over values holds, in one of the tree's bodies."""
+    found = _item_type(loop, TypeChecker(surroundings, types, [])) or UNKNOWN_TYPE
+    return _held_by(_settled(found), held_devices(tree), (id(loop), loop.variable))
 
 
 def _item_type(loop: n.ForEach, checker: TypeChecker) -> ValueType | None:
@@ -61,14 +71,14 @@ def _given_to(loop: n.ForEach) -> tuple[Expression, ...]:
     return loop.items if loop.over is None else (loop.over,)
 
 
-def types_in_loops(block: n.Block, types: Types, surroundings: Surroundings) -> dict[int, Types]:
+def types_in_loops(block: n.Block, types: Types, surroundings: Surroundings, tree: Tree) -> dict[int, Types]:
     """Return what can be seen where loops over values hide other names, by the identity of the steps there."""
     found: dict[int, Types] = {}
     inside: dict[_Loops, Types] = {(): types}
     for node, loops in with_loops(block):
         if loops not in inside:
             around, loop = inside[loops[:-1]], loops[-1]
-            items = type_of_items(loop, around, surroundings)
+            items = type_of_items(loop, around, surroundings, tree)
             inside[loops] = {**around, loop.index: NUMBER, loop.variable: items}
         if loops:
             found[id(node)] = inside[loops]
@@ -103,6 +113,9 @@ class _Inference:
     surroundings: Surroundings
     wanted: Collection[str]
     types: dict[str, ValueType]
+    held: Mapping[Key, Held]
+    owner: object
+    """Whose variables they are: a function's by its method, None: the program's."""
     setters: dict[str, list[_Setter]] = field(default_factory=dict)
 
     def run(self) -> None:
@@ -128,7 +141,8 @@ class _Inference:
 
     def _type_of_variable(self, name: str) -> ValueType | None:
         ready = (setter for setter in self.setters[name] if not any(map(self._is_open, setter.reads())))
-        return _joined(map(self._type_set_by, ready))
+        found = _joined(map(self._type_set_by, ready))
+        return None if found is None else _held_by(found, self.held, (self.owner, name))
 
     def _is_open(self, name: str) -> bool:
         return name in self.wanted and name not in self.types
@@ -147,20 +161,26 @@ class _Inference:
         types: Types = self.types
         for loop in loops:
             checker = TypeChecker(self.surroundings, types, [])
-            item = _item_type(loop, checker) or UNKNOWN_TYPE
+            found = _item_type(loop, checker) or UNKNOWN_TYPE
+            item = _held_by(found, self.held, (id(loop), loop.variable))
             types = ChainMap({loop.index: NUMBER, loop.variable: item}, types)  # type: ignore[arg-type]  # only read
         return types
 
 
 def _with_types_set_in(
-    bodies: Iterable[n.Block], wanted: frozenset[str], known: dict[str, ValueType], tree: Tree, site: Surroundings
+    bodies: Iterable[n.Block],
+    wanted: frozenset[str],
+    known: dict[str, ValueType],
+    tree: Tree,
+    site: Surroundings,
+    owner: object = None,
 ) -> dict[str, ValueType]:
     """Return what is known with the types of the wanted variables."""
     wanted = wanted - known.keys()
     if not wanted:
         return known
     functions = {function.method: function for function in tree.functions}
-    inference = _Inference(functions, site, wanted, dict(known))
+    inference = _Inference(functions, site, wanted, dict(known), held_devices(tree), owner)
     for body in bodies:
         for node, loops in with_loops(body):
             name = set_by(node)
@@ -168,15 +188,6 @@ def _with_types_set_in(
                 inference.setters.setdefault(name, []).append(_Setter(node, loops))
     inference.run()
     return {name: found if name in known else _settled(found) for name, found in inference.types.items()}
-
-
-def with_loops(block: n.Block, loops: _Loops = ()) -> Iterator[tuple[n.Node, _Loops]]:
-    """Yield the steps of a block in reading order, each with the loops over values around it."""
-    for node in block:
-        yield node, loops
-        inside = (*loops, node) if isinstance(node, n.ForEach) else loops
-        for inner in blocks_of(node):
-            yield from with_loops(inner, inside)
 
 
 def _names_in(values: Iterable[Expression]) -> Iterator[str]:
@@ -187,7 +198,7 @@ def _joined(found: Iterable[ValueType]) -> ValueType | None:
     """Return the type of what may be any of these: the first that is known, in the first unit that is measured."""
     joined: ValueType | None = None
     for each in found:
-        other = each if each.type else ValueType("", UNSAID)
+        other = each if each.type or is_measure(each.unit) else ValueType("", UNSAID)
         if joined is None or (not joined.type and other.type and other.type != "number"):
             joined = other
         elif {joined.type, other.type} <= {"number", ""}:
@@ -210,4 +221,6 @@ def _settled(found: ValueType) -> ValueType:
     """Return the type of a variable of which all is known: what was given no unit is a plain number."""
     if found.type == "list":
         return ValueType("list", found.unit or PLAIN if found.of == "number" else "", found.of)
-    return declared_type(found.type, found.unit) if found.type == "number" else ValueType(found.type)
+    if found.type == "number":
+        return declared_type(found.type, found.unit)
+    return ValueType(found.type, found.unit if not found.type and is_measure(found.unit) else "", held=found.held)

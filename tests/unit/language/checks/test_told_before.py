@@ -70,7 +70,7 @@ CARRY = """for thing in ['box', '{}']:
         (("self.cook(machine=self.oven)", COOK), []),
         ((f"{CHOSEN}self.m.operate('curePaint', {{'time': 10}})",), ["may_not_fit Paint Mixer A"]),
         ((f"{CHOSEN}self.m.operate('rest', {{}})",), ["unknown_method Curing Oven"]),
-        ((f"{BOTH}self.wait(until=m.read('quality') > 3)",), ["unknown_property Paint Mixer A"]),
+        ((f"{BOTH}self.wait(until=m.read('quality') == 'good')",), ["unknown_property Paint Mixer A"]),
         ((f"{BOTH}self.wait(until=m.read('temperature') > 30)",), []),
         ((f"self.take(at=self.shelf)\nself.robot.move(self.booth.location)\nself.robot.drop({DROP})", TAKE), []),
         (("self.take(at=self.cans)", TAKE), ["not_given Paint Inventory", "ends_carrying"]),

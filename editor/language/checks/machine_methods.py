@@ -1,0 +1,62 @@
+"""Checks of what machines are asked to do and given, also where a variable names the machine."""
+
+from __future__ import annotations
+
+from editor.language.checks.context import Context
+from editor.language.checks.devices import usable_device
+from editor.language.checks.possible import check_held_device
+from editor.language.checks.values import check_given
+from editor.language.expressions.nodes import Expression
+from editor.language.expressions.value_types import TypeChecker, unit_word, units_that_differ
+from editor.language.messages.diagnostics import Fix, TextArguments
+from editor.language.messages.phrases import Options
+from editor.language.tree import nodes as n
+from editor.language.tree.robots import units_taken
+from vipo_device.protocol.description import Description
+from vipo_device.protocol.units import UNSAID, is_measure, same_dimension
+
+
+def check_operate(context: Context, node: n.Operate) -> None:
+    """Check what a machine is asked to do; of one that a variable names, each that it may be."""
+    device = usable_device(context, node, node.device, "device", "missing_machine")
+    if device is not None:
+        _operate_at(context, node, device)
+    check_held_device(context, node, node.device, "device", lambda f: _operate_at(context, node, f.description))
+    if node.device.value is not None:
+        _check_units(context, node, node.device.value)
+
+
+def _operate_at(context: Context, node: n.Operate, device: Description) -> None:
+    """Check what a device is asked to do against its description."""
+    known = Options(tuple(method.name for method in device.methods))
+    if not node.method:
+        fix = None
+        if len(device.methods) == 1:
+            only = device.methods[0].name
+            fix = Fix("choose", node.step, "method", only, {"value": only})
+        context.report(node, "missing_method", "method", {"device": device.name, "options": known}, fix)
+        return
+    method = device.method(node.method)
+    if method is None:
+        details: TextArguments = {"device": device.name, "method": node.method, "options": known}
+        context.report(node, "unknown_method", "method", details)
+        return
+    check_given(context, node, method)
+
+
+def _check_units(context: Context, node: n.Operate, device: Expression) -> None:
+    """Check what is measured against the unit in which each device counts that may be meant; all must count alike."""
+    checker = TypeChecker(context.surroundings, context.variables, [])
+    taken = units_taken(context.surroundings.crew.held(checker.type_of(device).held), node.method)
+    for name, value in node.arguments:
+        given, units = checker.type_of(value).unit, taken.get(name, [])
+        if not is_measure(given):
+            continue
+        field, wanted = f"args.{name}", units[0][1] if units else UNSAID
+        other = next((each for each in units if each[1] != wanted), None)
+        if other is not None:
+            context.report(node, "units_differ", field, units_that_differ(name, units[0], other))
+        elif not same_dimension(given, wanted):
+            code = "wrong_unit" if is_measure(wanted) else "unit_not_taken"
+            words = {"subject": name.capitalize(), "wanted": unit_word(wanted), "given": unit_word(given)}
+            context.report(node, code, field, words)
