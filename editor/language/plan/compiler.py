@@ -19,6 +19,7 @@ from editor.language.tree.program import Function, Tree
 from editor.language.tree.robots import described_alike, robots_for, units_taken
 from editor.language.tree.variable_types import types_in_function, types_in_program
 from editor.language.tree.variables import local_variables, program_variables
+from vipo_device.protocol.description import Description
 
 
 def _move(builder: Builder, node: n.Move, leaves: Leaves) -> None:
@@ -38,15 +39,28 @@ def _drop(builder: Builder, node: n.Drop, leaves: Leaves) -> None:
 
 
 def _serve(builder: Builder, node: n.Pick | n.Drop, method: str, *, gives: bool) -> None:
-    """A machine that must act for it does so when the robot stands there, before anything is taken or left."""
-    device = next(iter(builder.devices(node.at)), None)
-    if device is None or node.at.value is not None or not builder.can(device, method):
-        return
-    things = device.gives if gives else device.takes
-    if isinstance(node.object, e.Constant) and node.object.value not in things:
+    """A machine that must act for it does so when the robot stands there, before anything is taken or left.
+
+    Of the machines that a variable may hold some need not act: then the run goes by which of them it is.
+    """
+    devices = builder.devices(node.at)
+    acting = [device for device in devices if builder.can(device, method) and _handles(device, node, gives=gives)]
+    if not acting:
         return
     values = {"object": builder.value(node.object), "value": builder.value(node.quantity)}
-    builder.add(p.Call(node.at, method, values, node.role), node)
+    call = p.Call(builder.place(node.at), method, values, node.role)
+    if node.at.value is None or len(acting) == len(devices):
+        builder.add(call, node)
+        return
+    branch = builder.add(p.Jump(0), node)
+    builder.add(call, node)
+    acts = e.Operation("in", (builder.value(node.at.value), e.Constant(tuple(device.id for device in acting))))
+    builder.patch(branch, p.Branch(acts, builder.here()))
+
+
+def _handles(device: Description, node: n.Pick | n.Drop, *, gives: bool) -> bool:
+    """Tell whether a machine gives, or takes, what is carried; true where only the run tells what that is."""
+    return not isinstance(node.object, e.Constant) or node.object.value in (device.gives if gives else device.takes)
 
 
 def _operate(builder: Builder, node: n.Operate, leaves: Leaves) -> None:
