@@ -73,6 +73,10 @@ _VALUES: Final = {
     "wrong_type": "A text stands where a number is needed, or the like.",
     "not_comparable": "The two sides are of different types, or have no order.",
     "wrong_unit": "The two units measure different things, so neither can be converted into the other.",
+    "temperature_or_difference": 'A program does not say whether `t - quantity(20, "°C")` lowers a temperature or '
+    "takes one from another. Where a device reports what is taken away, it is a difference.",
+    "difference_needs_kelvins": "What a function takes or gives in °C or °F is a temperature to whoever meets it "
+    "there; in K temperatures and differences are counted alike.",
     "units_differ": "A variable may hold devices that count the same thing in different units. Which devices those are "
     "is what any step puts into it, or any call gives a parameter; if nothing says so, every device of the site.",
     "plain_number": "A number without a unit takes that of what it meets only where it is written out, as in "

@@ -9,6 +9,7 @@ from uuid import UUID
 from editor.documents.store import get_document
 from editor.language.expressions.names import member_name
 from editor.language.expressions.printing import quote
+from editor.language.expressions.temperatures import base_unit
 from editor.language.one_line.scope import LineScope, make_line_scope
 from editor.language.one_line.values import NotUnderstood, parse_line, print_line, type_of_line
 from editor.language.tree.robots import readings_told, short_reading
@@ -81,7 +82,7 @@ def print_expression(*, program_id: UUID | str, value: Any, step: str = "", name
 
 def _view(value: Any, text: str, line: LineScope, *, names: bool) -> ExpressionView:
     value_type = type_of_line(value, line)
-    unit = value_type.unit if is_measure(value_type.unit) else ""
+    unit = base_unit(value_type.unit) if is_measure(value_type.unit) else ""
     return ExpressionView(value, text, value_type.type, unit, None, _line_names(line) if names else ())
 
 

@@ -31,6 +31,7 @@ from editor.language.checks.use import check_use
 from editor.language.checks.values import (
     check_argument,
     check_condition,
+    check_difference,
     check_kept,
     check_length,
     check_limits,
@@ -225,6 +226,8 @@ def _call(context: Context, node: n.Call) -> None:
             spec = ParameterSpec(parameter.name, kind or "text", unit)  # type: ignore[arg-type]
             name = function.name or function.method
             check_argument(context, node, spec, value, name, "missing_function_argument", typed=bool(kind))
+            subject = parameter.name.capitalize()
+            check_difference(context, node, value, f"args.{parameter.name}", parameter.unit, subject)
 
     if node.result and not function.result_type:
         fix = Fix("remove", node.step, "result", None, {"value": node.result})
@@ -299,6 +302,7 @@ def _return(context: Context, node: n.Return) -> None:
             context.report(node, "missing_value", "value")
         else:
             check_value(context, node, node.value, "value", context.result, "The result")
+            check_difference(context, node, node.value, "value", context.result.unit, "The result")
 
 
 CHECKS: Mapping[type[n.Node], Callable[..., None]] = {

@@ -6,9 +6,8 @@ from typing import get_args
 
 from editor.language.checks.context import Context
 from editor.language.constructs.table import FORMS
-from editor.language.expressions.constant_values import constant_value
+from editor.language.expressions.constant_values import constant_value, is_measured
 from editor.language.expressions.nodes import Constant, Variable
-from editor.language.expressions.value_types import is_measured
 from editor.language.expressions.values import parts_of
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Tree

@@ -7,13 +7,14 @@ from editor.language.checks.devices import usable_device
 from editor.language.checks.possible import check_held_device
 from editor.language.checks.values import check_given
 from editor.language.expressions.nodes import Expression
+from editor.language.expressions.temperatures import go_together, is_temperature
 from editor.language.expressions.value_types import TypeChecker, unit_word, units_that_differ
 from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.tree import nodes as n
 from editor.language.tree.robots import units_taken
 from vipo_device.protocol.description import Description
-from vipo_device.protocol.units import UNSAID, is_measure, same_dimension
+from vipo_device.protocol.units import UNSAID, is_measure
 
 
 def check_operate(context: Context, node: n.Operate) -> None:
@@ -56,7 +57,8 @@ def _check_units(context: Context, node: n.Operate, device: Expression) -> None:
         other = next((each for each in units if each[1] != wanted), None)
         if other is not None:
             context.report(node, "units_differ", field, units_that_differ(name, units[0], other))
-        elif not same_dimension(given, wanted):
-            code = "wrong_unit" if is_measure(wanted) else "unit_not_taken"
+        elif not go_together(given, wanted):
+            alike = is_temperature(given) and is_temperature(wanted)
+            code = "temperature_or_difference" if alike else "wrong_unit" if is_measure(wanted) else "unit_not_taken"
             words = {"subject": name.capitalize(), "wanted": unit_word(wanted), "given": unit_word(given)}
             context.report(node, code, field, words)

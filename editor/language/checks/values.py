@@ -12,6 +12,7 @@ from editor.language.expressions import nodes as e
 from editor.language.expressions.constant_values import constant_value
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.expressions.ranges import ANY, NOTHING_KNOWN, Here, Range, first_limited_reading, possible
+from editor.language.expressions.temperatures import base_unit, go_together, is_difference, is_scale, is_temperature
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.value_types import (
     BOOLEAN,
@@ -32,7 +33,7 @@ from editor.language.messages.diagnostics import Fix, TextArguments, fix_value
 from editor.language.messages.phrases import Amounts, Driver, Options, Plural, Span
 from editor.language.tree import nodes as n
 from vipo_device.protocol.description import MethodSpec, ParameterSpec
-from vipo_device.protocol.units import PLAIN, UNITS, declared_unit, is_measure, same_dimension
+from vipo_device.protocol.units import PLAIN, declared_unit, is_measure
 
 
 def has_missing(expression: Expression) -> bool:
@@ -150,8 +151,9 @@ def _check_unit(
     given, wanted = units
     code, fix = "", None
     if is_measure(wanted):
-        if is_measure(given) and not same_dimension(given, wanted):
-            code = "wrong_unit"
+        if is_measure(given) and not go_together(given, wanted):
+            alike = is_temperature(given) and is_temperature(wanted)
+            code = "temperature_or_difference" if alike else "wrong_unit"
         elif given == PLAIN:
             code, fix = "plain_number", _with_unit(context, node, value, field, ("*", wanted))
     elif is_measure(given) and (wanted == PLAIN or not isinstance(value, Reading)):
@@ -168,8 +170,17 @@ def _with_unit(
     raw, (operator, unit) = context.raw_value(node.step, field), into
     if raw is None or TypeChecker(context.surroundings, context.variables, []).type_of(value).type == "list":
         return None
-    taken = {"op": operator, "args": [raw, {"quantity": [1, unit]}]}
+    taken = {"op": operator, "args": [raw, {"quantity": [1, base_unit(unit)]}]}
     return Fix("take_in" if operator == "*" else "number_of", node.step, field, taken, {"value": unit_word(unit)})
+
+
+def check_difference(
+    context: Context, node: n.Node, value: Expression, field: str, unit: str, subject: str
+) -> None:  # fmt: skip
+    """Check that no function takes or gives a difference of temperatures in °C or °F, where it would count as one."""
+    given = TypeChecker(context.surroundings, context.variables, []).type_of(value).unit
+    if is_difference(given) and is_scale(unit):
+        context.report(node, "difference_needs_kelvins", field, {"subject": subject, "wanted": unit_word(unit)})
 
 
 def check_kept(
@@ -179,7 +190,7 @@ def check_kept(
     if not check_value(context, node, value, field, kept, subject) or not is_measure(kept.unit):
         return
     unit = TypeChecker(context.surroundings, context.variables, []).type_of(value).unit
-    has_zero = UNITS[kept.unit].dimension != "temperature" if kept.unit in UNITS else True
+    has_zero = not is_temperature(kept.unit) or is_difference(kept.unit)
     empty = isinstance(value, Operation) and value.operator == "list" and not value.arguments
     if unit or empty or (has_zero and constant_value(value) == 0):
         return
@@ -187,7 +198,7 @@ def check_kept(
     fix = _with_unit(context, node, value, field, ("*", kept.unit))
     if isinstance(value, Constant) and is_number(value.value):
         shown = f"{value.value} {unit_word(kept.unit)}"
-        fix = Fix("set_to", node.step, field, {"quantity": [value.value, kept.unit]}, {"value": shown})
+        fix = Fix("set_to", node.step, field, {"quantity": [value.value, base_unit(kept.unit)]}, {"value": shown})
     context.report(node, "plain_number", field, words, None if field == "items" else fix)
 
 

@@ -1,4 +1,4 @@
-"""What a value that is all written out is worth."""
+"""Which values are written out, what those are worth, and which are measured anew whenever they are asked for."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from functools import reduce
 from typing import Any
 
-from editor.language.expressions.nodes import Constant, Expression, Operation
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading
+from editor.language.expressions.values import parts_of
 
 _COMPUTE: Mapping[str, Callable[[Any, Any], Any]] = {
     "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
@@ -47,3 +48,20 @@ def _compute(expression: Expression) -> object:
         case Operation(operator=name, arguments=arguments):
             return reduce(_COMPUTE[name], [_compute(argument) for argument in arguments])
     raise LookupError("It depends on what is measured or given.")
+
+
+def is_written(expression: Expression) -> bool:
+    """Tell whether nothing in an expression is measured or given: it says the same whenever it is asked."""
+    return all(
+        isinstance(part, Constant | Quantity) or (isinstance(part, Operation) and part.operator != "now")
+        for part in parts_of(expression)
+    )
+
+
+def is_measured(expression: Expression) -> bool:
+    """Tell whether the expression looks at anything that changes by itself: a device, a place, the time."""
+    return any(
+        isinstance(part, Reading) or (isinstance(part, Operation) and part.operator in {"now", "distance", "nearest"})
+        or (isinstance(part, Located) and part.role is not None)
+        for part in parts_of(expression)
+    )  # fmt: skip

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
-from vipo_device.protocol.units import PLAIN, UNITS, UNSAID, conversion, is_measure, same_dimension
+from editor.language.expressions.temperatures import conversion_of, go_together, is_either
+from vipo_device.protocol.units import PLAIN, UNITS, UNSAID, is_measure
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,15 +50,15 @@ def product_of(operator: str, left: str, right: str) -> Product | None:
         return Product(left)
     if not is_measure(left) and operator == "*":
         return Product(right)
-    if is_measure(left) and operator == "/" and same_dimension(left, right):
+    if is_measure(left) and operator == "/" and go_together(left, right):
         return _quotient(left, right)
     return _share(operator, left, right) or _by_pair(operator, left, right)
 
 
 def _quotient(left: str, right: str) -> Product | None:
     """Return how many times one measure goes into another of its kind; degrees have no zero to count from."""
-    factor, offset = conversion(right, left)
-    return None if offset or _has_offset(left) else Product(PLAIN, 1, factor)
+    factor, offset = conversion_of(right, left)
+    return None if offset or _has_offset(left) or _has_offset(right) else Product(PLAIN, 1, factor)
 
 
 def _share(operator: str, left: str, right: str) -> Product | None:
@@ -83,4 +84,4 @@ def _factor(unit: str) -> float:
 
 
 def _has_offset(unit: str) -> bool:
-    return unit in UNITS and UNITS[unit].offset != 0
+    return is_either(unit) or (unit in UNITS and UNITS[unit].offset != 0)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading
 from editor.language.expressions.products import product_of
-from editor.language.expressions.value_types import TypeChecker, ValueType, common_unit, is_written
+from editor.language.expressions.temperatures import conversion_of, go_together
+from editor.language.expressions.value_types import TypeChecker, ValueType, common_unit, sum_of_types
 from editor.language.expressions.values import ARITHMETIC, COMPARISONS, is_number, operation
 from editor.language.site.surroundings import Surroundings
-from vipo_device.protocol.units import conversion, convert, is_measure, same_dimension, tidy, unit_symbol
+from vipo_device.protocol.units import is_measure, tidy, unit_symbol
 
 _WITH_UNITS = frozenset({"now", "distance", "nearest", "text"})
 _MEETING = frozenset({*COMPARISONS, "+", "-", "min", "max", "abs", "round", "list"})
@@ -61,13 +62,12 @@ def _convert(expression: Expression, checker: TypeChecker) -> Expression:
 def _met(name: str, arguments: tuple[Expression, ...], checker: TypeChecker) -> tuple[Expression, ...]:
     """Return values that meet, all in one unit."""
     types = [_type_of(argument, checker) for argument in arguments]
-    unit = common_unit(arguments, types)
-    converted = []
-    for index, (argument, value_type) in enumerate(zip(arguments, types, strict=True)):
-        reckons = name in {"+", "-"} and len(arguments) == 2 and value_type.type != "list"
-        aside = reckons and _is_difference(index, arguments)
-        converted.append(into_unit(_convert(argument, checker), value_type.unit, unit, difference=aside))
-    return tuple(converted)
+    units = (common_unit(arguments, types),) * len(arguments)
+    if name in {"+", "-"} and len(arguments) == 2 and "list" not in {each.type for each in types}:
+        found = sum_of_types(name, arguments, types)
+        units = (found.left, found.right)
+    rows = zip(arguments, types, units, strict=True)
+    return tuple(into_unit(_convert(argument, checker), each.unit, unit) for argument, each, unit in rows)
 
 
 def _multiplied(name: str, arguments: tuple[Expression, ...], checker: TypeChecker) -> tuple[Expression, ...]:
@@ -81,13 +81,6 @@ def _times(expression: Expression, factor: float) -> Expression:
     if isinstance(expression, Constant) and is_number(expression.value):
         return Constant(tidy(expression.value * factor))
     return _scaled(expression, factor)
-
-
-def _is_difference(index: int, arguments: tuple[Expression, ...]) -> bool:
-    """Of two temperatures that are added or subtracted the second is a difference, or else the one written out."""
-    if is_written(arguments[0]) and not is_written(arguments[1]):
-        return index == 0
-    return index == 1
 
 
 def _as_text(part: Expression, checker: TypeChecker) -> Expression:
@@ -136,18 +129,18 @@ def _folded(converted: Operation, before: Expression) -> Expression:
     return converted if right == 0 else Constant(tidy(left / right))
 
 
-def into_unit(expression: Expression, source: str, target: str, *, difference: bool = False) -> Expression:
+def into_unit(expression: Expression, source: str, target: str) -> Expression:
     """Return an expression that is in one unit in another one, or as it is where neither goes over into the other."""
-    if source == target or not is_measure(source) or not same_dimension(source, target):
+    if source == target or not is_measure(source) or not go_together(source, target):
         return expression
-    factor, offset = conversion(source, target)
+    factor, offset = conversion_of(source, target)
     if isinstance(expression, Operation) and expression.operator == "list":
         return operation("list", tuple(into_unit(item, source, target) for item in expression.arguments))
     if isinstance(expression, Constant) and is_number(expression.value):
-        value = expression.value
-        return Constant(tidy(value * factor) if difference else convert(value, source, target))
+        value = expression.value * factor
+        return Constant(tidy(round(value + offset, 9) if offset else value))
     scaled = _scaled(expression, factor)
-    return scaled if difference or not offset else Operation("+", (scaled, Constant(offset)))
+    return scaled if not offset else Operation("+", (scaled, Constant(offset)))
 
 
 def _scaled(expression: Expression, factor: float) -> Expression:

@@ -6,9 +6,20 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from editor.language.expressions.constant_values import is_written
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.expressions.products import product_of
-from editor.language.expressions.values import COMPARISONS, parts_of
+from editor.language.expressions.temperatures import (
+    Sum,
+    Term,
+    base_unit,
+    go_together,
+    is_difference,
+    is_temperature,
+    joined_unit,
+    sum_of,
+)
+from editor.language.expressions.values import COMPARISONS
 from editor.language.site.surroundings import HeldDevice, Surroundings
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
 from vipo_device.protocol.units import (
@@ -17,7 +28,6 @@ from vipo_device.protocol.units import (
     UNSAID,
     declared_unit,
     is_measure,
-    same_dimension,
     unit_symbol,
 )
 
@@ -52,13 +62,15 @@ class ValueType:
     unit: str = ""
     of: str = ""
     """The type of the items, where it is a list; then the unit is theirs."""
+    measured: bool = False
+    """It is known to be a temperature and no difference: a device reports it, or what it is worked out from."""
     held: frozenset[HeldDevice] = frozenset()
     """The devices that a variable may hold; empty: not known."""
 
     @property
     def item(self) -> ValueType:
         """Return the type of an item of a list."""
-        return ValueType(self.of, self.unit) if self.of else UNKNOWN_TYPE
+        return ValueType(self.of, self.unit, measured=self.measured) if self.of else UNKNOWN_TYPE
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +90,7 @@ METRES, SECONDS = ValueType("number", "M"), ValueType("number", "SEC")
 
 def unit_word(unit: str) -> str:
     """Return how people write a unit."""
-    return unit_symbol(unit)
+    return unit_symbol(base_unit(unit))
 
 
 def property_spec(reading: Reading, surroundings: Surroundings) -> PropertySpec | None:
@@ -161,7 +173,7 @@ class TypeChecker:
         if isinstance(expression.device, Variable):
             return self._read_of_held(self.variable(expression.device).held, expression.property)
         spec = property_spec(expression, self.surroundings)
-        return UNKNOWN_TYPE if spec is None else declared_type(spec.type, declared_unit(spec.unit))
+        return UNKNOWN_TYPE if spec is None else _reported(declared_type(spec.type, declared_unit(spec.unit)))
 
     def _read_of_held(self, held: frozenset[HeldDevice], name: str) -> ValueType:
         """Return the type of a property of a device that a variable holds; numbers must be in one unit, whichever."""
@@ -174,7 +186,7 @@ class TypeChecker:
             words = units_that_differ(name, numbers[0], other)
             self.mismatches.append(Mismatch("units_differ", words))
             return UNKNOWN_TYPE
-        return ValueType(kinds.pop() if len(kinds) == 1 else "", unit)
+        return _reported(ValueType(kinds.pop() if len(kinds) == 1 else "", unit))
 
     def quantity(self, expression: Quantity) -> ValueType:
         """Return the type of a number with a unit."""
@@ -219,7 +231,7 @@ class TypeChecker:
         name = expression.operator
         if name == "list":
             unit = common_unit(expression.arguments, types) if types else ""
-            return replace(self._list_of(types), unit=unit)
+            return replace(self._list_of(types), unit=unit, measured=any(each.measured for each in types))
         self._need(types[0], "list", f"“{name}”")
         if name == "len":
             return NUMBER
@@ -259,9 +271,16 @@ class TypeChecker:
         for value_type in types:
             self._need(value_type, "number", f"“{name}”")
         if name in {"*", "/"}:
-            return ValueType("number", self._unit_of_product(name, types[0].unit, types[1].unit))
+            unit = self._unit_of_product(name, types[0].unit, types[1].unit)
+            return ValueType("number", unit, measured=is_temperature(unit) and any(each.measured for each in types))
         self._same_unit(types)
-        return ValueType("number", common_unit(expression.arguments, types))
+        if len(types) == 2 and name in {"+", "-"}:
+            found = sum_of_types(name, expression.arguments, types)
+            if found.unclear:
+                self.mismatches.append(_either_way(found.left, types))
+            return ValueType("number", found.unit, measured=found.measured)
+        unit = common_unit(expression.arguments, types)
+        return ValueType("number", unit, measured=any(each.measured for each in types))
 
     def _need_place(self, argument: Expression, value_type: ValueType, name: str) -> None:
         """Only a point, or something that is known by its id, has a place."""
@@ -297,8 +316,10 @@ class TypeChecker:
 
     def _same_unit(self, types: list[ValueType]) -> None:
         units = [value_type.unit for value_type in types if is_measure(value_type.unit)]
-        other = next((unit for unit in units if not same_dimension(unit, units[0])), None)
-        if other is not None:
+        other = next((unit for unit in units if not go_together(unit, units[0])), None)
+        if other is not None and is_temperature(other) and is_temperature(units[0]):
+            self.mismatches.append(_either_way(units[0], types))
+        elif other is not None:
             words = {"subject": "The first value", "wanted": unit_word(units[0]), "given": unit_word(other)}
             self.mismatches.append(Mismatch("wrong_unit", words))
         elif units and any(value_type.unit == PLAIN for value_type in types):
@@ -333,17 +354,27 @@ def common_unit(arguments: Sequence[Expression], types: Sequence[ValueType]) -> 
     if len(set(units)) == 1:
         return units[0]
     paired = zip(arguments, types, strict=True)
-    return next(
+    first = next(
         (each.unit for argument, each in paired if is_measure(each.unit) and not is_written(argument)), units[0]
     )
+    return joined_unit(first, units)
 
 
-def is_written(expression: Expression) -> bool:
-    """Tell whether nothing in an expression is measured or given: it says the same whenever it is asked."""
-    return all(
-        isinstance(part, Constant | Quantity) or (isinstance(part, Operation) and part.operator != "now")
-        for part in parts_of(expression)
-    )
+def sum_of_types(name: str, arguments: Sequence[Expression], types: Sequence[ValueType]) -> Sum:
+    """Return what two numbers give by `+` or `-`, and in which units they meet."""
+    paired = zip(arguments, types, strict=True)
+    left, right = (Term(each.unit, each.measured, is_written(argument)) for argument, each in paired)
+    return sum_of(name, left, right, common_unit(arguments, types))
+
+
+def _reported(found: ValueType) -> ValueType:
+    return replace(found, measured=True) if is_temperature(found.unit) and not is_difference(found.unit) else found
+
+
+def _either_way(unit: str, types: Sequence[ValueType]) -> Mismatch:
+    """Return that a temperature meets another unit, of which nobody knows whether it is a difference."""
+    other = next((each.unit for each in types if base_unit(each.unit) != base_unit(unit)), unit)
+    return Mismatch("temperature_or_difference", {"wanted": unit_word(unit), "given": unit_word(other)})
 
 
 def declared_type(type_name: str, unit: str) -> ValueType:
@@ -362,12 +393,3 @@ def type_word(value_type: ValueType) -> str:
 def plain_type(name: str) -> str:
     """Return the type that a value of this declared type has when it is compared."""
     return "text" if name in _TEXT_LIKE else name
-
-
-def is_measured(expression: Expression) -> bool:
-    """Tell whether the expression looks at anything that changes by itself: a device, a place, the time."""
-    return any(
-        isinstance(part, Reading) or (isinstance(part, Operation) and part.operator in {"now", "distance", "nearest"})
-        or (isinstance(part, Located) and part.role is not None)
-        for part in parts_of(expression)
-    )  # fmt: skip

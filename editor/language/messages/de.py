@@ -76,6 +76,13 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "wrong_type": "{subject}: Hier wird {wanted} gebraucht, und das ist {given}.",
     "not_comparable": "{left} und {right} lassen sich nicht mit {operator} vergleichen.",
     "wrong_unit": "{subject} ist in {wanted}, und dieser Wert ist in {given}.",
+    "temperature_or_difference": (
+        "Das kann eine Temperatur oder ein Unterschied von zweien sein; {given} in {wanted} umzurechnen ist dann "
+        "zweierlei. Nehmen Sie für beides eine Einheit."
+    ),
+    "difference_needs_kelvins": (
+        "{subject} ist in {wanted}, wo dieser Unterschied als Temperatur gälte. Erklären Sie ihn in K."
+    ),
     "units_differ": (
         "{first} zählt {name} in {wanted}, {second} in {given}. "
         "Nennen Sie ein Gerät, oder geben Sie jeder Art einen Schritt."

@@ -81,6 +81,15 @@ TEXTS: Final[Mapping[str, Text]] = {
     "wrong_type": ("error", "{subject} needs {wanted}, and this is {given}."),
     "not_comparable": ("error", "{left} and {right} cannot be compared by {operator}."),
     "wrong_unit": ("error", "{subject} is in {wanted}, and this value is in {given}."),
+    "temperature_or_difference": (
+        "error",
+        "This may be a temperature or a difference of two, and then {given} goes over into {wanted} in another way. "
+        "Use one unit for both.",
+    ),
+    "difference_needs_kelvins": (
+        "error",
+        "{subject} is in {wanted}, where this difference would be taken for a temperature. Declare it in K.",
+    ),
     "units_differ": (
         "error",
         "{first} counts {name} in {wanted}, {second} in {given}. Name one device, or give each sort a step of its own.",

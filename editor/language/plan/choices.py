@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity
 from editor.language.expressions.printing import quantity_text, quote, scalar_text, write_expression
+from editor.language.expressions.temperatures import base_unit
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.value_types import TypeChecker
 from editor.language.expressions.values import COMPARISONS, is_number, rename_roles
@@ -34,7 +35,7 @@ def _with_units(where: Expression, checker: TypeChecker) -> Expression:
         return where
     arguments = tuple(_with_units(argument, checker) for argument in where.arguments)
     if where.operator in COMPARISONS:
-        unit = next((u for a in where.arguments if is_measure(u := checker.type_of(a).unit)), "")
+        unit = next((u for a in where.arguments if is_measure(u := base_unit(checker.type_of(a).unit))), "")
         arguments = tuple(_in_unit(argument, unit) for argument in arguments)
     return Operation(where.operator, arguments)
 

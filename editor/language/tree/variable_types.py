@@ -11,6 +11,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from editor.language.expressions.nodes import OF_PROBLEM, Expression, Variable
+from editor.language.expressions.temperatures import is_temperature, kept_unit
 from editor.language.expressions.value_types import NUMBER, TEXT, UNKNOWN_TYPE, TypeChecker, ValueType, declared_type
 from editor.language.expressions.values import parts_of
 from editor.language.site.surroundings import Surroundings
@@ -197,16 +198,20 @@ def _names_in(values: Iterable[Expression]) -> Iterator[str]:
 def _joined(found: Iterable[ValueType]) -> ValueType | None:
     """Return the type of what may be any of these: the first that is known, in the first unit that is measured."""
     joined: ValueType | None = None
+    units: set[str] = set()
     for each in found:
         other = each if each.type or is_measure(each.unit) else ValueType("", UNSAID)
+        units.add(other.unit)
         if joined is None or (not joined.type and other.type and other.type != "number"):
             joined = other
         elif {joined.type, other.type} <= {"number", ""}:
-            unit = max(joined.unit, other.unit, key=_exactness)
-            joined = ValueType(joined.type or other.type, unit)
+            unit, measured = max(joined.unit, other.unit, key=_exactness), joined.measured or other.measured
+            joined = ValueType(joined.type or other.type, unit, measured=measured)
         elif joined.type == other.type == "list" and (joined.of == other.of or not (joined.of and other.of)):
-            unit = max(joined.unit, other.unit, key=_exactness)
-            joined = ValueType("list", unit, joined.of or other.of)
+            unit, measured = max(joined.unit, other.unit, key=_exactness), joined.measured or other.measured
+            joined = ValueType("list", unit, joined.of or other.of, measured)
+    if joined is not None and is_temperature(joined.unit):
+        return replace(joined, unit=kept_unit(joined.unit, units, measured=joined.measured))
     return joined
 
 
@@ -220,7 +225,7 @@ def _exactness(unit: str) -> int:
 def _settled(found: ValueType) -> ValueType:
     """Return the type of a variable of which all is known: what was given no unit is a plain number."""
     if found.type == "list":
-        return ValueType("list", found.unit or PLAIN if found.of == "number" else "", found.of)
+        return replace(found, unit=found.unit or PLAIN if found.of == "number" else "")
     if found.type == "number":
-        return declared_type(found.type, found.unit)
+        return replace(found, unit=found.unit or PLAIN)
     return ValueType(found.type, found.unit if not found.type and is_measure(found.unit) else "", held=found.held)

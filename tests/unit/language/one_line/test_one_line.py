@@ -163,7 +163,7 @@ def test_a_line_that_is_no_value_says_where_and_why(text: str, column: int, mess
 @pytest.mark.parametrize(
     ("text", "kind"),
     [
-        ("curing_oven.temperature + 1", ValueType("number", "DEG_C")),
+        ("curing_oven.temperature + 1", ValueType("number", "DEG_C", measured=True)),
         ("minutes * 2", ValueType("number", "MIN")),
         ("10 m / 2 s", ValueType("number", "M-PER-SEC")),
         ("distance(curing_oven, dock_1)", ValueType("number", "M")),
