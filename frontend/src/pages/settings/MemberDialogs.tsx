@@ -11,7 +11,7 @@ import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatMoment } from "@/i18n/format";
 import { problemText } from "@/shell/LoadProblem";
 import pages from "../pages.module.css";
-import { endOfDay, useChangeMember, useLeave, useMember, useRemoveMember, useResetFactor } from "./people";
+import { dayOf, endOfDay, useChangeMember, useLeave, useMember, useRemoveMember, useResetFactor } from "./people";
 import styles from "./settings.module.css";
 
 interface OfMember {
@@ -25,13 +25,10 @@ function Problem({ error }: { error: Error | null }) {
   return error ? <p role="alert">{problemText(error, t("shell.problem.screen"))}</p> : null;
 }
 
-/** Today's date as a field of dates says it. */
-const today = () => new Date(Date.now() - new Date().getTimezoneOffset() * 60_000).toISOString().slice(0, 10);
-
 export function AccessEnd({ slug, member, onClose }: OfMember) {
   const { t } = useTranslation();
   useReturnFocus();
-  const [day, setDay] = useState(member.ends_at?.slice(0, 10) ?? "");
+  const [day, setDay] = useState(member.ends_at ? dayOf(new Date(member.ends_at)) : "");
   const change = useChangeMember(slug);
   const { name } = member;
   const set = (ends_at: string | null) =>
@@ -59,7 +56,7 @@ export function AccessEnd({ slug, member, onClose }: OfMember) {
         <TextInput
           type="date"
           label={t("people.end.day")}
-          min={today()}
+          min={dayOf(new Date())}
           data-autofocus
           value={day}
           onChange={(event) => setDay(event.currentTarget.value)}

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { Member } from "@/api/types";
-import { endOfDay, findMembers, isLastAdmin } from "./people";
+import { dayOf, endOfDay, findMembers, isLastAdmin } from "./people";
 
 const member = (id: number, some: Partial<Member> = {}): Member => ({
   id,
@@ -44,4 +44,9 @@ test("members are found by name and by address", () => {
 test("a day ends with its last second where one looks", () => {
   expect(endOfDay("2026-11-30")).toBe(new Date(2026, 10, 30, 23, 59, 59).toISOString());
   expect([endOfDay(""), endOfDay("soon")]).toEqual([undefined, undefined]);
+});
+
+test("the day of a day's end is that day", () => {
+  const days = ["2026-03-29", "2026-07-01", "2026-10-25", "2026-12-31"]; // two of them are longer or shorter in Europe
+  expect(days.map((day) => dayOf(new Date(endOfDay(day) ?? "")))).toEqual(days);
 });

@@ -136,3 +136,8 @@ export function endOfDay(typed: string): string | undefined {
   const end = new Date(`${typed}T23:59:59`);
   return Number.isNaN(end.getTime()) ? undefined : end.toISOString();
 }
+
+/** The day in which a moment lies here where people look, as a field of dates says it; what `endOfDay` takes back. */
+export function dayOf(moment: Date): string {
+  return new Date(moment.getTime() - moment.getTimezoneOffset() * 60_000).toISOString().slice(0, 10);
+}
