@@ -2,7 +2,7 @@
 import { useQuery } from "@tanstack/react-query";
 import { useEffect, useRef, useState } from "react";
 import { api, ApiProblem } from "@/api/client";
-import { useMe } from "@/api/queries";
+import { ME } from "@/api/queries";
 import { LiveConnection } from "@/live/connection";
 import { statusOf } from "@/map/devices/device";
 import type { FloorPlan } from "@/map/floor/floor";
@@ -29,14 +29,14 @@ const isRefusal = (error: unknown) => error instanceof ApiProblem && error.statu
 /** Exchange the code in the address for a cookie, as often as it takes, and take it out of the address. */
 function useOpening(): "opening" | "open" | "refused" {
   const [code] = useState(() => codeOf(location.hash));
-  const me = useMe();
   const opening = useQuery({
     queryKey: ["wall", code],
-    queryFn: async () => {
+    queryFn: async ({ client }) => {
+      await client.fetchQuery({ ...ME, retry: false }); // gives the token that opening needs
       await api.post("/wall/open", { code });
       return true;
     },
-    enabled: code !== "" && me.data !== undefined,
+    enabled: code !== "",
     retry: (_, error) => !isRefusal(error),
     retryDelay: AGAIN_MS,
     staleTime: Infinity,
