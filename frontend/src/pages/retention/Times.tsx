@@ -1,16 +1,18 @@
 /** For how many days a site keeps each kind, with fields to choose others. */
 import { TextInput } from "@mantine/core";
-import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Retention, SetKeeping } from "@/api/types";
 import { formatNumber } from "@/i18n/format";
 import { MOST_DAYS } from "../settings/bounds";
 import { SettingForm } from "../settings/SettingForm";
-import { useSetSetting } from "../settings/siteSetting";
+import { useSetSetting, useTouched } from "../settings/siteSetting";
 import { PATH, readDays } from "./retention";
 
 type Kind = Retention["keeping"][number]["kind"];
 type Typed = Record<Kind, string>;
+
+const chosenOf = ({ keeping }: Retention) =>
+  Object.fromEntries(keeping.map(({ kind, chosen }) => [kind, chosen])) as SetKeeping;
 
 function typedOf(retention: Retention): Typed {
   const typed: Typed = { runs: "", rehearsals: "", calls: "" };
@@ -18,14 +20,18 @@ function typedOf(retention: Retention): Typed {
   return typed;
 }
 
+/** The days of the fields; null when one of them holds what is no number of days. */
+function readAll(typed: Partial<Typed>): Partial<SetKeeping> | null {
+  const days = Object.entries(typed).map(([kind, text]) => [kind, readDays(text)] as const);
+  return days.some(([, each]) => each === undefined) ? null : Object.fromEntries(days);
+}
+
 export function Times({ slug, retention }: { slug: string; retention: Retention }) {
   const { t } = useTranslation();
-  const save = useSetSetting<Retention, SetKeeping>({ slug, path: PATH, saved: t("retention.saved") });
-  const [typed, setTyped] = useState(() => typedOf(retention));
+  const save = useSetSetting<Retention, SetKeeping>({ slug, path: PATH, saved: t("retention.saved"), chosenOf });
+  const { fields: typed, touched, touch, settle } = useTouched(typedOf(retention));
   const daysOf = (days: number) => (days === 0 ? t("retention.forEver") : t("retention.daysOf", { count: days }));
-  const [runs, rehearsals, calls] = [typed.runs, typed.rehearsals, typed.calls].map(readDays);
-  const chosen =
-    runs === undefined || rehearsals === undefined || calls === undefined ? null : { runs, rehearsals, calls };
+  const days = readAll(touched);
   const wrong = t("retention.wrong", { most: formatNumber(MOST_DAYS) });
   return (
     <SettingForm
@@ -33,8 +39,8 @@ export function Times({ slug, retention }: { slug: string; retention: Retention 
       intro={t("retention.intro")}
       foot={t("retention.asServer")}
       isSaving={save.isPending}
-      isWrong={!chosen}
-      onSave={() => chosen && save.mutate(chosen)}
+      isWrong={!days}
+      onSave={() => days && save.mutate(days, { onSuccess: () => settle(touched) })}
     >
       {retention.keeping.map(({ kind, server }) => (
         <TextInput
@@ -45,7 +51,7 @@ export function Times({ slug, retention }: { slug: string; retention: Retention 
           inputMode="numeric"
           value={typed[kind]}
           error={readDays(typed[kind]) === undefined ? wrong : null}
-          onChange={(event) => setTyped({ ...typed, [kind]: event.currentTarget.value })}
+          onChange={(event) => touch({ [kind]: event.currentTarget.value })}
         />
       ))}
     </SettingForm>

@@ -1,13 +1,12 @@
 /** What a site demands before a program may run on its devices; for admins. */
 import { NativeSelect } from "@mantine/core";
-import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { keys } from "@/api/queries";
 import type { ReviewRule } from "@/api/types";
 import { MOST_APPROVALS } from "../settings/bounds";
 import { SettingForm } from "../settings/SettingForm";
 import { SettingsPage } from "../settings/SettingsPage";
-import { useSetSetting } from "../settings/siteSetting";
+import { useSetSetting, useTouched } from "../settings/siteSetting";
 
 type LeastRole = ReviewRule["least_role"];
 const ROLES: readonly LeastRole[] = ["operator", "author", "admin"];
@@ -24,8 +23,11 @@ export function ReviewRulePage() {
 
 function RuleForm({ slug, rule }: { slug: string; rule: ReviewRule }) {
   const { t } = useTranslation();
-  const save = useSetSetting<ReviewRule>({ slug, path: PATH, saved: t("review.rule.saved"), touches: keys.reviews });
-  const [chosen, setChosen] = useState(rule);
+  const save = useSetSetting<ReviewRule, ReviewRule>({
+    ...{ slug, path: PATH, saved: t("review.rule.saved"), touches: keys.reviews },
+    chosenOf: (held) => held,
+  });
+  const { fields: chosen, touched, touch, settle } = useTouched(rule);
   const counts = Array.from({ length: MOST_APPROVALS + 1 }, (_, count) => ({
     value: String(count),
     label: count === 0 ? t("review.rule.none") : String(count),
@@ -36,19 +38,19 @@ function RuleForm({ slug, rule }: { slug: string; rule: ReviewRule }) {
       intro={t("review.rule.intro")}
       foot={t("review.rule.own")}
       isSaving={save.isPending}
-      onSave={() => save.mutate(chosen)}
+      onSave={() => save.mutate(touched, { onSuccess: () => settle(touched) })}
     >
       <NativeSelect
         label={t("review.rule.approvals")}
         data={counts}
         value={String(chosen.approvals)}
-        onChange={(event) => setChosen({ ...chosen, approvals: Number(event.currentTarget.value) })}
+        onChange={(event) => touch({ approvals: Number(event.currentTarget.value) })}
       />
       <NativeSelect
         label={t("review.rule.least")}
         data={ROLES.map((value) => ({ value, label: t(`review.rule.role.${value}`) }))}
         value={chosen.least_role}
-        onChange={(event) => setChosen({ ...chosen, least_role: event.currentTarget.value as LeastRole })}
+        onChange={(event) => touch({ least_role: event.currentTarget.value as LeastRole })}
       />
     </SettingForm>
   );

@@ -1,6 +1,7 @@
 /** A setting of a site, below one address of its API: read, and set by admins. */
 import { notifications } from "@mantine/notifications";
 import { type QueryKey, useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
@@ -15,21 +16,50 @@ export const useSetting = <Held>(slug: string, path: string, isWanted: boolean) 
     enabled: isWanted,
   });
 
-interface Setting {
+/**
+ * The fields of a setting as they are held, with what somebody has touched here on top: what others set meanwhile is
+ * seen, and only what was touched is sent. `settle` lets go of what has been saved as it is.
+ */
+export function useTouched<Fields extends object>(held: Fields) {
+  const [touched, setTouched] = useState<Partial<Fields>>({});
+  return {
+    fields: { ...held, ...touched },
+    touched,
+    touch: (some: Partial<Fields>) => setTouched((now) => ({ ...now, ...some })),
+    settle: (sent: Partial<Fields>) => setTouched((now) => without(now, sent)),
+  };
+}
+
+/** The fields that are not as they were sent. */
+function without<Fields extends object>(now: Partial<Fields>, sent: Partial<Fields>): Partial<Fields> {
+  const names = (Object.keys(now) as (keyof Fields)[]).filter((name) => now[name] !== sent[name]);
+  return Object.fromEntries(names.map((name) => [name, now[name]])) as Partial<Fields>;
+}
+
+interface Setting<Held, Chosen> {
   slug: string;
   path: string;
   /** What is told once it is set. */
   saved: string;
   /** What follows from it and is asked for anew then. */
   touches?: QueryKey;
+  /** What of it is chosen, as it is set. */
+  chosenOf: (held: Held) => Chosen;
 }
 
-/** Set it; people are told that it was, or why not. */
-export function useSetSetting<Held, Chosen = Held>({ slug, path, saved, touches }: Setting) {
+/**
+ * Set what was touched of it; the rest stays as it is held by then. People are told that it was set, or why not.
+ *
+ * It is set as a whole, so what is held is asked for before: what another sets while that answer is on its way is lost.
+ */
+export function useSetSetting<Held, Chosen>({ slug, path, saved, touches, chosenOf }: Setting<Held, Chosen>) {
   const { t } = useTranslation();
   const queries = useQueryClient();
   return useMutation({
-    mutationFn: (chosen: Chosen) => api.put<Held>(addressOf(slug, path), chosen),
+    mutationFn: async (touched: Partial<Chosen>) => {
+      const held = await api.get<Held>(addressOf(slug, path));
+      return api.put<Held>(addressOf(slug, path), { ...chosenOf(held), ...touched });
+    },
     onSuccess: (held) => {
       queries.setQueryData(keys.setting(slug, path), held);
       notifications.show({ message: saved });

@@ -22,10 +22,10 @@ let asked: string[];
 beforeEach(() => {
   vi.useFakeTimers();
   vi.stubGlobal("WebSocket", Line);
-  vi.stubGlobal("fetch", async (path: string) => {
-    if (!isUp) throw new TypeError("no network");
+  vi.stubGlobal("fetch", (path: string) => {
+    if (!isUp) return Promise.reject(new TypeError("no network"));
     asked.push(path);
-    return Response.json(path.endsWith("/me") ? { csrf: "token", user: null, demo_accounts: [] } : {});
+    return Promise.resolve(Response.json(path.endsWith("/me") ? { csrf: "token", user: null, demo_accounts: [] } : {}));
   });
   location.hash = "#code";
   [Line.all, asked, isUp] = [[], [], false];
