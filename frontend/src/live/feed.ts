@@ -34,7 +34,7 @@ import {
 } from "./messages";
 import type { DeviceChange, LiveMessage, RobotTraffic } from "./messages";
 import { recordDevice } from "./readings";
-import { useLiveStore } from "./store";
+import { isLookedAt, setLive, useLiveStore } from "./store";
 
 const SLOW_MS = 1000;
 const FAST_MS = 150;
@@ -92,8 +92,7 @@ export class SiteFeed {
       case "traffic":
         return this.#traffic(message.robots);
       case "copies":
-        useLiveStore.setState({ copies: Object.fromEntries(message.copies.map((copy) => [copy.device, copy])) });
-        return;
+        return setLive(this.slug, { copies: Object.fromEntries(message.copies.map((copy) => [copy.device, copy])) });
       case "measured":
         for (const device of message.devices) this.#caches.refresh(keys.paces(this.slug, device));
         return this.#caches.refresh(["measurements"]);
@@ -125,7 +124,7 @@ export class SiteFeed {
 
   /** After each (new) greeting the state is fetched anew: what happened meanwhile was missed. */
   #refresh(): void {
-    useLiveStore.setState({ traffic: {} }); // all of it is told again within seconds
+    setLive(this.slug, { traffic: {} }); // all of it is told again within seconds
     const stale = [
       keys.devices,
       keys.site,
@@ -151,7 +150,7 @@ export class SiteFeed {
   }
 
   #device(change: DeviceChange): void {
-    recordDevice(change, performance.now());
+    if (isLookedAt(this.slug)) recordDevice(change, performance.now());
     const before = ownEntry(useLiveStore.getState().deviceById, change.id);
     this.#changes.set(change.id, joinChanges(this.#changes.get(change.id), change));
     this.#flushIn(isUrgent(before, change) ? FAST_MS : SLOW_MS);
@@ -201,7 +200,7 @@ export class SiteFeed {
 
   #traffic(robots: Readonly<Record<string, RobotTraffic>>): void {
     const known = useLiveStore.getState().traffic;
-    useLiveStore.setState({ traffic: { ...known, ...robots } });
+    setLive(this.slug, { traffic: { ...known, ...robots } });
     const waits = (robot: RobotTraffic | undefined) => robot?.why?.code === "not_let_in";
     if (Object.entries(robots).some(([id, robot]) => waits(robot) !== waits(ownEntry(known, id))))
       this.#caches.refresh(keys.admissions(this.slug));
@@ -217,10 +216,9 @@ export class SiteFeed {
   }
 
   #notice({ run, text, level, code = "", args = {} }: Extract<LiveMessage, { type: "notice" }>): void {
-    useLiveStore.setState(({ notices }) => {
-      const id = (notices.at(-1)?.id ?? 0) + 1;
-      return { notices: [...notices.slice(1 - NOTICES_KEPT), { id, run, text, level, code, args }] };
-    });
+    const { notices } = useLiveStore.getState();
+    const id = (notices.at(-1)?.id ?? 0) + 1;
+    setLive(this.slug, { notices: [...notices.slice(1 - NOTICES_KEPT), { id, run, text, level, code, args }] });
   }
 
   #rehearsal(message: Extract<LiveMessage, { type: "rehearsal" }>): void {
@@ -233,7 +231,7 @@ export class SiteFeed {
   }
 
   #stop(stop: SiteStop): void {
-    useLiveStore.setState({ stop });
+    setLive(this.slug, { stop });
     this.#caches.write<Site>(keys.site(this.slug), (site) => ({ ...site, stop }));
   }
 }

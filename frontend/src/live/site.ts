@@ -7,10 +7,12 @@ import { LiveConnection } from "./connection";
 import { SiteFeed } from "./feed";
 import type { LiveMessage } from "./messages";
 import { forgetReadings, recordDevice } from "./readings";
-import { EMPTY, useLiveStore } from "./store";
+import { EMPTY, isLookedAt, setLive, useLiveStore, type Connection, type LiveState } from "./store";
 
 interface Session {
   watchers: number;
+  /** Let the live store be about this site, with what is known of it and of its line. */
+  show(): void;
   end(): void;
 }
 
@@ -47,11 +49,12 @@ function watch(slug: string, queries: QueryClient): () => void {
   };
 }
 
-/** The session of a site; those of others that nobody watches end, so that their news are not taken for this one's. */
+/** The session of a site, which is looked at from now on; those of others that nobody watches end. */
 function sessionOf(slug: string, queries: QueryClient): Session {
   for (const [other, session] of sessions) if (other !== slug) endIdle(other, session);
   const session = sessions.get(slug) ?? begin(slug, queries);
   sessions.set(slug, session);
+  session.show();
   return session;
 }
 
@@ -62,16 +65,18 @@ function endIdle(slug: string, session: Session): void {
 }
 
 function begin(slug: string, queries: QueryClient): Session {
-  if (useLiveStore.getState().site !== slug) {
-    forgetReadings();
-    useLiveStore.setState({ ...EMPTY, site: slug });
-  }
+  let line: Pick<LiveState, "connection" | "lostAt"> = { connection: "connecting", lostAt: null };
+  const setConnection = (connection: Connection): void => {
+    if (line.connection === connection) return;
+    line = { connection, lostAt: connection === "reconnecting" ? (line.lostAt ?? Date.now()) : null };
+    setLive(slug, line);
+  };
   const feed = new SiteFeed(slug, queries);
   let ended = false;
   const connect = (): LiveConnection =>
     new LiveConnection(socketAddress(slug), {
       onMessage: (message) => feed.take(message as LiveMessage),
-      onState: (state) => setConnection(state),
+      onState: setConnection,
       onRefused: (code) => void comeAgain(code),
     });
   /** A new password gives this browser's session another key: who is still signed in with that one comes again. */
@@ -85,6 +90,12 @@ function begin(slug: string, queries: QueryClient): Session {
   const unfollow = followCaches(slug, queries);
   const session: Session = {
     watchers: 0,
+    show() {
+      if (isLookedAt(slug)) return setLive(slug, line);
+      forgetReadings();
+      useLiveStore.setState({ ...EMPTY, site: slug, ...line });
+      copyKnown(slug, queries);
+    },
     end() {
       ended = true;
       connection.close();
@@ -100,32 +111,29 @@ function socketAddress(slug: string): string {
   return `${scheme}://${location.host}/ws/site/${encodeURIComponent(slug)}`;
 }
 
-function setConnection(connection: "connecting" | "live" | "reconnecting"): void {
-  const before = useLiveStore.getState();
-  if (before.connection === connection) return;
-  const lostAt = connection === "reconnecting" ? (before.lostAt ?? Date.now()) : null;
-  useLiveStore.setState({ connection, lostAt });
-}
-
 /** What is fetched by HTTP goes into the live store too, so that it is complete from the first moment. */
 function followCaches(slug: string, queries: QueryClient): () => void {
-  copyDevices(queries.getQueryData<Device[]>(keys.devices(slug)));
-  copyStop(queries.getQueryData<Site>(keys.site(slug)));
+  copyKnown(slug, queries);
   return queries.getQueryCache().subscribe((event) => {
     if (event.type !== "updated" || event.action.type !== "success") return;
     const [name, of] = event.query.queryKey as [string, string];
     if (of !== slug) return;
-    if (name === "devices") copyDevices(event.query.state.data as Device[]);
-    if (name === "site") copyStop(event.query.state.data as Site);
+    if (name === "devices") copyDevices(slug, event.query.state.data as Device[]);
+    if (name === "site") copyStop(slug, event.query.state.data as Site);
   });
 }
 
-function copyDevices(devices: Device[] | undefined): void {
-  if (!devices) return;
-  for (const device of devices) recordDevice(device, performance.now());
-  useLiveStore.setState({ deviceById: Object.fromEntries(devices.map((device) => [device.id, device])) });
+function copyKnown(slug: string, queries: QueryClient): void {
+  copyDevices(slug, queries.getQueryData<Device[]>(keys.devices(slug)));
+  copyStop(slug, queries.getQueryData<Site>(keys.site(slug)));
 }
 
-function copyStop(site: Site | undefined): void {
-  if (site) useLiveStore.setState({ stop: site.stop });
+function copyDevices(slug: string, devices: Device[] | undefined): void {
+  if (!devices || !isLookedAt(slug)) return;
+  for (const device of devices) recordDevice(device, performance.now());
+  setLive(slug, { deviceById: Object.fromEntries(devices.map((device) => [device.id, device])) });
+}
+
+function copyStop(slug: string, site: Site | undefined): void {
+  if (site) setLive(slug, { stop: site.stop });
 }

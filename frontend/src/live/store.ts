@@ -42,3 +42,11 @@ export const EMPTY: LiveState = {
 };
 
 export const useLiveStore = create<LiveState>(() => EMPTY);
+
+/** Whether a site is the one that is looked at. */
+export const isLookedAt = (slug: string): boolean => useLiveStore.getState().site === slug;
+
+/** Change what is known of a site while it is looked at: news of another are none of its. */
+export function setLive(slug: string, change: Partial<LiveState>): void {
+  if (isLookedAt(slug)) useLiveStore.setState(change);
+}

@@ -1,0 +1,108 @@
+// @vitest-environment jsdom
+import { QueryClient, QueryClientProvider, useQuery } from "@tanstack/react-query";
+import { act, cleanup, render } from "@testing-library/react";
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { keys } from "@/api/queries";
+import { liveRobots } from "./robots";
+import { useSiteLive } from "./site";
+import { EMPTY, useLiveStore } from "./store";
+
+/** A line to a server that the test plays. */
+class Line {
+  static all: Line[] = [];
+  onmessage: ((event: { data: string }) => void) | null = null;
+  onclose: ((event: { code: number }) => void) | null = null;
+  constructor(readonly url: string) {
+    Line.all.push(this);
+  }
+  say(message: unknown) {
+    this.onmessage?.({ data: JSON.stringify(message) });
+  }
+  close() {}
+}
+
+const location = { x: 1, y: 0, theta: 0 };
+const robot = (id: string) => ({ id, name: id, kind: "robot", status: "idle", carrying: {}, properties: [], location });
+const lineOf = (slug: string) => Line.all.filter(({ url }) => url.endsWith(`/${slug}`)).at(-1) as Line;
+const pass = (ms: number) => act(() => vi.advanceTimersByTimeAsync(ms));
+const seen = () => liveRobots(performance.now()).map(({ name }) => name);
+
+let queries: QueryClient;
+
+function Site({ slug }: { slug: string }) {
+  useSiteLive(slug);
+  useQuery({ queryKey: keys.devices(slug), queryFn: () => [robot(`robot of ${slug}`)] });
+  return null;
+}
+
+const page = (...slugs: string[]) => (
+  <QueryClientProvider client={queries}>
+    {slugs.map((slug) => (
+      <Site key={slug} slug={slug} />
+    ))}
+  </QueryClientProvider>
+);
+
+async function show(...slugs: string[]) {
+  const { rerender } = render(page(...slugs));
+  await pass(10);
+  for (const slug of slugs) lineOf(slug).say({ type: "hello", site: slug });
+  await pass(1500);
+  return async (...others: string[]) => {
+    rerender(page(...others));
+    await pass(10);
+  };
+}
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  vi.stubGlobal("WebSocket", Line);
+  queries = new QueryClient({ defaultOptions: { queries: { staleTime: 30_000 } } });
+  useLiveStore.setState(EMPTY);
+  Line.all = [];
+});
+afterEach(async () => {
+  cleanup();
+  await vi.advanceTimersByTimeAsync(5000);
+  vi.useRealTimers();
+});
+
+test("the map shows the robots of the site that is looked at, whatever the line of another says", async () => {
+  await show("a", "b");
+  expect(seen()).toEqual(["robot of b"]);
+  lineOf("a").say({ type: "device", device: { id: "robot of a", location: { x: 3, y: 3, theta: 0 } } });
+  lineOf("a").say({ type: "stop", active: true, by: "Anna", at: null });
+  lineOf("a").say({ type: "traffic", robots: { "robot of a": { route: [], reserved: [], wait: null } } });
+  await pass(60_000);
+  expect(seen()).toEqual(["robot of b"]);
+  expect(useLiveStore.getState()).toMatchObject({ site: "b", stop: null, traffic: {} });
+});
+
+test("whoever comes back to a site whose line is still there sees its robots, and that the line is lost", async () => {
+  const change = await show("a");
+  await change("a", "b");
+  await change("b");
+  await change("b", "a");
+  await pass(1500);
+  expect(seen()).toEqual(["robot of a"]);
+  lineOf("a").onclose?.({ code: 1006 });
+  expect(useLiveStore.getState()).toMatchObject({ site: "a", connection: "reconnecting" });
+});
+
+test("from a site to another and back within two seconds", async () => {
+  const change = await show("a");
+  await change("b");
+  await change("a");
+  await pass(60_000);
+  expect(seen()).toEqual(["robot of a"]);
+  lineOf("a").onclose?.({ code: 1006 });
+  expect(useLiveStore.getState()).toMatchObject({ site: "a", connection: "reconnecting" });
+});
+
+test("a site that is looked at again after its line has ended is not live before the new one is", async () => {
+  const change = await show("a");
+  await change();
+  await pass(5000);
+  await change("a");
+  expect(useLiveStore.getState().connection).toBe("connecting");
+});
