@@ -44,6 +44,7 @@ export class SiteFeed {
   readonly #changes = new Map<string, DeviceChange>();
   #timer: ReturnType<typeof setTimeout> | undefined;
   #dueAt = Infinity;
+  #isGreeted = false;
   readonly #caches: LiveCaches;
 
   constructor(
@@ -124,7 +125,7 @@ export class SiteFeed {
 
   /** After each (new) greeting the state is fetched anew: what happened meanwhile was missed. */
   #refresh(): void {
-    setLive(this.slug, { traffic: {} }); // all of it is told again within seconds
+    setLive(this.slug, { traffic: {}, copies: {} }); // all of them are told again within seconds
     const stale = [
       keys.devices,
       keys.site,
@@ -147,6 +148,14 @@ export class SiteFeed {
       "map-versions",
     ].map((name) => [name]);
     this.#refreshAll([...stale, ...open]);
+    if (this.#isGreeted) this.#refreshMore();
+    this.#isGreeted = true;
+  }
+
+  /** What else the news are about; a page that has just opened has it fresh. */
+  #refreshMore(): void {
+    const ofSite = [keys.overAlerts(this.slug), keys.rehearsals(this.slug), keys.setting(this.slug, "review-rule")];
+    this.#refreshAll([...ofSite, ["paces", this.slug], ["measurements"], ["comparison"], keys.reviews, keys.sites]);
   }
 
   #device(change: DeviceChange): void {

@@ -1,5 +1,5 @@
 // @vitest-environment jsdom
-import { QueryClient, QueryClientProvider, useQuery } from "@tanstack/react-query";
+import { QueryClient, QueryClientProvider, useQueries, useQuery, type QueryKey } from "@tanstack/react-query";
 import { act, cleanup, render } from "@testing-library/react";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { keys } from "@/api/queries";
@@ -105,4 +105,53 @@ test("a site that is looked at again after its line has ended is not live before
   await pass(5000);
   await change("a");
   expect(useLiveStore.getState().connection).toBe("connecting");
+});
+
+/** What is on the screen, each fetched as often as `asked` names it. */
+function Screen({ asked }: { asked: string[] }) {
+  useSiteLive("a");
+  useQueries({
+    queries: OF_NEWS.map((queryKey) => ({ queryKey, queryFn: () => (asked.push(String(queryKey[0])), []) })),
+  });
+  return null;
+}
+const OF_NEWS: readonly QueryKey[] = [
+  ["review", "asked", "a"],
+  ["review", "program", "draft"],
+  keys.setting("a", "review-rule"),
+  keys.rehearsals("a"),
+  keys.overAlerts("a"),
+  keys.comparison("program"),
+  keys.measurements("run"),
+  keys.paces("a", "mixer"),
+  keys.sites,
+];
+
+test("all that news are about is fetched anew after a line that was lost, and once only when a page opens", async () => {
+  const asked: string[] = [];
+  render(
+    <QueryClientProvider client={queries}>
+      <Screen asked={asked} />
+    </QueryClientProvider>,
+  );
+  await pass(10);
+  lineOf("a").say({ type: "hello", site: "a" });
+  await pass(1000);
+  const names = OF_NEWS.map(([name]) => String(name));
+  expect(asked).toEqual(names);
+  lineOf("a").onclose?.({ code: 1006 });
+  await pass(1000);
+  lineOf("a").say({ type: "hello", site: "a" });
+  await pass(1000);
+  expect(asked.slice(names.length).toSorted()).toEqual(names.toSorted());
+});
+
+test("copies that went while the line was lost are on the map no more", async () => {
+  await show("a");
+  lineOf("a").say({ type: "copies", copies: [{ device: "robot of a", x: 1, y: 1, theta: 0 }] });
+  expect(Object.keys(useLiveStore.getState().copies)).toEqual(["robot of a"]);
+  lineOf("a").onclose?.({ code: 1006 });
+  await pass(1000);
+  lineOf("a").say({ type: "hello", site: "a" });
+  expect(useLiveStore.getState().copies).toEqual({});
 });
