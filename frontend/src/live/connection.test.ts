@@ -92,3 +92,15 @@ test("a refusal is final", () => {
   expect(refused).toEqual([4401]);
   expect(Line.all).toHaveLength(1);
 });
+
+test("where too many are open already it is tried again, slowly, until one has gone", () => {
+  Line.all[0]?.onclose?.({ code: 4429 });
+  vi.advanceTimersByTime(14_000);
+  expect([states.at(-1), Line.all.length]).toEqual(["crowded", 1]);
+  vi.advanceTimersByTime(16_000);
+  Line.all[1]?.onclose?.({ code: 4429 });
+  vi.advanceTimersByTime(30_000);
+  Line.all[2]?.say("hello");
+  expect(states).toEqual(["connecting", "crowded", "live"]);
+  expect(refused).toEqual([]);
+});

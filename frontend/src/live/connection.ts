@@ -1,14 +1,19 @@
 /** One socket that comes back by itself, later each time, and says how it stands. */
 
+/** `crowded`: so many are open that the server takes no other; it is tried again, slowly. */
+export type LineState = "connecting" | "live" | "reconnecting" | "crowded";
+
 export interface ConnectionEvents {
   onMessage(message: unknown): void;
-  onState(state: "connecting" | "live" | "reconnecting"): void;
+  onState(state: LineState): void;
   /** The server will not have us (signed out, no member): it stays closed. */
   onRefused(code: number): void;
 }
 
 const FIRST_WAIT_MS = 300;
 const LONGEST_WAIT_MS = 8_000;
+const CROWDED = 4429;
+const CROWDED_WAIT_MS = 30_000;
 /** The server says something every 5 s; a line that is silent for longer is dead, though no browser says so. */
 export const SILENCE_MS = 15_000;
 
@@ -87,6 +92,7 @@ export class LiveConnection {
 
   #lost(code: number): void {
     this.#socket = null;
+    if (code === CROWDED) return this.#waitFor("crowded", CROWDED_WAIT_MS * (0.5 + Math.random() / 2));
     if (code >= 4400 && code < 4500) {
       this.#end();
       this.events.onRefused(code);
@@ -96,9 +102,13 @@ export class LiveConnection {
   }
 
   #again(): void {
-    clearTimeout(this.#silence);
-    this.events.onState("reconnecting");
-    this.#timer = setTimeout(() => this.#open(), backOff(this.#attempt, Math.random()));
+    this.#waitFor("reconnecting", backOff(this.#attempt, Math.random()));
     this.#attempt += 1;
+  }
+
+  #waitFor(state: LineState, wait_ms: number): void {
+    clearTimeout(this.#silence);
+    this.events.onState(state);
+    this.#timer = setTimeout(() => this.#open(), wait_ms);
   }
 }

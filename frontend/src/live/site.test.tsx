@@ -155,3 +155,39 @@ test("copies that went while the line was lost are on the map no more", async ()
   lineOf("a").say({ type: "hello", site: "a" });
   expect(useLiveStore.getState().copies).toEqual({});
 });
+
+test.each([4403, 4404])("who is no member any more (%s) is told so, and nothing of the site is kept", async (code) => {
+  const people = ["people", "a", "members"];
+  await show("a");
+  queries.setQueryData(keys.site("a"), { slug: "a", stop: null });
+  queries.setQueryData(people, ["Carla"]);
+  queries.setQueryData(["people", "b", "members"], ["Bert"]);
+  lineOf("a").onclose?.({ code });
+  await pass(60_000);
+  expect([useLiveStore.getState().connection, Line.all.length]).toEqual(["refused", 1]);
+  expect([queries.getQueryData(people), queries.getQueryData(["people", "b", "members"])]).toEqual([
+    undefined,
+    ["Bert"],
+  ]);
+});
+
+test("who is a member again is let in by the next page of the site", async () => {
+  const change = await show("a");
+  queries.setQueryData(keys.site("a"), { slug: "a", stop: null });
+  lineOf("a").onclose?.({ code: 4403 });
+  await change("a", "b");
+  await change("b");
+  await change("b", "a");
+  expect(useLiveStore.getState()).toMatchObject({ site: "a", connection: "connecting" });
+  lineOf("a").say({ type: "hello", site: "a" });
+  expect(useLiveStore.getState()).toMatchObject({ site: "a", connection: "live" });
+});
+
+test("a page of which too many are open is not said to be live", async () => {
+  await show("a");
+  lineOf("a").onclose?.({ code: 4429 });
+  expect(useLiveStore.getState().connection).toBe("crowded");
+  await pass(30_000);
+  lineOf("a").say({ type: "hello", site: "a" });
+  expect([useLiveStore.getState().connection, Line.all.length]).toEqual(["live", 2]);
+});

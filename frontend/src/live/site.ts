@@ -77,14 +77,23 @@ function begin(slug: string, queries: QueryClient): Session {
     new LiveConnection(socketAddress(slug), {
       onMessage: (message) => feed.take(message as LiveMessage),
       onState: setConnection,
-      onRefused: (code) => void comeAgain(code),
+      onRefused: (code) => (code === SIGNED_OUT && session.watchers > 0 ? void comeAgain() : refuse(code)),
     });
   /** A new password gives this browser's session another key: who is still signed in with that one comes again. */
-  const comeAgain = async (code: number): Promise<void> => {
-    if (session.watchers === 0) return endIdle(slug, session);
+  const comeAgain = async (): Promise<void> => {
+    setConnection("connecting");
     await new Promise((done) => setTimeout(done, NEW_KEY_MS));
     await queries.refetchQueries({ queryKey: keys.me });
-    if (code === SIGNED_OUT && !ended && queries.getQueryData<Me>(keys.me)?.user) connection = connect();
+    if (!ended && queries.getQueryData<Me>(keys.me)?.user) connection = connect();
+  };
+  /** Who is no member any more is told so; whoever looks at the site after that asks the server again. */
+  const refuse = (code: number): void => {
+    const wasMember = queries.getQueryData(keys.site(slug)) !== undefined;
+    if (sessions.get(slug) === session) sessions.delete(slug);
+    session.end();
+    if (code === SIGNED_OUT || !wasMember) return;
+    setConnection("refused");
+    forgetSite(slug, queries);
   };
   let connection = connect();
   const unfollow = followCaches(slug, queries);
@@ -104,6 +113,17 @@ function begin(slug: string, queries: QueryClient): Session {
     },
   };
   return session;
+}
+
+/** What an open program stands on: whoever has drawn in it takes their version along from there. */
+const STANDS_ON = ["site", "devices", "map"];
+
+/** Remove what is known of a site; what is on the screen goes with it. */
+function forgetSite(slug: string, queries: QueryClient): void {
+  queries.removeQueries({
+    predicate: ({ queryKey }) => queryKey.includes(slug) && !STANDS_ON.includes(String(queryKey[0])),
+  });
+  void queries.invalidateQueries({ queryKey: keys.sites });
 }
 
 function socketAddress(slug: string): string {

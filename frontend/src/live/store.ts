@@ -1,9 +1,11 @@
 /** What changes often at the site that is being looked at; select narrowly. */
 import { create } from "zustand";
 import type { Device, SiteStop } from "@/api/types";
+import type { LineState } from "./connection";
 import type { CopyPose, RobotTraffic } from "./messages";
 
-export type Connection = "connecting" | "live" | "reconnecting";
+/** `refused`: the server tells this person nothing of the site any more, and is not asked again. */
+export type Connection = LineState | "refused";
 
 /** What a run tells people; `id` counts them in this browser. */
 export interface Notice {

@@ -1,18 +1,20 @@
-/** Says that what is seen may be old, while the site's socket is away. */
+/** Says that what is seen may be old, while the site's socket is away, and why it stays away. */
 import { CloudOff } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { useLiveStore } from "@/live/store";
 import styles from "./shell.module.css";
 
+const TOLD = ["reconnecting", "crowded", "refused"] as const;
+
 export function ConnectionStrip({ slug }: { slug: string }) {
   const { t } = useTranslation();
-  const lost = useLiveStore((state) => state.site === slug && state.connection === "reconnecting");
+  const told = useLiveStore((state) => TOLD.find((each) => state.site === slug && state.connection === each));
   return (
-    <div role="status" className={lost ? styles.strip : "visually-hidden"}>
-      {lost ? (
+    <div role="status" className={told ? styles.strip : "visually-hidden"}>
+      {told ? (
         <>
           <CloudOff size={15} aria-hidden="true" />
-          {t("shell.reconnecting")}
+          {t(`shell.${told}`)}
         </>
       ) : null}
     </div>

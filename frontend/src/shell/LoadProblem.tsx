@@ -38,6 +38,20 @@ export function LoadProblem({ error, again }: { error: unknown; again?: () => vo
   );
 }
 
+/** In the place of a page of a site whose member this person is no more. */
+export function NoMember() {
+  const { t } = useTranslation();
+  return (
+    <div role="alert">
+      <EmptyState icon={<CloudOff size={20} />} title={t("shell.noMember.title")} text={t("shell.noMember.text")}>
+        <Button component={Link} to="/">
+          {t("shell.toHome")}
+        </Button>
+      </EmptyState>
+    </div>
+  );
+}
+
 export function Waiting() {
   const { t } = useTranslation();
   return (

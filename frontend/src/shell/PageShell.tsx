@@ -1,12 +1,15 @@
 /** The frame of the management pages: side bar, title bar with Stop all, page, and a pane for details. */
 import { useEffect, type ReactNode } from "react";
+import { useParams } from "react-router-dom";
 import { useSiteLive } from "@/live/site";
+import { useLiveStore } from "@/live/store";
 import { LateBell } from "./admissions/LateBell";
 import { AlertsBell } from "./alerts/AlertsBell";
 import { ConnectionStrip } from "./ConnectionStrip";
 import { useCurrentSite } from "./currentSite";
 import { FactorStrip } from "./FactorStrip";
 import { FindingsStrip } from "./findings/FindingsStrip";
+import { NoMember } from "./LoadProblem";
 import { QuestionsBell } from "./questions/QuestionsBell";
 import { ReviewsBell } from "./review/ReviewsBell";
 import { SideBar } from "./SideBar";
@@ -25,6 +28,8 @@ interface PageShellProps {
 
 export function PageShell({ title, chips, actions, detail, children }: PageShellProps) {
   const { slug } = useCurrentSite();
+  const { slug: named } = useParams();
+  const isClosed = useLiveStore((state) => state.connection === "refused" && state.site === named);
   useSiteLive(slug);
   useEffect(() => {
     document.title = `${title} · VIPO`;
@@ -35,21 +40,21 @@ export function PageShell({ title, chips, actions, detail, children }: PageShell
       <header className={styles.head}>
         <div className={styles.headRow}>
           <h1 className={styles.title}>{title}</h1>
-          <div className={styles.chips}>{chips}</div>
+          <div className={styles.chips}>{isClosed ? null : chips}</div>
           <div className={styles.spring} />
-          <div className={styles.actions}>{actions}</div>
+          <div className={styles.actions}>{isClosed ? null : actions}</div>
           {slug ? <QuestionsBell slug={slug} /> : null}
           {slug ? <LateBell slug={slug} /> : null}
           {slug ? <ReviewsBell slug={slug} /> : null}
           {slug ? <AlertsBell slug={slug} /> : null}
           {slug ? <StopAllButton slug={slug} /> : null}
         </div>
-        {slug ? <ConnectionStrip slug={slug} /> : null}
+        {slug && !isClosed ? <ConnectionStrip slug={slug} /> : null}
         {slug ? <FindingsStrip slug={slug} /> : null}
         {slug ? <FactorStrip slug={slug} /> : null}
       </header>
-      <main className={styles.page}>{children}</main>
-      {detail ? <div className={styles.detail}>{detail}</div> : null}
+      <main className={styles.page}>{isClosed ? <NoMember /> : children}</main>
+      {detail && !isClosed ? <div className={styles.detail}>{detail}</div> : null}
     </div>
   );
 }

@@ -159,10 +159,15 @@ export function AskLeave({ slug, onClose }: Omit<OfMember, "member">) {
   const queries = useQueryClient();
   const navigate = useNavigate();
   const leave = useLeave(slug);
-  const done = () => {
-    void queries.invalidateQueries({ queryKey: keys.sites });
-    void navigate("/");
-  };
+  /** Also where the page has closed before the answer: it does for who is no member any more. */
+  const go = () =>
+    leave.mutateAsync().then(
+      () => {
+        void queries.invalidateQueries({ queryKey: keys.sites });
+        return navigate("/");
+      },
+      () => {}, // told in the dialog
+    );
   return (
     <Ask
       title={t("people.leave.title")}
@@ -170,7 +175,7 @@ export function AskLeave({ slug, onClose }: Omit<OfMember, "member">) {
       stay={t("people.leave.stay")}
       busy={leave.isPending}
       error={leave.error}
-      onGo={() => leave.mutate(undefined, { onSuccess: done })}
+      onGo={() => void go()}
       onClose={onClose}
     >
       <p>{t("people.leave.text")}</p>

@@ -21,7 +21,6 @@ export interface Wall {
   readonly robots: RobotSource;
 }
 
-const TOO_MANY = 4429;
 const AGAIN_MS = 5_000;
 
 const isRefusal = (error: unknown) => error instanceof ApiProblem && error.status >= 400 && error.status < 500;
@@ -95,8 +94,8 @@ export function useWall(): Wall {
     };
     const connection = new LiveConnection(address(), {
       onMessage: (message) => take(message as WallMessage),
-      onState: setLine,
-      onRefused: (code) => setLine(code === TOO_MANY ? "many" : "ended"),
+      onState: (state) => setLine(state === "crowded" ? "many" : state),
+      onRefused: () => setLine("ended"),
     });
     return () => connection.close();
   }, [opening, poses]);

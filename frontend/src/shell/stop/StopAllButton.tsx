@@ -5,6 +5,7 @@ import { lazy, Suspense, useCallback, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useSite } from "@/api/queries";
 import { useFetchLater } from "@/design/useFetchLater";
+import { useLiveStore } from "@/live/store";
 import { useStopAll, useStopKey } from "./stop";
 import styles from "./stop.module.css";
 
@@ -20,7 +21,12 @@ export function StopAllButton({ slug }: { slug: string }) {
   const at = site?.stop.at ?? "";
   const [closedAt, setClosedAt] = useState<string | null>(null);
   const send = press.mutate;
-  const pressStop = useCallback(() => (active ? setClosedAt(null) : send()), [active, send]);
+  // While the news are away nobody knows whether the site is still stopped: better once too often than not at all.
+  const isKnown = useLiveStore((state) => state.site === slug && state.connection === "live");
+  const pressStop = useCallback(() => {
+    if (active) setClosedAt(null);
+    if (!active || !isKnown) send();
+  }, [active, isKnown, send]);
   useStopKey(pressStop);
   useFetchLater(LOADS);
   const [shown, setShown] = useState(false);

@@ -1,0 +1,61 @@
+// @vitest-environment jsdom
+import { MantineProvider } from "@mantine/core";
+import { QueryClientProvider } from "@tanstack/react-query";
+import { act, cleanup, render, screen } from "@testing-library/react";
+import { createMemoryRouter, RouterProvider } from "react-router-dom";
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { keys, makeQueryClient } from "@/api/queries";
+import { startI18n } from "@/i18n";
+
+/** A line to a server that the test plays. */
+class Line {
+  static all: Line[] = [];
+  onmessage: ((event: { data: string }) => void) | null = null;
+  onclose: ((event: { code: number }) => void) | null = null;
+  constructor() {
+    Line.all.push(this);
+  }
+  close() {}
+}
+
+beforeEach(async () => {
+  Line.all = [];
+  vi.stubGlobal("WebSocket", Line);
+  vi.stubGlobal("matchMedia", () => ({ matches: false, addEventListener() {}, removeEventListener() {} }));
+  vi.stubGlobal("fetch", () => Promise.resolve(Response.json([])));
+  await startI18n();
+});
+afterEach(cleanup);
+
+/** A page of a site with all that its bars ask for, while its line is live. */
+async function openPage(slug: string) {
+  const { PageShell } = await import("./PageShell"); // the theme asks for the window's when it is loaded
+  const queries = makeQueryClient();
+  queries.setQueryData(keys.me, { csrf: "", demo_accounts: [], user: { id: 1, name: "Anna", initials: "A" } });
+  queries.setQueryData(keys.site(slug), { slug, name: "Hall", role: "admin", stop: { active: false } });
+  const element = <PageShell title="People">Carla</PageShell>;
+  const router = createMemoryRouter([{ path: "/sites/:slug", element }], { initialEntries: [`/sites/${slug}`] });
+  render(
+    <QueryClientProvider client={queries}>
+      <MantineProvider env="test">
+        <RouterProvider router={router} />
+      </MantineProvider>
+    </QueryClientProvider>,
+  );
+  act(() => Line.all[0]?.onmessage?.({ data: JSON.stringify({ type: "hello", site: slug }) }));
+  expect(screen.getByRole("main").textContent).toBe("Carla");
+}
+
+test("the page of a site closes when its member is removed, and says why", async () => {
+  await openPage("hall");
+  act(() => Line.all[0]?.onclose?.({ code: 4403 }));
+  expect(screen.getByRole("main").textContent).toContain("You are no member of this site any more");
+  expect(screen.getByRole("main").textContent).not.toContain("Carla");
+});
+
+test("a page of which too many are open stays, and says that it is told nothing new", async () => {
+  await openPage("shed");
+  act(() => Line.all[0]?.onclose?.({ code: 4429 }));
+  expect(screen.getByRole("main").textContent).toBe("Carla");
+  expect(screen.getByText(/^So many pages of this site are open/)).toBeDefined();
+});
