@@ -7,6 +7,7 @@ import { matchPath, RouterProvider } from "react-router-dom";
 import { makeQueryClient, ME } from "@/api/queries";
 import { makeTheme, variablesResolver } from "@/design/theme";
 import { watchAhead } from "@/live/site";
+import { forgetOthers } from "./onlyOwn";
 import { makeRouter } from "./router";
 import { Waiting } from "@/shell/LoadProblem";
 import { useTheme } from "@/shell/theme";
@@ -14,6 +15,7 @@ import { useKeepOnlyOwn } from "@/shell/waitingCopies";
 
 // Outside of the tree: state of a tree that suspends before its first commit is thrown away.
 const queries = makeQueryClient();
+forgetOthers(queries);
 void queries.prefetchQuery(ME);
 const slugAhead = matchPath("/sites/:slug/*", location.pathname)?.params.slug;
 if (slugAhead && slugAhead !== "new") watchAhead(slugAhead, queries);

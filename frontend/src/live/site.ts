@@ -49,6 +49,16 @@ function watch(slug: string, queries: QueryClient): () => void {
   };
 }
 
+/** Forget what was told to a person who is signed in here no more; `isAnybody`: another is, and looks at the site. */
+export function forgetLive(isAnybody: boolean): void {
+  const { site, connection, lostAt } = useLiveStore.getState();
+  forgetReadings();
+  useLiveStore.setState(isAnybody ? { ...EMPTY, site, connection, lostAt } : EMPTY);
+  if (isAnybody) return;
+  for (const session of sessions.values()) session.end();
+  sessions.clear();
+}
+
 /** The session of a site, which is looked at from now on; those of others that nobody watches end. */
 function sessionOf(slug: string, queries: QueryClient): Session {
   for (const [other, session] of sessions) if (other !== slug) endIdle(other, session);

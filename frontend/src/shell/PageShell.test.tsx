@@ -6,6 +6,7 @@ import { createMemoryRouter, RouterProvider } from "react-router-dom";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient } from "@/api/queries";
 import { startI18n } from "@/i18n";
+import { forgetLive } from "@/live/site";
 
 /** A line to a server that the test plays. */
 class Line {
@@ -25,7 +26,10 @@ beforeEach(async () => {
   vi.stubGlobal("fetch", () => Promise.resolve(Response.json([])));
   await startI18n();
 });
-afterEach(cleanup);
+afterEach(() => {
+  cleanup();
+  forgetLive(false);
+});
 
 /** A page of a site with all that its bars ask for, while its line is live. */
 async function openPage(slug: string) {

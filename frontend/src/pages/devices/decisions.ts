@@ -7,7 +7,7 @@ import { keys } from "@/api/queries";
 import type { Device } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
 import { formatNumber } from "@/i18n/format";
-import { useShownKey } from "./keys/KeyShown";
+import { useShownKey } from "./keys/shownKey";
 
 export type Decision =
   | { do: "approve" | "reject" | "retire" | "readmit" | "rotate" | "revoke"; device: Device }

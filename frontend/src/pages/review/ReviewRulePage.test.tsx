@@ -6,6 +6,7 @@ import { createMemoryRouter, RouterProvider } from "react-router-dom";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { makeQueryClient } from "@/api/queries";
 import { loadScreenTexts, startI18n } from "@/i18n";
+import { forgetLive } from "@/live/site";
 
 /** A line to a server that the test plays. */
 class Line {
@@ -47,7 +48,10 @@ beforeEach(async () => {
   await loadScreenTexts();
   [Line.all, rule] = [[], { approvals: 0, least_role: "operator" }];
 });
-afterEach(cleanup);
+afterEach(() => {
+  cleanup();
+  forgetLive(false);
+});
 
 async function openForm(slug: string) {
   const { ReviewRulePage } = await import("./ReviewRulePage"); // the theme asks for the window's when it is loaded

@@ -2,9 +2,9 @@
 import { Button, Modal } from "@mantine/core";
 import { useTranslation } from "react-i18next";
 import { SecretField } from "@/design/SecretField";
-import { create } from "zustand";
 import { useFocusInList } from "../focus";
 import styles from "./keys.module.css";
+import { useShownKey, type ShownKey } from "./shownKey";
 
 export function KeyShown() {
   const shown = useShownKey((state) => state.shown);
@@ -33,22 +33,3 @@ function KeyDialog({ shown }: { shown: ShownKey }) {
     </Modal>
   );
 }
-
-export interface ShownKey {
-  device: string;
-  name: string;
-  credential: string;
-  taken: boolean;
-}
-
-interface ShownKeyStore {
-  shown: ShownKey | null;
-  show: (key: ShownKey) => void;
-  forget: () => void;
-}
-
-export const useShownKey = create<ShownKeyStore>()((set) => ({
-  shown: null,
-  show: (shown) => set({ shown }),
-  forget: () => set({ shown: null }),
-}));
