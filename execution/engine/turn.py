@@ -10,7 +10,6 @@ from typing import Any
 
 from django.db import DatabaseError, InterfaceError
 
-from editor import services as editor
 from execution.engine.dead_letter_capture import (
     SetAside,
     cancel_by_hand,
@@ -39,7 +38,7 @@ from execution.machine.messages import CancelAsked
 from execution.mailbox import run_target, site_target
 from execution.models import Run, RunEvent
 from execution.reasons import SENTENCES
-from execution.runs.before_start import may_begin
+from execution.runs.before_start import is_admitted, may_begin
 from execution.runs.facts import facts_of, things_named
 from execution.runs.fold import CannotTakeIn, Facts, RunWork, fold
 from execution.runs.journal import Journal
@@ -142,13 +141,15 @@ class Turn:
     def _wake_runs(self) -> None:
         """See to it that runs which may begin do, and that those which wait for readings look."""
         for key, work in self.site.runs.items():
-            begins = work.state is None and work.row.status == Run.Status.PENDING and may_begin(work.row, self.now)
             watches = self._look and work.row.watches and work.row.status == Run.Status.RUNNING
-            if begins or watches:
+            if self._begins(work) or watches:
                 self._for_runs.setdefault(key, [])
         for key, (row, error) in self.site.broken.items():
             if row.status != Run.Status.PAUSED:
                 self._set_aside(run_target(key), {"type": "plan"}, error, key)
+
+    def _begins(self, work: RunWork) -> bool:
+        return work.state is None and work.row.status == Run.Status.PENDING and may_begin(work.row, self.now)
 
     def _keep_rest(self) -> None:
         """Keep what nobody has taken in yet for the next turn."""
@@ -179,19 +180,13 @@ class Turn:
         if work.state is not None or row.not_before is None or not may_begin(row, self.now):
             return []
         try:
-            if row.permit.get("emergency") or self._is_admitted(row):
-                return []
+            return [] if is_admitted(row) else [CancelAsked(SENTENCES["approval_gone"])]
         except (DatabaseError, InterfaceError):
             raise
         except Exception as error:
             log.exception("Whether run %s may begin cannot be told.", work.id)
             self._note_dead(run_target(work.id), {"type": "start"}, words_of(error), work.id)
             return [pause_for(words_of(error))]
-        return [CancelAsked(SENTENCES["approval_gone"])]
-
-    def _is_admitted(self, row: Run) -> bool:
-        document = Run.objects.values_list("document", flat=True).get(pk=row.pk)
-        return editor.is_admitted(site=self.site.slug, program_id=row.program, document=document)
 
     def _hold_back(self, work: RunWork, mails: Sequence[Mail]) -> list[ToRun]:
         """Return what is taken in now: not the ends of tasks whose device is just about to speak."""
@@ -234,6 +229,8 @@ class Turn:
             else:
                 self.runs[work.id] = new
                 self._for_floor += told
+                if self._begins(new):  # by what it was told; whether its approvals suffice is asked before that
+                    self._for_runs.setdefault(work.id, [])
                 return
 
     def _with_places(self, work: RunWork) -> RunWork:
@@ -248,8 +245,12 @@ class Turn:
         """Return what reads the facts for a run: once in a turn, and again when it has a robot that it had not."""
         if work.id in self._facts_read and not any(isinstance(message, RoleFilled) for message in messages):
             return _no_facts
-        self._facts_read.add(work.id)
-        return lambda: facts_of(work.needs, work.row, messages, self.now)
+
+        def read() -> Facts:
+            self._facts_read.add(work.id)
+            return facts_of(work.needs, work.row, messages, self.now)
+
+        return read
 
     def _pause_by_hand(self, work: RunWork, error: str) -> None:
         """Pause a run that cannot begin, or whose machine raises whatever it is told."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from datetime import datetime
 
+from editor import services as editor
 from execution.floor_protocol import DeadlinePassed, ResumeAsked, ToRun
 from execution.machine.messages import CancelAsked, PauseAsked
 from execution.models import Run
@@ -21,6 +22,14 @@ def may_begin(run: Run, now: datetime) -> bool:
     if not is_before_start(run):
         return True
     return run.status == Run.Status.PENDING and (run.not_before is None or run.not_before <= now)
+
+
+def is_admitted(run: Run) -> bool:
+    """Tell whether a planned run may begin by the approvals that its site demands now."""
+    if run.permit.get("emergency"):
+        return True
+    document = Run.objects.values_list("document", flat=True).get(pk=run.pk)
+    return editor.is_admitted(site=run.site.slug, program_id=run.program, document=document)
 
 
 def ingest(run: Run, journal: Journal, messages: list[ToRun]) -> None:

@@ -102,14 +102,14 @@ def fold(
     """Take in all messages, oldest first; return the run after them and what the floor is told.
 
     Readings come before messages, since a device speaks before it answers. They are asked for if the run has begun, or
-    begins now. Raises CannotTakeIn; the work that was given is as it was.
+    begins now. A run that has not begun takes in what people want and begins, if it may, in a step of its own: before
+    that whoever calls looks anew whether it may. Raises CannotTakeIn; the work that was given is as it was.
     """
     new = work.fork()
     fold = _Fold(new, Journal(new.row, now, names), [], _asking(new))
-    if is_before_start(new.row):
+    if is_before_start(new.row) and messages:
         _before_start(fold, messages)
-        messages = []
-    if may_begin(new.row, now):
+    elif may_begin(new.row, now):
         _take_facts(fold, facts)
         for index, message in enumerate(messages):
             _take_message(fold, index, message)
