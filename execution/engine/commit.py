@@ -14,10 +14,11 @@ from django.db import IntegrityError, transaction
 
 from execution import database
 from execution.engine import lease as leases
+from execution.engine.dead_letter_capture import ByHand
 from execution.engine.inbox import mark_taken
 from execution.engine.lease import Lease
 from execution.engine.rows import Guarded, insert_all, update_all
-from execution.engine.turn import ByHand, Turn
+from execution.engine.turn import Turn
 from execution.fault_points import fault_point
 from execution.floor.fold import FloorWork, publish_traffic
 from execution.floor_protocol import to_json

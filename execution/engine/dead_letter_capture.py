@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from typing import Any
 
 from execution.floor.fold import FloorWork
 from execution.floor_protocol import ToFloor, to_json
 from execution.machine.messages import PauseAsked
-from execution.models import Run
+from execution.models import Run, RunEvent
 from execution.reasons import SENTENCES
 from execution.runs.journal import Journal, describe
 from execution.traffic import messages as m
@@ -29,6 +29,14 @@ class SetAside:
     event: Mapping[str, Any]
     error: str
     run: str = ""
+
+
+@dataclass
+class ByHand:
+    """A run whose machine cannot be asked, and what was written into its row past it."""
+
+    row: Run
+    lines: list[RunEvent] = field(default_factory=list)
 
 
 def words_of(error: BaseException) -> str:

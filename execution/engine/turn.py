@@ -5,12 +5,13 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from django.db import DatabaseError, InterfaceError
 
 from execution.engine.dead_letter_capture import (
+    ByHand,
     SetAside,
     cancel_by_hand,
     log_ids_of,
@@ -36,7 +37,7 @@ from execution.floor_protocol import (
 )
 from execution.machine.messages import CancelAsked
 from execution.mailbox import run_target, site_target
-from execution.models import Run, RunEvent
+from execution.models import Run
 from execution.reasons import SENTENCES
 from execution.runs.before_start import is_admitted, may_begin
 from execution.runs.facts import facts_of, things_named
@@ -62,14 +63,6 @@ class Mail:
     row: int = 0
 
 
-@dataclass
-class ByHand:
-    """A run whose machine cannot be asked, and what was written into its row past it."""
-
-    row: Run
-    lines: list[RunEvent] = field(default_factory=list)
-
-
 class Turn:
     """What one turn makes of a site; nothing is written, and the memory of the site stays as it was."""
 
@@ -81,6 +74,7 @@ class Turn:
         self.taken: list[int] = []
         self.kept: list[tuple[str, ToFloor | ToRun]] = []
         self.dead: list[SetAside] = []
+        self.cut_off: list[Run] = []
         self.has_more = False
         self._look, self._floor_was_told = look, False
         self._for_runs: dict[str, list[Mail]] = {}
@@ -164,7 +158,7 @@ class Turn:
     def _step_runs(self) -> None:
         waiting, self._for_runs = self._for_runs, {}
         for run, mails in waiting.items():
-            if run in self.site.broken and not self.site.mend_run(run):
+            if run in self.site.broken and (run in self.by_hand or not self.site.mend_run(run)):
                 self._refuse(run, [mail.message for mail in mails])
                 continue
             work = self.runs.get(run) or self.site.runs.get(run)
@@ -209,6 +203,7 @@ class Turn:
         """Let a run take messages in; one that raises is set aside, the run is paused in its place."""
         work = self._with_places(work)
         reading = self._facts_reader(work, messages)
+        cancel = next((message for message in messages if isinstance(message, CancelAsked)), None)
         for _ in range(len(messages) + 2):
             names = self.site.names_of(things_named(messages))
             try:
@@ -217,14 +212,15 @@ class Turn:
                 with bind_ids({"run": work.id}):
                     log.exception("Run %s cannot take something in.", work.id)
                 error = words_of(bad)
-                if bad.index is not None and messages[bad.index] != pause_for(error):
+                untold = None if bad.index is None else messages[bad.index]
+                if bad.index is not None and untold is not cancel and untold != pause_for(error):
                     self._note_dead(run_target(work.id), to_json(messages[bad.index]), error, work.id)
                     messages[bad.index] = pause_for(error)
                 elif bad.index is None and work.state is not None and reading is not _no_facts:
                     self._note_dead(run_target(work.id), {"type": "facts"}, error, work.id)
                     reading, messages = _no_facts, [pause_for(error), *messages]
                 else:
-                    self._pause_by_hand(work, error)
+                    self._settle_by_hand(work, error, cancel)
                     return
             else:
                 self.runs[work.id] = new
@@ -252,26 +248,32 @@ class Turn:
 
         return read
 
-    def _pause_by_hand(self, work: RunWork, error: str) -> None:
-        """Pause a run that cannot begin, or whose machine raises whatever it is told."""
-        self._note_dead(run_target(work.id), {"type": "start" if work.state is None else "step"}, error, work.id)
+    def _settle_by_hand(self, work: RunWork, error: str, cancel: CancelAsked | None) -> None:
+        """Pause a run that cannot begin, or whose machine raises whatever it is told; end it if somebody cancels it."""
         new = work.fork()
-        journal = pause_by_hand(new.row, error, self.now)
+        journal: Journal | None
+        if cancel is not None:
+            journal = self._cut_off(new.row, cancel)
+        else:
+            self._note_dead(run_target(work.id), {"type": "start" if work.state is None else "step"}, error, work.id)
+            journal = pause_by_hand(new.row, error, self.now)
         if journal is not None:
             new.lines += journal.close()
             new.is_changed = True
         self.runs[work.id] = new
 
+    def _cut_off(self, row: Run, cancel: CancelAsked) -> Journal:
+        self.cut_off.append(row)
+        self._for_floor.append(m.RunOver(str(row.id)))
+        return cancel_by_hand(row, cancel.reason, self.now)
+
     def _refuse(self, run: str, messages: Sequence[ToRun]) -> None:
         """Set aside what a run is told whose plan or state cannot be read; it can be cancelled all the same."""
         row, error = self.site.broken[run]
         hand = self.by_hand.setdefault(run, ByHand(row))
-        journal: Journal | None = None
         for message in messages:
             if isinstance(message, CancelAsked) and row.status in Run.OPEN:
-                journal = cancel_by_hand(row, message.reason, self.now)
-                hand.lines += journal.close()
-                self._for_floor.append(m.RunOver(run))
+                hand.lines += self._cut_off(row, message).close()
             elif row.status in Run.OPEN:
                 self._set_aside(run_target(run), to_json(message), error, run)
 

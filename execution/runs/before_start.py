@@ -18,7 +18,9 @@ def is_before_start(run: Run) -> bool:
 
 
 def may_begin(run: Run, now: datetime) -> bool:
-    """Tell whether a run that is open goes on, or begins, now; one that is paused before its start does not."""
+    """Tell whether a run goes on, or begins, now; one that is over or paused before its start does not."""
+    if run.status not in Run.OPEN:
+        return False
     if not is_before_start(run):
         return True
     return run.status == Run.Status.PENDING and (run.not_before is None or run.not_before <= now)

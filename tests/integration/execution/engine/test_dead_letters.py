@@ -92,6 +92,54 @@ def test_a_plan_that_raises_when_it_begins_begins_when_it_is_resumed_and_mended(
     assert finish(run, 1) == "finished"
 
 
+@pytest.mark.parametrize("parameters", [5, {}], ids=["the cause stays", "the cause is gone"])
+def test_a_run_that_could_not_begin_can_be_cancelled_and_never_begins(parameters):
+    run = start(heating(1))
+    Run.objects.filter(id=run).update(parameters=5)
+    drive.advance_site(SITE)
+    assert (row(run).status, row(run).started_at) == ("paused", None)
+    Run.objects.filter(id=run).update(parameters=parameters)
+    drive.forget_all()
+    services.cancel_run(run_id=run, by="Ada")
+    drive.advance_site(SITE)
+    assert (row(run).status, row(run).reason, row(run).started_at) == ("cancelled", "Ada cancelled it", None)
+    assert (row(run).ended_at is not None, told(run)) == (True, [])
+
+
+def test_a_run_that_cannot_begin_ends_by_the_cancel_that_arrives_with_its_start():
+    run = start(heating(1))
+    Run.objects.filter(id=run).update(parameters=5)
+    services.cancel_run(run_id=run, by="Ada")
+    drive.advance_site(SITE)
+    assert (row(run).status, row(run).started_at) == ("cancelled", None)
+
+
+def test_a_run_whose_machine_raises_whatever_it_is_told_can_be_cancelled_and_its_machine_is_free():
+    run, other = start(heating()), start(heating(1))
+    drive.advance_site(SITE)
+    assert (len(told(run)), told(other)) == (1, [])
+    state = row(run).state
+    for thread in state["threads"]:
+        thread["at"] = 999
+    Run.objects.filter(id=run).update(state=state)
+    drive.forget_all()
+    services.cancel_run(run_id=run, by="Ada")
+    drive.advance_site(SITE)
+    assert row(run).status == "cancelled"
+    answer_open(run)
+    assert finish(other, 1) == "finished"
+
+
+def test_a_run_that_is_cancelled_when_it_is_found_unreadable_is_over():
+    run = start(heating())
+    Run.objects.filter(id=run).update(plan={"no": "plan"})
+    services.cancel_run(run_id=run, by="Ada")
+    drive.advance_site(SITE)
+    assert (row(run).status, [letter.event for letter in services.list_dead_letters(site=SITE)]) == (
+        "cancelled", [{"type": "plan"}],
+    )  # fmt: skip
+
+
 def test_a_floor_that_cannot_be_read_holds_only_those_who_need_it():
     drive.advance_site(SITE)
     FloorState.objects.update(state={"format": 99})
