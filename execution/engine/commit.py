@@ -233,6 +233,9 @@ def _write_rest(turn: Turn, *, is_floor: bool) -> None:
             Timer.objects.filter(run=work.row, timer__in=work.dropped_timers).delete()
         for action in work.asked:
             _ask(work.row, action, turn.now)
+    for row in turn.cut_off:  # no machine calls off what these have waited for
+        Timer.objects.filter(run=row).delete()
+        questions.withdraw_all(row)
     _keep(turn)
 
 

@@ -127,6 +127,12 @@ def withdraw(run: Run, number: int) -> None:
         publish(row)
 
 
+def withdraw_all(run: Run) -> None:
+    """Take back whatever a run asks that is over."""
+    for number in Question.objects.filter(run=run, state=Question.State.OPEN).values_list("number", flat=True):
+        withdraw(run, number)
+
+
 def publish(row: Question) -> None:
     """Show a question as it is now to whoever watches the site, once the transaction is through."""
     message = {"type": "question", "question": question_to_json(view_question(row))}

@@ -5,10 +5,12 @@ import logging
 import pytest
 
 from bench.hall import SITE, fill_hall
+from editor.language.expressions.nodes import Constant
+from editor.language.plan.instructions import AnswerSpec, AskPerson, End, Instruction, Plan
 from execution import services
 from execution.engine import drive
 from execution.errors import NotFound, NotPossibleNow
-from execution.models import DeadLetter, FloorState, InboxEvent, Run
+from execution.models import DeadLetter, FloorState, InboxEvent, Question, Run, Timer
 from registry import services as registry
 from tests.integration.execution.engine.hall import WAITS, answer_open, heating, row, start, told
 from vipo_device.kit.log_ids import bound_ids
@@ -114,22 +116,6 @@ def test_a_run_that_cannot_begin_ends_by_the_cancel_that_arrives_with_its_start(
     assert (row(run).status, row(run).started_at) == ("cancelled", None)
 
 
-def test_a_run_whose_machine_raises_whatever_it_is_told_can_be_cancelled_and_its_machine_is_free():
-    run, other = start(heating()), start(heating(1))
-    drive.advance_site(SITE)
-    assert (len(told(run)), told(other)) == (1, [])
-    state = row(run).state
-    for thread in state["threads"]:
-        thread["at"] = 999
-    Run.objects.filter(id=run).update(state=state)
-    drive.forget_all()
-    services.cancel_run(run_id=run, by="Ada")
-    drive.advance_site(SITE)
-    assert row(run).status == "cancelled"
-    answer_open(run)
-    assert finish(other, 1) == "finished"
-
-
 def test_a_run_that_is_cancelled_when_it_is_found_unreadable_is_over():
     run = start(heating())
     Run.objects.filter(id=run).update(plan={"no": "plan"})
@@ -138,6 +124,21 @@ def test_a_run_that_is_cancelled_when_it_is_found_unreadable_is_over():
     assert (row(run).status, [letter.event for letter in services.list_dead_letters(site=SITE)]) == (
         "cancelled", [{"type": "plan"}],
     )  # fmt: skip
+
+
+def test_a_run_that_is_cancelled_past_its_machine_asks_nothing_more_and_waits_for_nothing():
+    answer = AnswerSpec("boolean")
+    ask = Instruction(AskPerson(Constant("Is it dry?"), answer, timeout_s=Constant(3600)), "q", 1)
+    run = start(Plan((ask, Instruction(End()))))
+    drive.advance_site(SITE)
+    assert (Question.objects.get().state, Timer.objects.count()) == ("open", 1)
+    Run.objects.update(state={"format": 99})
+    drive.forget_all()
+    services.cancel_run(run_id=run, by="Ada")
+    drive.advance_site(SITE)
+    assert (row(run).status, Question.objects.get().state, Timer.objects.count()) == ("cancelled", "withdrawn", 0)
+    with pytest.raises(NotPossibleNow, match="not asked any more"):
+        services.answer_question(question_id=Question.objects.get().id, value=True, by="Olga")
 
 
 def test_a_floor_that_cannot_be_read_holds_only_those_who_need_it():
