@@ -6,9 +6,9 @@ from datetime import datetime
 
 from django.db import transaction
 
-from execution import database
+from execution import database, mailbox
 from execution.engine import lease as leases
-from execution.engine.dead_letter_capture import pause_by_hand, words_of
+from execution.engine.dead_letter_capture import pause_by_hand, pause_for, words_of
 from execution.engine.inbox import Row, mark_taken
 from execution.engine.lease import Lease
 from execution.models import DeadLetter, Run, RunEvent
@@ -27,5 +27,9 @@ def set_row_aside(row: Row, lease: Lease, now: datetime, error: Exception) -> No
         if run is not None and journal is not None:
             RunEvent.objects.bulk_create(journal.close())
             run.save(update_fields=["status", "reason", "next_seq", "steps", "roles"])
+            if (
+                event.get("type") != "pause"
+            ):  # its machine and the floor hear it, too; of that one nothing more is tried
+                mailbox.post_to_run(run.site.slug, run.id, [(f"aside:{row.id}", pause_for(words))])
         with database.sent_together() as batch:
             mark_taken(batch, [row.id], now)

@@ -110,6 +110,7 @@ def fold(
     if is_before_start(new.row) and messages:
         _before_start(fold, messages)
     elif may_begin(new.row, now):
+        _take_pause(fold)
         _take_facts(fold, facts)
         for index, message in enumerate(messages):
             _take_message(fold, index, message)
@@ -133,6 +134,22 @@ def _before_start(fold: _Fold, messages: Sequence[ToRun]) -> None:
     ingest(fold.work.row, fold.journal, list(messages))
     run = fold.work.row
     fold.work.is_changed |= before != (run.status, run.reason, run.late)
+
+
+def _take_pause(fold: _Fold) -> None:
+    """Pause the machine of a run whose row was paused past it; else it would go on without what was set aside."""
+    work = fold.work
+    if work.state is None or work.row.status != Run.Status.PAUSED or work.state.status != "running":
+        return
+    try:
+        asked = r.PauseAsked(work.row.reason)
+        work.inputs.append({"told": to_json(asked)})
+        work.state, actions = machine.step(work.plan, work.state, asked)
+        work.is_changed = True
+        _do(fold, actions)
+        fold.told.append(RunPaused(work.id))
+    except Exception as error:
+        raise CannotTakeIn(None) from error
 
 
 def _take_facts(fold: _Fold, facts: Callable[[], Facts]) -> None:

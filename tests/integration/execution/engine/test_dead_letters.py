@@ -3,6 +3,7 @@
 import logging
 
 import pytest
+from django.db import connection
 
 from bench.hall import SITE, fill_hall
 from editor.language.expressions.nodes import Constant
@@ -176,6 +177,22 @@ def test_a_task_in_the_floor_that_raises_at_every_look_is_taken_out_with_its_run
     assert (row(bad).status, row(good).status, len(told(good))) == ("paused", "running", 2)
     (letter,) = services.list_dead_letters(site=SITE)
     assert (str(letter.run), letter.event["type"]) == (bad, "several")
+
+
+def test_a_message_that_the_database_does_not_take_keeps_its_run_paused_whatever_comes_next():
+    run = start(heating(3))
+    drive.advance_site(SITE)
+    hard = {"device": "d" * 100} if connection.vendor == "postgresql" else {"why": "\ud800"}
+    said = {"type": "answer", "device": "machine000", "method": "heat", "step": "s0", "status": "DONE", "why": ""}
+    put(f"run:{run}", {**said, **hard})
+    drive.advance_site(SITE)
+    (letter,) = services.list_dead_letters(site=SITE)
+    assert (row(run).status, letter.event) == ("paused", {**said, **hard})
+    answer_open(run)
+    drive.advance_site(SITE)
+    assert (row(run).status, row(run).state["status"], len(told(run))) == ("paused", "paused", 1)
+    services.resume_run(run_id=run, by="Ada")
+    assert finish(run, 2) == "finished"
 
 
 def test_what_was_set_aside_is_dropped_and_its_run_stays_as_it_is():
