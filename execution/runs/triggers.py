@@ -97,11 +97,14 @@ def _look_at(row: ArmedProgram, now: datetime) -> bool:
     if truths == row.truths:
         return False
     due = next((e for number, e in _starters(plan) if truths[str(number)] and not row.truths.get(str(number))), None)
-    with transaction.atomic():
-        mine = ArmedProgram.objects.filter(program=row.program, epoch=row.epoch, at=row.at)
-        if not mine.update(truths=truths, epoch=row.epoch + 1) or due is None:
-            return False
-        return _start(row, due, now)
+    try:
+        with transaction.atomic():
+            mine = ArmedProgram.objects.filter(program=row.program, epoch=row.epoch, at=row.at)
+            if not mine.update(truths=truths, epoch=row.epoch + 1) or due is None:
+                return False
+            return _start(row, due, now)
+    except NotPossibleNow:  # a robot explores, say: what held stays as it was, so the next look tries it again
+        return False
 
 
 def _start(row: ArmedProgram, due: EventEntry, now: datetime) -> bool:
@@ -116,8 +119,6 @@ def _start(row: ArmedProgram, due: EventEntry, now: datetime) -> bool:
     prepared = Prepared(**{**row.prepared, "program": row.program})
     try:
         start_run(prepared=prepared, by=row.by, entry=due.entry, fence=row.fence)
-    except NotPossibleNow:  # the stop is pressed at this very moment, and disarms it
-        return False
     except editor.NotApproved:
         _disarm_unapproved(row, prepared.name)
         return False

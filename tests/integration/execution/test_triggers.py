@@ -8,8 +8,8 @@ import pytest
 from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant, Operation, Reading
 from editor.language.plan.instructions import End, EventEnd, EventEntry, Instruction, Plan, Wait
-from execution import services
-from execution.models import ArmedProgram, Run, RunEvent
+from execution import database, services
+from execution.models import ArmedProgram, Command, Run, RunEvent
 from execution.runs import triggers
 from tests.kit.programs import heat_oven
 
@@ -31,6 +31,16 @@ PLAN = Plan(
 def arm(plan=PLAN):
     prepared = services.Prepared(uuid4(), SITE, "Cool down", 3, {}, {}, plan_to_json(plan), {})
     return services.arm_program(prepared=prepared, by="Ada")
+
+
+def explore():
+    """Let a robot drive where it likes, as a call by hand keeps it."""
+    site = ArmedProgram.objects.get().site
+    at = database.now()
+    return Command.objects.create(
+        id=uuid4(), site=site, position=0, device="robot01", method="explore", by="Ada", status="running",
+        send_after=at, created_at=at,
+    )  # fmt: skip
 
 
 def look():
@@ -100,3 +110,24 @@ def test_a_disarmed_program_starts_no_more(factory):
     services.disarm_program(program_id=armed.program, site=SITE)
     heat_oven(90)
     assert (look(), services.list_armed(site=SITE)) == (0, ())
+
+
+def test_a_condition_that_becomes_true_while_a_robot_explores_starts_a_run_when_that_is_over(factory):
+    heat_oven(20)
+    arm()
+    call = explore()
+    heat_oven(90)
+    assert (look(), look()) == (0, 0)
+    Command.objects.filter(id=call.id).update(status=Command.Status.DONE)
+    assert (look(), look(), Run.objects.count()) == (1, 0, 1)
+
+
+def test_a_condition_that_holds_no_more_when_the_robot_has_explored_starts_nothing(factory):
+    heat_oven(20)
+    arm()
+    call = explore()
+    heat_oven(90)
+    look()
+    heat_oven(20)
+    Command.objects.filter(id=call.id).update(status=Command.Status.DONE)
+    assert (look(), Run.objects.count()) == (0, 0)
