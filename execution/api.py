@@ -350,7 +350,8 @@ def list_armed(request: HttpRequest, site: str) -> list[dict[str, Any]]:
 @router.post("/programs/{uuid:program}/arm", response=list[ArmedShape])
 def arm_program(request: HttpRequest, program: UUID, body: ArmProgram) -> list[dict[str, Any]]:
     """Let a program, as it is drawn now, start by itself, or not any more; returns all that do so at its site."""
-    site = site_of_program(program_id=program)
+    armed_at = None if body.on else services.site_of_armed(program_id=program)
+    site = armed_at or site_of_program(program_id=program)
     _require_here(request, site, "operator", "program")
     if body.on:
         fence = services.get_stop(site=site).fence

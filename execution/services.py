@@ -53,7 +53,7 @@ from execution.runs.runs import (
     start_run,
 )
 from execution.runs.terms import Terms
-from execution.runs.triggers import arm_program, disarm_program, list_armed, start_armed
+from execution.runs.triggers import arm_program, disarm_program, list_armed, site_of_armed, start_armed
 from execution.ticker.ticker import run_ticker
 from execution.views import (
     ArmedView,
@@ -140,6 +140,7 @@ __all__ = [
     "resume_run",
     "retry_dead_letter",
     "run_ticker",
+    "site_of_armed",
     "site_of_dead_letter",
     "site_of_question",
     "site_of_run",

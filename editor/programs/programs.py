@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -123,6 +123,11 @@ def find_program(program_id: UUID | str) -> Program:
     if program is None:
         raise NoSuchProgram(GONE)
     return program
+
+
+def keep_existing(program_ids: Iterable[UUID]) -> frozenset[UUID]:
+    """Return which of these programs there are."""
+    return frozenset(Program.objects.filter(pk__in=list(program_ids)).values_list("pk", flat=True))
 
 
 def _checked_name(name: str) -> str:

@@ -69,6 +69,11 @@ def arm_program(*, prepared: Prepared, by: str, fence: int | None = None) -> Arm
     return view_armed(row)
 
 
+def site_of_armed(*, program_id: UUID) -> str | None:
+    """Return the site where a program is armed, also one that was deleted since; None where it is not."""
+    return ArmedProgram.objects.filter(program=program_id).values_list("site__slug", flat=True).first()
+
+
 def disarm_program(*, program_id: UUID, site: str) -> None:
     """Let a program start only by hand again."""
     with transaction.atomic():
@@ -85,9 +90,16 @@ def _announce(site: str) -> None:
 
 
 def start_armed(*, now: datetime) -> int:
-    """Look at the conditions of all armed programs and start what has become due; returns how many runs."""
-    rows = ArmedProgram.objects.select_related("site")
-    return sum(_look_at(row, now) for row in rows)
+    """Look at the conditions of all armed programs and start what has become due; returns how many runs.
+
+    One that was deleted is disarmed.
+    """
+    rows = list(ArmedProgram.objects.select_related("site"))
+    there = editor.keep_existing([row.program for row in rows]) if rows else frozenset()
+    for row in rows:
+        if row.program not in there:
+            _disarm(row)
+    return sum(_look_at(row, now) for row in rows if row.program in there)
 
 
 def _look_at(row: ArmedProgram, now: datetime) -> bool:
@@ -111,26 +123,31 @@ def _start(row: ArmedProgram, due: EventEntry, now: datetime) -> bool:
     """Start a run at an entry; one that was armed while the stop was pressed is disarmed instead."""
     stop = get_stop(site=row.site.slug)
     if row.fence < stop.pressed:
-        ArmedProgram.objects.filter(program=row.program, at=row.at).delete()
-        _announce(row.site.slug)
+        _disarm(row)
         return False
     if stop.active or _is_under_way(row.program, now):
         return False
     prepared = Prepared(**{**row.prepared, "program": row.program})
     try:
+        editor.lock_program(program_id=row.program)
         start_run(prepared=prepared, by=row.by, entry=due.entry, fence=row.fence)
     except editor.NotApproved:
-        _disarm_unapproved(row, prepared.name)
+        _disarm(row, "armed_run_not_approved")
+        return False
+    except editor.NoSuchProgram:
+        _disarm(row)
         return False
     return True
 
 
-def _disarm_unapproved(row: ArmedProgram, program: str) -> None:
-    """Disarm a program whose approvals do not suffice any more, and write that down: it would never start silently."""
-    ArmedProgram.objects.filter(program=row.program, at=row.at).delete()
-    facts = {"program": program, "by": row.by}
-    registry.note_act(site_id=row.site_id, code="armed_run_not_approved", facts=facts)
-    _announce(row.site.slug)
+def _disarm(row: ArmedProgram, why: str = "") -> None:
+    """Disarm a program as it was armed; where nobody has done anything that shows why, the record says it by a code."""
+    with transaction.atomic():
+        ArmedProgram.objects.filter(program=row.program, at=row.at).delete()
+        if why:
+            facts = {"program": row.prepared.get("name", ""), "by": row.by}
+            registry.note_act(site_id=row.site_id, code=why, facts=facts)
+        _announce(row.site.slug)
 
 
 def _is_under_way(program: UUID, now: datetime) -> bool:

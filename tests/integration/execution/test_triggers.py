@@ -5,13 +5,16 @@ from uuid import uuid4
 
 import pytest
 
+from editor import services as editor
 from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant, Operation, Reading
 from editor.language.plan.instructions import End, EventEnd, EventEntry, Instruction, Plan, Wait
 from execution import database, services
 from execution.models import ArmedProgram, Command, Run, RunEvent
 from execution.runs import triggers
-from tests.kit.programs import heat_oven
+from registry import services as registry
+from tests.kit.programs import TASK, heat_oven
+from tests.kit.sign_in import join_and_sign_in, post_json
 
 pytestmark = pytest.mark.django_db(transaction=True)
 SITE, OVEN = "painting-factory", "curingOven01"
@@ -29,7 +32,8 @@ PLAN = Plan(
 
 
 def arm(plan=PLAN):
-    prepared = services.Prepared(uuid4(), SITE, "Cool down", 3, {}, {}, plan_to_json(plan), {})
+    program = editor.create_program(site=SITE, name="Cool down", document=TASK).id
+    prepared = services.Prepared(program, SITE, "Cool down", 3, {}, {}, plan_to_json(plan), {})
     return services.arm_program(prepared=prepared, by="Ada")
 
 
@@ -131,3 +135,33 @@ def test_a_condition_that_holds_no_more_when_the_robot_has_explored_starts_nothi
     heat_oven(20)
     Command.objects.filter(id=call.id).update(status=Command.Status.DONE)
     assert (look(), Run.objects.count()) == (0, 0)
+
+
+def test_a_deleted_program_starts_nothing_and_is_disarmed_for_all_who_look(factory, monkeypatch):
+    heat_oven(20)
+    armed = arm()
+    editor.delete_program(program_id=armed.program)
+    said = []
+    monkeypatch.setattr(registry, "publish", lambda site, message: said.append((site, message)))
+    heat_oven(90)
+    assert (look(), Run.objects.count(), ArmedProgram.objects.count()) == (0, 0, 0)
+    assert said == [(SITE, {"type": "armed", "programs": []})]
+
+
+def test_a_program_that_is_deleted_while_its_condition_is_looked_at_starts_nothing(factory):
+    heat_oven(20)
+    seen, armed = arm(), ArmedProgram.objects.select_related("site").get()
+    heat_oven(90)
+    editor.delete_program(program_id=seen.program)
+    assert triggers._look_at(armed, datetime.now(UTC)) is False
+    assert (Run.objects.count(), ArmedProgram.objects.count()) == (0, 0)
+
+
+def test_a_program_that_was_deleted_can_be_disarmed_by_who_may(factory):
+    armed = arm()
+    other = arm()
+    editor.delete_program(program_id=armed.program)
+    path = f"/api/programs/{armed.program}/arm"
+    assert post_json(join_and_sign_in("viewer", SITE), path, {"on": False}).status_code == 403
+    off = post_json(join_and_sign_in("operator", SITE), path, {"on": False})
+    assert (off.status_code, [each["program"] for each in off.json()]) == (200, [str(other.program)])

@@ -13,6 +13,7 @@ import psycopg
 import pytest
 from django.db import connection
 
+from editor import services as editor
 from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant, Operation, Reading
 from editor.language.plan.instructions import EventEntry
@@ -21,7 +22,7 @@ from execution.engine.drive import advance_site
 from execution.models import ArmedProgram, Command, InboxEvent, Run, SiteStop
 from execution.traffic.messages import CONTROLS
 from registry.models import Device
-from tests.kit.programs import CARRY, SITE, describe_anew, heat_oven
+from tests.kit.programs import CARRY, SITE, TASK, describe_anew, heat_oven
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.servers
@@ -159,7 +160,8 @@ ITSELF = replace(CARRY, reads=(("curingOven01", "temperature"),), events=(EventE
 
 
 def arm(fence=None):
-    prepared = services.Prepared(uuid4(), SITE, "Hot", 1, {}, {}, plan_to_json(ITSELF), {})
+    program = editor.create_program(site=SITE, name="Hot", document=TASK).id
+    prepared = services.Prepared(program, SITE, "Hot", 1, {}, {}, plan_to_json(ITSELF), {})
     return services.arm_program(prepared=prepared, by="Ada", fence=fence)
 
 
