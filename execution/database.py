@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 import time
 from collections.abc import Iterator, Sequence
@@ -13,6 +14,7 @@ from typing import Any
 import psycopg
 from django.db import DatabaseError, InterfaceError, connection
 
+log = logging.getLogger(__name__)
 KEPT_S = 5.0
 """So long a process counts on from what the database's clock said, by a clock that nobody sets."""
 AT_ONCE = (16, 4, 2, 1)
@@ -59,6 +61,20 @@ def now() -> datetime:
         except (DatabaseError, InterfaceError):
             said = _heard.count_on() or datetime.now(UTC)
     return said
+
+
+@contextmanager
+def kept_apart(what: str) -> Iterator[None]:
+    """Write into the log what the block raises, so that what comes behind it has its turn; `what` is its name there.
+
+    Raises what it does where the database is away: then nothing that comes behind can be done either.
+    """
+    try:
+        yield
+    except Exception as error:
+        if isinstance(error, DatabaseError | InterfaceError) and not connection.is_usable():
+            raise
+        log.exception("%s failed; what comes after it goes on.", what)
 
 
 def _ask() -> datetime:

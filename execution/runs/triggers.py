@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import logging
 from collections import OrderedDict
 from dataclasses import asdict
 from datetime import UTC, datetime
 from uuid import UUID
 
-from django.db import transaction
+from django.db import DatabaseError, InterfaceError, transaction
 
 from editor import services as editor
 from editor.language import plan_from_json
 from editor.language.plan.instructions import EventEntry, Plan
+from execution import database
 from execution.errors import NotPossibleNow, NotReady
 from execution.floor.stops import get_stop
 from execution.machine.evaluation import EvaluationError, bound_roles, is_true
@@ -23,6 +25,7 @@ from execution.runs.runs import start_run
 from execution.views import ArmedView, armed_to_json, view_armed
 from registry import services as registry
 
+log = logging.getLogger(__name__)
 PLANS_KEPT = 64
 _plans: OrderedDict[tuple[UUID, datetime], Plan] = OrderedDict()
 
@@ -99,13 +102,27 @@ def start_armed(*, now: datetime) -> int:
     for row in rows:
         if row.program not in there:
             _disarm(row)
-    return sum(_look_at(row, now) for row in rows if row.program in there)
+    return sum(_look_apart(row, now) for row in rows if row.program in there)
+
+
+def _look_apart(row: ArmedProgram, now: datetime) -> bool:
+    """Look at one armed program; what that raises keeps no other from its turn."""
+    with database.kept_apart(f"The armed program {row.program}"):
+        return _look_at(row, now)
+    return False
 
 
 def _look_at(row: ArmedProgram, now: datetime) -> bool:
     """Start a run if a condition has become true; of several processes that see it one does."""
-    plan = _plan(row)
-    truths = _look(plan, _facts(plan, row.site.slug, now))
+    try:
+        plan, prepared = _plan(row), Prepared(**{**row.prepared, "program": row.program})
+        truths = _look(plan, _facts(plan, row.site.slug, now))
+    except (DatabaseError, InterfaceError):
+        raise
+    except Exception:  # it was armed by another version of VIPO, say: it would never start, and nobody would know
+        log.exception("The armed program %s cannot be read and is disarmed.", row.program)
+        _disarm(row, "armed_run_unreadable")
+        return False
     if truths == row.truths:
         return False
     due = next((e for number, e in _starters(plan) if truths[str(number)] and not row.truths.get(str(number))), None)
@@ -114,12 +131,12 @@ def _look_at(row: ArmedProgram, now: datetime) -> bool:
             mine = ArmedProgram.objects.filter(program=row.program, epoch=row.epoch, at=row.at)
             if not mine.update(truths=truths, epoch=row.epoch + 1) or due is None:
                 return False
-            return _start(row, due, now)
+            return _start(row, prepared, due, now)
     except NotPossibleNow:  # a robot explores, say: what held stays as it was, so the next look tries it again
         return False
 
 
-def _start(row: ArmedProgram, due: EventEntry, now: datetime) -> bool:
+def _start(row: ArmedProgram, prepared: Prepared, due: EventEntry, now: datetime) -> bool:
     """Start a run at an entry; one that was armed while the stop was pressed is disarmed instead."""
     stop = get_stop(site=row.site.slug)
     if row.fence < stop.pressed:
@@ -127,7 +144,6 @@ def _start(row: ArmedProgram, due: EventEntry, now: datetime) -> bool:
         return False
     if stop.active or _is_under_way(row.program, now):
         return False
-    prepared = Prepared(**{**row.prepared, "program": row.program})
     try:
         editor.lock_program(program_id=row.program)
         start_run(prepared=prepared, by=row.by, entry=due.entry, fence=row.fence)

@@ -7,7 +7,9 @@ import os
 import socket
 import threading
 from collections import defaultdict
+from collections.abc import Callable
 from datetime import datetime, timedelta
+from functools import partial
 
 from django.db import DatabaseError, connection, transaction
 from django.db.models import Q
@@ -36,6 +38,18 @@ MAIL_S = 60.0
 PRUNE_S = 600.0
 KEPT_FOR = timedelta(days=2)
 LOST_AFTER = timedelta(seconds=1)
+PRUNES = (
+    registry.prune_samples,
+    registry.prune_alerts,
+    registry.prune_tokens,
+    registry.prune_invitations,
+    registry.prune_wall_screens,
+    registry.prune_audit,
+    registry.prune_keyed_requests,
+    registry.drop_expired,
+    registry.forget_attempts,
+    registry.forget_sign_ons,
+)
 HOLDER = f"{socket.gethostname()}:{os.getpid()}"
 
 
@@ -54,34 +68,18 @@ class Ticker:
             return False
         self._leads_since = self._leads_since or now
         if self._is_due("frozen", SWEEP_S, now):
-            end_frozen_sessions()
-        fire_timers(now)
+            _do_each(end_frozen_sessions)
+        _do_each(lambda: fire_timers(now))
         if self._is_due("sites", TICK_SITES_S, now):
-            mailbox.hint_watching()
-            start_armed(now=now)
+            _do_each(mailbox.hint_watching, lambda: start_armed(now=now))
         if self._is_due("sweep", SWEEP_S, now):
             sweep(now)
-            for view in registry.mark_stale(now=now):
-                registry.note_samples(view=view, at=now)
-                mailbox.hint_now(view.site)
-            registry.flush_samples()
-            watch_alerts(now=now, since=self._leads_since)
-        if self._is_due("mail", MAIL_S, now) and is_mail_due(now):
-            mailbox.send_hint(mailbox.SEND_MAIL, "")
+            alerts = partial(watch_alerts, now=now, since=self._leads_since)
+            _do_each(lambda: _mark_stale(now), registry.flush_samples, alerts)
+        if self._is_due("mail", MAIL_S, now):
+            _do_each(lambda: _ask_for_mail(now))
         if self._is_due("prune", PRUNE_S, now):
-            mailbox.forget_taken(now - KEPT_FOR)
-            ask_for_archiving()
-            registry.prune_samples(now=now)
-            registry.prune_alerts(now=now)
-            registry.prune_tokens(now=now)
-            registry.prune_invitations(now=now)
-            registry.prune_wall_screens(now=now)
-            registry.prune_audit(now=now)
-            registry.prune_keyed_requests(now=now)
-            registry.drop_expired(now=now)
-            registry.forget_attempts(now=now)
-            registry.forget_sign_ons(now=now)
-            registry.prune_processes()
+            _prune(now)
         return True
 
     def _is_due(self, what: str, every_s: float, now: datetime) -> bool:
@@ -90,6 +88,29 @@ class Ticker:
             return False
         self._done_at[what] = now
         return True
+
+
+def _do_each(*steps: Callable[[], object]) -> None:
+    """Do one thing after the other; one that fails is written into the log and keeps no other from its turn."""
+    for step in steps:
+        with database.kept_apart(f"A step of the ticker ({getattr(step, '__qualname__', step)})"):
+            step()
+
+
+def _mark_stale(now: datetime) -> None:
+    for view in registry.mark_stale(now=now):
+        registry.note_samples(view=view, at=now)
+        mailbox.hint_now(view.site)
+
+
+def _ask_for_mail(now: datetime) -> None:
+    if is_mail_due(now):
+        mailbox.send_hint(mailbox.SEND_MAIL, "")
+
+
+def _prune(now: datetime) -> None:
+    _do_each(lambda: mailbox.forget_taken(now - KEPT_FOR), ask_for_archiving, registry.prune_processes)
+    _do_each(*(partial(prune, now=now) for prune in PRUNES))
 
 
 def fire_timers(now: datetime) -> int:
@@ -119,19 +140,29 @@ def _is_timer_due(now: datetime) -> bool:
 
 def sweep(now: datetime) -> None:
     """Find what was left lying because a message was lost or a worker died."""
-    mailbox.hint_left(now - LOST_AFTER)
+    _do_each(
+        lambda: mailbox.hint_left(now - LOST_AFTER),
+        lambda: _hint_pending(now),
+        lambda: call_late(now),
+        follow_stops,
+        lambda: drop_stale_controls(now),
+        lambda: end_commands_of_those_out(now),
+        lambda: expire_calls(now=now),
+        sweep_rehearsals,
+        _ask_for_tests,
+    )
+
+
+def _ask_for_tests() -> None:
+    if editor.has_versions_to_test():
+        mailbox.send_hint(mailbox.REHEARSE, "")
+
+
+def _hint_pending(now: datetime) -> None:
     pending = Run.objects.filter(status=Run.Status.PENDING, created_at__lt=now - LOST_AFTER)
     pending = pending.filter(Q(not_before=None) | Q(not_before__lte=now))
     for site in pending.values_list("site__slug", flat=True).distinct():
         mailbox.hint_now(site)
-    call_late(now)
-    follow_stops()
-    drop_stale_controls(now)
-    end_commands_of_those_out(now)
-    expire_calls(now=now)
-    sweep_rehearsals()
-    if editor.has_versions_to_test():
-        mailbox.send_hint(mailbox.REHEARSE, "")
 
 
 _ticker = Ticker()

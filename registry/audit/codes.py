@@ -14,8 +14,8 @@ _CODES: dict[Kind, str] = {
     "invitations": "invitation_made invitation_revoked",
     "tokens": "token_made token_revoked",
     "wall_screens": "wall_screen_made wall_screen_revoked",
-    "runs": """run_started run_cancelled run_started_in_emergency armed_run_not_approved robot_let_in zone_opened
-        zone_closed obstacle_added obstacles_removed keeping_set""",
+    "runs": """run_started run_cancelled run_started_in_emergency armed_run_not_approved armed_run_unreadable
+        robot_let_in zone_opened zone_closed obstacle_added obstacles_removed keeping_set""",
     "stops": "stop_pressed stop_reset",
     "devices": """device_asked device_turned_away device_approved device_rejected device_retired
         device_readmitted device_key_given device_key_revoked enrolment_key_renewed calibration_taken

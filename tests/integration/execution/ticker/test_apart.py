@@ -1,0 +1,71 @@
+"""What fails in a tick keeps nothing else from its turn."""
+
+from __future__ import annotations
+
+from datetime import timedelta
+from typing import Any
+
+import pytest
+from django.db import connection
+
+from editor import services as editor
+from editor.language import plan_to_json
+from editor.language.expressions.nodes import Constant, Operation, Reading
+from editor.language.plan.instructions import End, EventEnd, EventEntry, Instruction, Plan, Wait
+from execution import database, services
+from execution.models import ArmedProgram, Run
+from execution.ticker.ticker import Ticker
+from registry.models import AuditLine, Device
+from tests.kit.programs import SITE, TASK, heat_oven
+
+pytestmark = pytest.mark.django_db(transaction=True)
+OVEN = "curingOven01"
+HOT = Operation(">", (Reading(Constant(OVEN), "temperature"), Constant(80)))
+STEPS = (Instruction(End()), Instruction(Wait(Constant(5)), "cool"), Instruction(EventEnd()))
+PLAN = Plan(STEPS, reads=((OVEN, "temperature"),), events=(EventEntry("e", 1, HOT, "run"),))
+
+
+def arm(name: str) -> Any:
+    program = editor.create_program(site=SITE, name=name, document=TASK).id
+    prepared = services.Prepared(program, SITE, name, 1, {}, {}, plan_to_json(PLAN), {})
+    return services.arm_program(prepared=prepared, by="Ada").program
+
+
+def silence() -> None:
+    Device.objects.filter(id="robot01").update(online=True, last_seen_at=database.now() - timedelta(hours=1))
+
+
+def is_swept() -> bool:
+    return not Device.objects.get(id="robot01").online
+
+
+@pytest.mark.parametrize("change", [{"plan": {"format": 99}}, {"unknown": 1}])
+def test_an_armed_program_that_cannot_be_read_is_disarmed_alone_and_the_record_says_so(
+    factory: Any, change: dict[str, Any]
+) -> None:
+    heat_oven(20)
+    odd, good = arm("Odd"), arm("Good")
+    row = ArmedProgram.objects.get(program=odd)
+    row.prepared |= change
+    row.at += timedelta(seconds=1)  # nothing of it is known in this process
+    row.save()
+    heat_oven(90)
+    silence()
+    assert Ticker("a").tick(database.now())
+    assert [run.program for run in Run.objects.all()] == [good]
+    assert [armed.program for armed in services.list_armed(site=SITE)] == [good]
+    assert is_swept()
+    line = AuditLine.objects.get(code="armed_run_unreadable")
+    assert line.facts == {"program": "Odd", "by": "Ada"}
+
+
+def test_a_step_of_the_ticker_that_fails_keeps_no_other_from_its_turn(factory: Any) -> None:
+    silence()
+    with connection.cursor() as cursor:  # stands for what nobody foresees
+        cursor.execute("ALTER TABLE execution_stopfollowed RENAME TO hidden_away")
+    try:
+        assert Ticker("a").tick(database.now())
+    finally:
+        with connection.cursor() as cursor:
+            cursor.execute("ALTER TABLE hidden_away RENAME TO execution_stopfollowed")
+    assert is_swept()
