@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from datetime import datetime, timedelta
 
+from django.db.models import Q
+
 from execution.models import Lease, SiteLease
 
 LEASE_S = 5.0
@@ -11,7 +13,11 @@ LEASE_S = 5.0
 
 
 class JobLease:
-    """One process's hold on a job, as far as it has it; a holder that dies loses it after `LEASE_S`."""
+    """One process's hold on a job, as far as it has it; a holder that dies loses it after `LEASE_S`.
+
+    No lease stands for longer than that: one that ends later was taken before the clock was put back, and counts no
+    more.
+    """
 
     def __init__(self, job: str, holder: str) -> None:
         self._job, self._holder = job, holder
@@ -19,12 +25,14 @@ class JobLease:
 
     def hold(self, now: datetime) -> bool:
         """Take or renew the lease; it is renewed when half of it is over, so that asking often costs no write."""
-        if self._until is not None and now < self._until - timedelta(seconds=LEASE_S / 2):
+        whole = timedelta(seconds=LEASE_S)
+        if self._until is not None and whole / 2 < self._until - now <= whole:
             return True
-        until = now + timedelta(seconds=LEASE_S)
+        until = now + whole
         Lease.objects.get_or_create(name=self._job, defaults={"holder": self._holder, "until": until})
         mine = Lease.objects.filter(name=self._job, holder=self._holder).update(until=until)
-        free = mine or Lease.objects.filter(name=self._job, until__lt=now).update(holder=self._holder, until=until)
+        over = Q(until__lt=now) | Q(until__gt=now + 2 * whole)
+        free = mine or Lease.objects.filter(over, name=self._job).update(holder=self._holder, until=until)
         self._until = until if free else None
         return bool(free)
 

@@ -71,11 +71,16 @@ def take(site: int, owner: str | None = None) -> Lease | None:
     row, _ = SiteLease.objects.get_or_create(site_id=site, defaults={"expires_at": Now()})
     if row.owner not in ("", owner):
         end_frozen_holder(site)
-    free = SiteLease.objects.filter(Q(owner=owner) | Q(owner="") | Q(expires_at__lt=Now()), site_id=site)
+    free = SiteLease.objects.filter(Q(owner=owner) | Q(owner="") | ~holds(), site_id=site)
     epoch = Case(When(owner=owner, then=F("epoch")), default=F("epoch") + Value(1))
     if not free.update(owner=owner, epoch=epoch, expires_at=_later(LEASE_S)):
         return None
     return Lease(site, SiteLease.objects.values_list("epoch", flat=True).get(site_id=site, owner=owner), owner)
+
+
+def holds() -> Q:
+    """Return what leases fulfil that stand; one that ends too far ahead is from before a clock was put back."""
+    return Q(expires_at__gte=Now(), expires_at__lte=_later(2 * LEASE_S))
 
 
 def ask_to_hold(batch: database.Batch, lease: Lease) -> Any:

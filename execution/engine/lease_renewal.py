@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from datetime import timedelta
 
 from django.db import DatabaseError, InterfaceError, connection
-from django.db.models.functions import Now
 
 from execution import database
 from execution.engine import lease as leases
@@ -81,7 +80,7 @@ class LeaseRenewal:
             connection.close()
 
     def _is_somebody_waiting(self) -> bool:
-        owned = SiteLease.objects.filter(expires_at__gte=Now()).values("site__slug")
+        owned = SiteLease.objects.filter(leases.holds()).values("site__slug")
         before = database.now() - timedelta(seconds=WAITS_S)
         left = InboxEvent.objects.filter(taken_at=None, created_at__lt=before).exclude(site="")
         return left.exclude(site__in=owned).exists()

@@ -10,10 +10,10 @@ from typing import Any
 
 from celery import current_app
 from django.db.models import Count, Min, Q
-from django.db.models.functions import Now
 from django.db.models.query import QuerySet
 from kombu.exceptions import ChannelError, OperationalError
 
+from execution.engine.lease import holds
 from execution.models import Command, DeadLetter, InboxEvent, Lease, Rehearsal, Run, SiteLease
 
 log = logging.getLogger(__name__)
@@ -133,7 +133,7 @@ def list_overdue(*, site: str, now: datetime) -> tuple[int, tuple[OverdueView, .
 def list_leases() -> tuple[LeaseView, ...]:
     """Return who does the jobs of which there is one each, and who carries out the runs of sites (`site:SLUG`)."""
     jobs = tuple(LeaseView(row.name, row.holder, row.until) for row in Lease.objects.order_by("name"))
-    owned = SiteLease.objects.exclude(owner="").filter(expires_at__gte=Now()).order_by("site__slug")
+    owned = SiteLease.objects.exclude(owner="").filter(holds()).order_by("site__slug")
     owners = owned.values_list("site__slug", "owner", "expires_at")[:MOST_OWNERS]
     return jobs + tuple(LeaseView(f"{OF_SITE}{site}", owner, until) for site, owner, until in owners)
 

@@ -66,7 +66,7 @@ class Ticker:
         if not self._lease.hold(now):
             self._leads_since = None
             return False
-        self._leads_since = self._leads_since or now
+        self._leads_since = min(self._leads_since or now, now)
         if self._is_due("frozen", SWEEP_S, now):
             _do_each(end_frozen_sessions)
         _do_each(lambda: fire_timers(now))
@@ -84,7 +84,7 @@ class Ticker:
 
     def _is_due(self, what: str, every_s: float, now: datetime) -> bool:
         last = self._done_at.get(what)
-        if last is not None and (now - last).total_seconds() < every_s:
+        if last is not None and 0 <= (now - last).total_seconds() < every_s:  # less than 0: the clock was put back
             return False
         self._done_at[what] = now
         return True
