@@ -15,6 +15,7 @@ from execution import database
 from execution.engine import lease as leases
 from execution.engine.lease import Lease
 from execution.models import InboxEvent, SiteLease
+from execution.runs.before_start import due_runs
 
 log = logging.getLogger(__name__)
 EVERY_S = 1.0
@@ -83,7 +84,8 @@ class LeaseRenewal:
         owned = SiteLease.objects.filter(leases.holds()).values("site__slug")
         before = database.now() - timedelta(seconds=WAITS_S)
         left = InboxEvent.objects.filter(taken_at=None, created_at__lt=before).exclude(site="")
-        return left.exclude(site__in=owned).exists()
+        begin = due_runs(before).exclude(site__slug__in=owned)
+        return left.exclude(site__in=owned).exists() or begin.exists()
 
 
 renewal = LeaseRenewal()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from datetime import datetime
 
+from django.db.models import Q, QuerySet
+
 from editor import services as editor
 from execution.floor_protocol import DeadlinePassed, ResumeAsked, ToRun
 from execution.machine.messages import CancelAsked, PauseAsked
@@ -24,6 +26,12 @@ def may_begin(run: Run, now: datetime) -> bool:
     if not is_before_start(run):
         return True
     return run.status == Run.Status.PENDING and (run.not_before is None or run.not_before <= now)
+
+
+def due_runs(before: datetime) -> QuerySet[Run]:
+    """Return the runs that could have begun since before then and have not, since nobody carries out their site."""
+    waiting = Run.objects.filter(status=Run.Status.PENDING, created_at__lt=before)
+    return waiting.filter(Q(not_before=None) | Q(not_before__lte=before))
 
 
 def is_admitted(run: Run) -> bool:
