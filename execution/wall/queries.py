@@ -7,6 +7,7 @@ import zlib
 from typing import Any
 
 from django.db import DatabaseError
+from django.db.models import Case, F, Q, When
 from django.utils import timezone
 
 from execution.floor.stops import get_stop
@@ -16,15 +17,22 @@ from execution.wall.picture import MOST_RUNS, picture_of, place_to_wall, run_to_
 from registry import services as registry
 
 OPEN = ("pending", "running", "paused")
+_BEGUN = Q(started_at__isnull=False)
+_FIRST = (
+    Case(When(status=Run.Status.RUNNING, then=0), When(_BEGUN, then=1), default=2),
+    Case(When(_BEGUN, then=None), default=F("not_before")).asc(nulls_first=True),
+    "-number",
+)
+"""Runs that go on come first, then those that were paused under way, then those to come, the soonest first."""
 
 
 def read_picture(site: str) -> dict[str, Any]:
     """Return what a site looks like at this moment. Raises NotAMember where there is no such site any more."""
     stop = get_stop(site=site)
-    rows = Run.objects.select_related("site").filter(site__slug=site, status__in=OPEN)
+    rows = Run.objects.select_related("site").filter(site__slug=site, status__in=OPEN).order_by(*_FIRST)
     runs = [
         run_to_wall(view_run(row), row.compiled)
-        for row in rows.defer("document", "plan", "state", "places").order_by("-number")[:MOST_RUNS]
+        for row in rows.defer("document", "plan", "state", "places")[:MOST_RUNS]
     ]
     return picture_of(
         site=registry.get_site(site=site),

@@ -10,6 +10,7 @@ import { formatAgo, formatTime } from "@/i18n/format";
 import { waitWords } from "@/i18n/waits";
 import { StaticMap } from "@/map/StaticMap";
 import { doingWords } from "./doingWords";
+import { statusWords } from "./statusWords";
 import { useWall, type Wall } from "./useWall";
 import { countOnline, type Picture, type WallAlert, type WallRun } from "./wall";
 import styles from "./wall.module.css";
@@ -45,12 +46,7 @@ function Stop({ stop }: { stop: Picture["stop"] }) {
   );
 }
 
-function statusWords(run: WallRun, t: (key: string, args?: Record<string, string>) => string): string {
-  if (run.status === "pending" && run.not_before) return t("wall.status.planned", { time: formatTime(run.not_before) });
-  return t(`wall.status.${run.status}`);
-}
-
-function RunCard({ run, nameOf }: { run: WallRun; nameOf: (device: string) => string }) {
+function RunCard({ run, nameOf, now }: { run: WallRun; nameOf: (device: string) => string; now: number }) {
   const { t } = useTranslation();
   const steps = t("wall.progress", { done: run.done, total: run.total });
   const glyph = run.status === "running" ? "busy" : run.status === "paused" ? "waiting" : "idle";
@@ -63,7 +59,7 @@ function RunCard({ run, nameOf }: { run: WallRun; nameOf: (device: string) => st
       </p>
       <progress value={run.done} max={Math.max(1, run.total)} aria-label={steps} />
       <p className={styles.cardFoot}>
-        <span>{waitWords(run.wait, nameOf) ?? statusWords(run, t)}</span>
+        <span>{waitWords(run.wait, nameOf) ?? statusWords(run, now)}</span>
         <span>{steps}</span>
       </p>
     </li>
@@ -100,7 +96,7 @@ function Side({ picture }: { picture: Picture }) {
         {picture.runs.length === 0 ? <p className={styles.none}>{t("wall.noRuns")}</p> : null}
         <ul>
           {picture.runs.map((run) => (
-            <RunCard key={run.number} run={run} nameOf={nameOf} />
+            <RunCard key={run.number} run={run} nameOf={nameOf} now={now} />
           ))}
         </ul>
       </section>
