@@ -64,6 +64,7 @@ def step(
     heed_zones(turn)
     for event in events:
         _take(turn, event)
+    _resume(turn)
     _check_limits(turn)
     keep_stations(turn)
     keep_zones(turn)
@@ -185,7 +186,6 @@ def _take_order(turn: Turn, event: Order) -> None:
             turn.paused.add(run)
         case m.RunResumed(run=run):
             turn.paused.discard(run)
-            _resume(turn, run)
         case m.RunOver(run=run):
             _end_run(turn, run)
         case m.StopPressed():
@@ -195,7 +195,6 @@ def _take_order(turn: Turn, event: Order) -> None:
             turn.sent = {key: replace(sent, held_up=True) for key, sent in turn.sent.items()}
         case m.StopReset():
             turn.stopped = False
-            _resume(turn, "")
 
 
 def _take_task(turn: Turn, event: m.TaskAsked) -> None:
@@ -229,7 +228,7 @@ def _end_call(turn: Turn, event: m.CallCancelled) -> None:
     if sent is not None and event.given_up:
         _give_up(turn, sent, "timed_out", "")
     elif sent is not None:
-        turn.tell(sent, "cancel")
+        _call_off(turn, sent)
 
 
 def _take_online(turn: Turn, device: str) -> None:
@@ -305,27 +304,43 @@ def _drop(turn: Turn, task: FloorTask) -> None:
     del turn.tasks[task.run, task.number]
     sent = turn.sent.get(task.command)
     if sent is not None and task.order.kind not in {"pick", "drop"}:
-        turn.tell(sent, "cancel")
+        _call_off(turn, sent)
     robot = turn.robots.get(task.robot)
     if robot is not None and robot.path and not robot.evading and turn.task_of(robot) is None:
         cut_path(turn, robot)
 
 
-def _resume(turn: Turn, run: str) -> None:
-    """Let the commands go on that a stop has held up; their time begins anew."""
+def _resume(turn: Turn) -> None:
+    """Let the commands go on that a stop has held up: all but those of runs that are paused.
+
+    Looked at when all events are taken in, since a run may say only behind the reset that the stop has paused it.
+    """
     for sent in list(turn.sent.values()):
-        if sent.held_up and sent.run == run and not turn.stopped:
-            turn.tell(sent, "resume")
-            turn.sent[sent.id] = replace(sent, held_up=False, at=turn.now)
-            if robot := turn.robots.get(sent.device):
-                turn.put(robot, progress_at=turn.now)
+        if sent.held_up and not turn.stopped and sent.run not in turn.paused:
+            _end_hold(turn, sent, "resume")
+
+
+def _call_off(turn: Turn, sent: Sent) -> None:
+    """Have a command ended; one that a stop has held up is held up no more, since nothing is left to go on with."""
+    if sent.held_up:
+        _end_hold(turn, sent, "cancel")
+    else:
+        turn.tell(sent, "cancel")
+
+
+def _end_hold(turn: Turn, sent: Sent, method: str) -> None:
+    """Tell a command that a stop has held up to go on or to end; its time begins anew."""
+    turn.tell(sent, method)
+    turn.sent[sent.id] = replace(sent, held_up=False, at=turn.now)
+    if robot := turn.robots.get(sent.device):
+        turn.put(robot, progress_at=turn.now)
 
 
 def _end_run(turn: Turn, run: str) -> None:
     for task in [each for each in turn.tasks.values() if each.run == run]:
         _drop(turn, task)
     for sent in [sent for sent in turn.sent.values() if sent.run == run and sent.held_up]:
-        turn.tell(sent, "cancel")
+        _call_off(turn, sent)
     turn.roles = {key: robot for key, robot in turn.roles.items() if key.rpartition("/")[0] != run}
     for robot in [robot for robot in turn.robots.values() if robot.run == run]:
         turn.put(robot, run="", yields_to="", idle_since=turn.now)
