@@ -56,9 +56,15 @@ WITH ready AS MATERIALIZED (
     WINDOW lane AS (PARTITION BY site_id, device)
 ), chosen AS MATERIALIZED (
     SELECT id FROM waiting
-    WHERE send_after <= %(now)s AND (method IN ({_words(CONTROLS)}) OR (
+    WHERE send_after <= %(now)s AND (method IN ('pause', 'cancel') OR (run IN (SELECT id FROM held)) IS NOT TRUE)
+    AND (method IN ({_words(CONTROLS)}) OR (
         site_id NOT IN (SELECT site_id FROM execution_sitestop WHERE active)
-        AND (run IN (SELECT id FROM held)) IS NOT TRUE
+        AND NOT EXISTS (
+            SELECT 1 FROM execution_run AS ended WHERE ended.id = waiting.run
+            AND ended.status NOT IN ({_words(Run.OPEN)}) AND (NOT piece OR ended.fence < (
+                SELECT pressed FROM execution_sitestop WHERE site_id = waiting.site_id
+            ))
+        )
         AND coalesce(site_fence >= (SELECT pressed FROM execution_sitestop WHERE site_id = waiting.site_id), true)
         AND NOT (piece AND position > coalesce(unanswered_piece, position))
         AND (tries > 0 OR position - oldest < {WINDOW} OR {WINDOW} > (
@@ -138,10 +144,11 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
 
     One whose sending is not confirmed by `mark_sent`, or that no device answers, is given out again. What
     is meant for a device that does not take part is kept back. While a site is stopped only pause, resume and
-    cancel go out, and after that what belongs to a run once a person has resumed it. A piece of path waits until the
-    robot has accepted the piece before it: with a gateway that died in between, it would otherwise cut the corner
-    through a wall. Nothing new goes out while a command that is `WINDOW` older is open: asked again, the device might
-    have forgotten it.
+    cancel go out, and after that what belongs to a run, also a resume, once a person has resumed it. For a run that is
+    over only these three go out, and the pieces of path on which its robots settle if no stop was pressed since. A
+    piece of path waits until the robot has accepted the piece before it: with a gateway that died in between, it would
+    otherwise cut the corner through a wall. Nothing new goes out while a command that is `WINDOW` older is open: asked
+    again, the device might have forgotten it.
     Taking is one statement; before it stand two short questions, and none where nothing is due.
     """
     now = database.now()

@@ -23,7 +23,7 @@ from execution import database, mailbox
 from execution.commands.claim import NEVER_AGAIN_S, UNANSWERED
 from execution.fault_points import fault_point
 from execution.floor_protocol import ASKED_AFTER_S, FIRST_RETRY_S, CommandEnded, ToFloor, ToRun
-from execution.models import Command
+from execution.models import Command, Run
 from execution.reasons import SENTENCES
 from execution.traffic.messages import CONTROLS, CommandAnswered
 from registry import services as registry
@@ -275,11 +275,29 @@ def end_commands_of_those_out(now: datetime) -> None:
                 _end(row, OUT.format(device=row.device), now)
 
 
-def _end(row: Command, why: str, now: datetime) -> None:
-    row.status, row.why, row.ended_at = Command.Status.FAILED, why, now
+def end_commands_of_runs_over(now: datetime) -> None:
+    """End as cancelled what no device has been told of a run that is over: it is told no more, so none will answer.
+
+    A device was told nothing by a command that never went out, or if it has done its cancel without a word of it.
+    """
+    rows = Command.objects.filter(status__in=UNANSWERED, piece=False).exclude(run=None).exclude(method__in=CONTROLS)
+    runs = set(rows.values_list("run", flat=True))
+    over = set(Run.objects.filter(id__in=runs).exclude(status__in=Run.OPEN).values_list("id", flat=True))
+    called_off = Command.objects.filter(run__in=over, method="cancel", status=Command.Status.DONE)
+    ended = {named for named in called_off.values_list("arguments__command", flat=True) if _uuid(str(named))}
+    unheard = rows.filter(Q(status=Command.Status.PENDING, tries=0) | Q(id__in=ended), run__in=over)
+    for number in list(unheard.order_by("position").values_list("id", flat=True)) if over else ():
+        with transaction.atomic():
+            row = unheard.select_for_update(of=("self",)).select_related("site").filter(id=number).first()
+            if row is not None:
+                _end(row, "", now, "CANCELED")
+
+
+def _end(row: Command, why: str, now: datetime, status: str = "FAILED") -> None:
+    row.status, row.why, row.ended_at = STATUS[status], why, now
     row.save(update_fields=["status", "why", "ended_at"])
     if row.method not in CONTROLS:
-        mailbox.post(row.site.slug, _news(_open(row), "FAILED", why, {}))
+        mailbox.post(row.site.slug, _news(_open(row), status, why, {}))
 
 
 def _uuid(text: str) -> UUID | None:

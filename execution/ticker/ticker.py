@@ -17,7 +17,7 @@ from django.db.models import Q
 from editor import services as editor
 from execution import database, mailbox
 from execution.commands.manual_calls import expire_calls
-from execution.commands.outbox import drop_stale_controls, end_commands_of_those_out
+from execution.commands.outbox import drop_stale_controls, end_commands_of_runs_over, end_commands_of_those_out
 from execution.floor.stops import follow_stops
 from execution.floor_protocol import ToFloor, ToRun
 from execution.frozen_sessions import end_frozen_sessions
@@ -147,6 +147,7 @@ def sweep(now: datetime) -> None:
         follow_stops,
         lambda: drop_stale_controls(now),
         lambda: end_commands_of_those_out(now),
+        lambda: end_commands_of_runs_over(now),
         lambda: expire_calls(now=now),
         sweep_rehearsals,
         _ask_for_tests,
