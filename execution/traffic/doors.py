@@ -31,11 +31,16 @@ SETTLE_S = 1.0
 REST_S = 20.0
 
 
-def learn_passages(turn: Turn, zones: tuple[FloorZone, ...]) -> None:
-    """Take in what a run says of passages, in the place of what its program said before."""
+def learn_passages(turn: Turn, run: str, zones: tuple[FloorZone, ...]) -> None:
+    """Take in what a run says of passages, in the place of what its program said before.
+
+    What another open run tells of stays: its program may be another version of the same, and its robots are under way.
+    """
     programs = {_program(zone) for zone in zones}
-    kept = [zone for zone in turn.passages if _program(zone) not in programs]
-    turn.passages = (*kept, *(zone for zone in zones if zone.rule == "door" and zone.door))
+    told = {zone for other, theirs in turn.zones.items() if other != run for zone in theirs}
+    new = [zone for zone in zones if zone.rule == "door" and zone.door]
+    kept = [zone for zone in turn.passages if zone not in new and (_program(zone) not in programs or zone in told)]
+    turn.passages = (*kept, *new)
 
 
 def _program(zone: FloorZone) -> str:

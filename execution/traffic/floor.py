@@ -208,7 +208,7 @@ def _take_task(turn: Turn, event: m.TaskAsked) -> None:
     turn.names[event.run] = event.run_name
     if event.zones:
         turn.zones[event.run] = event.zones
-        learn_passages(turn, event.zones)
+        learn_passages(turn, event.run, event.zones)
 
 
 def _take_call(turn: Turn, event: m.CallSent) -> None:

@@ -248,12 +248,17 @@ def take_zones(turn: Turn, robot: Robot, index: int) -> None:
 
 
 def keep_zones(turn: Turn) -> None:
-    """Give back what a robot has left, and let who stands in a zone with room have a seat in it."""
-    all_zones = chain(turn.layout.zones, *turn.zones.values())
-    known = {seat: zone for zone in all_zones if zone.rule == "one_at_a_time" for seat in _seats(zone)}
+    """Give back what a robot has left, and let who stands in a zone with room have a seat in it.
+
+    Runs of two versions of a program may tell of a zone at two places: it is left by who is at neither.
+    """
+    known: dict[str, list[FloorZone]] = {}
+    for zone in dict.fromkeys(chain(turn.layout.zones, *turn.zones.values())):
+        for seat in _seats(zone) if zone.rule == "one_at_a_time" else ():
+            known.setdefault(seat, []).append(zone)
     for seat, holder in list(turn.locks.items()):
         robot = turn.robots.get(holder)
-        if seat not in known or robot is None or not _stays_in(turn, robot, known[seat]):
+        if robot is None or not any(_stays_in(turn, robot, zone) for zone in known.get(seat, ())):
             del turn.locks[seat]
     for robot in turn.robots.values():
         for zone in _zones(turn, robot, "one_at_a_time"):

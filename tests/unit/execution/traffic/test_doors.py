@@ -10,6 +10,7 @@ from tests.unit.execution.traffic.floor_with_door import (
     EAST,
     PASSAGE,
     WEST,
+    ZONES,
     WithDoor,
     call,
     door_device,
@@ -310,3 +311,37 @@ def test_a_broken_door_is_not_tried_for_ever_for_a_robot_that_only_goes_home():
     go(floor, WEST, run="next")
     floor.run_until(over(floor, "next"))
     assert floor.over["next", 1] == ("", "")
+
+
+SLOW = (m.FloorZone("p/slow", "Slow", "slow", ((1.0, -12.5), (1.5, -12.5), (1.5, -12.0), (1.0, -12.0)), 0.3),)
+ASIDE = (m.FloorZone("p/z", "Door", "door", ((9.0, -2.0), (10.0, -2.0), (10.0, -1.0), (9.0, -1.0)), door="door02"),)
+
+
+@pytest.mark.parametrize("newer", [SLOW, ASIDE])
+def test_the_door_of_a_run_under_way_opens_although_a_newer_version_has_it_no_more_or_elsewhere(newer):
+    floor = WithDoor({"robot01": WEST, "robot02": (3.0, -11.0)})
+    go(floor, EAST)
+    floor.run_until(lambda: floor.at["robot01"][0] > 5.0)
+    go(floor, (3.5, -11.0), run="q", robot="robot02", zones=newer)
+    floor.run_until(over(floor))
+    assert floor.over["r", 1] == ("", "")
+
+
+def test_the_door_of_a_newer_version_opens_although_a_run_of_the_older_one_goes_on():
+    floor = WithDoor({"robot01": WEST, "robot02": (3.0, -11.0)})
+    go(floor, (3.5, -11.0), run="older", robot="robot02", zones=ASIDE)
+    go(floor, EAST)
+    floor.run_until(lambda: floor.at["robot01"][0] > 5.0)
+    go(floor, (3.0, -11.0), run="older", task=2, robot="robot02", zones=ASIDE)
+    floor.run_until(over(floor))
+    assert floor.over["r", 1] == ("", "")
+
+
+def test_what_a_program_said_of_a_door_before_is_replaced_once_no_open_run_says_it():
+    floor = WithDoor({"robot01": WEST, "robot02": (3.0, -11.0)})
+    go(floor, (3.5, -11.0), run="older", robot="robot02", zones=ASIDE)
+    go(floor, EAST)
+    assert set(floor.state.passages) == {*ASIDE, *ZONES}
+    floor.tell(m.RunOver("older"))
+    go(floor, EAST, task=2)
+    assert floor.state.passages == ZONES

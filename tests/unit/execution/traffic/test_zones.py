@@ -179,6 +179,19 @@ def test_neighbouring_zones_do_not_make_robots_wait_for_each_other_for_ever():
     assert meet(zones, poses, {"robot01": (18.0, -8.0), "robot02": (3.0, -7.6)}) == 1
 
 
+def test_a_zone_has_one_robot_while_a_run_of_another_version_has_it_drawn_elsewhere():
+    elsewhere = zone("one_at_a_time", ((1.0, -12.5), (1.5, -12.5), (1.5, -12.0), (1.0, -12.0)))
+    floor = PretendFloor(demo_floor.layout(), {"robot01": (3.0, -8.0), "robot02": (13.0, -7.6)})
+    go(floor, "a", (18.0, -8.0), (zone("one_at_a_time"),), wants="robot01")
+    go(floor, "b", (3.0, -7.6), (zone("one_at_a_time"),), wants="robot02")
+    go(floor, "c", "dock3", (elsewhere,), wants="robot03")
+    inside = []
+    drive(
+        floor, lambda: len(floor.over) == 3, lambda: inside.append(sum(lies_in(at, ROOM) for at in floor.at.values()))
+    )
+    assert (set(floor.over.values()), max(inside)) == ({("", "")}, 1)
+
+
 def test_a_robot_that_stands_idle_in_the_zone_leaves_it_for_another():
     poses = {"robot01": (7.0, -7.5), "robot02": (18.0, -7.5)}
     floor = PretendFloor(demo_floor.layout(), poses)
