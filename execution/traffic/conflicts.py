@@ -83,7 +83,7 @@ def _end_yielding(turn: Turn, robot: Robot) -> None:
     if not robot.yields_to or robot.evading:
         return
     other = turn.robots.get(robot.yields_to)
-    gone = other is None or len(other.path) == other.passed + 1 or bool(other.yields_to)
+    gone = other is None or len(other.path) <= other.passed + 1 or bool(other.yields_to)
     waits = other is not None and not gone and not may_enter(turn, other, min(other.released + 1, len(other.path) - 1))
     if gone or waits or turn.now - robot.yields_since > YIELD_AT_MOST_S or not _is_near_path(turn, robot, other):
         turn.put(robot, yields_to="", blocked_since=None)
@@ -247,8 +247,8 @@ def _evade(turn: Turn, robot: Robot, other: Robot) -> bool:
 def _go_home(turn: Turn, robot: Robot, avoid: set[int]) -> bool:
     """Send a free robot to the nearest free dock."""
     layout = turn.layout
-    taken = {cell for r in turn.robots.values() if r.id != robot.id for cell in (*r.held, *layout.needed(r.path[-1]))
-             if r.path}  # fmt: skip
+    others = [r for r in turn.robots.values() if r.id != robot.id and r.path]
+    taken = {cell for r in others for cell in (*r.held, *layout.needed(r.path[-1]))}
     node: Node = turn.node(robot)
     found = []
     for dock in layout.docks:

@@ -210,15 +210,29 @@ def drop_pieces(turn: Turn, robot: Robot, *, cancel: bool) -> None:
 
 
 def leave_gone(turn: Turn) -> None:
-    """Reckon no more with what was taken out or moved: a robot that stands or drives there stays where it is."""
+    """Reckon no more with what was taken out or moved: a robot that stands or drives there stays where it is.
+
+    A robot that was taken out itself is nowhere once what it was told has ended: who takes it out says that its place
+    is free.
+    """
     for machine in [machine for machine in turn.stations if machine not in turn.layout.stations]:
         del turn.stations[machine]
     for robot in list(turn.robots.values()):
         if robot.id not in turn.layout.devices:
             turn.offline.setdefault(robot.id, turn.now)
             robot = turn.put(robot, online=False)
+            if not any(sent.device == robot.id for sent in turn.sent.values()):
+                _forget_place(turn, robot)
+                continue
         if not all(turn.layout.has_node(node) for node in robot.path) or _is_misled(turn, robot):
             _stand_here(turn, robot)
+
+
+def _forget_place(turn: Turn, robot: Robot) -> None:
+    """Give back all that a robot keeps from others: its cells, its machines, its seats in zones."""
+    turn.put(robot, path=(), passed=0, released=0, held=(), evading="", yields_to="", blocked_since=None)
+    turn.stations = {machine: holder for machine, holder in turn.stations.items() if holder != robot.id}
+    turn.locks = {seat: holder for seat, holder in turn.locks.items() if holder != robot.id}
 
 
 def _is_misled(turn: Turn, robot: Robot) -> bool:
