@@ -284,7 +284,8 @@ def end_commands_of_runs_over(now: datetime) -> None:
     runs = set(rows.values_list("run", flat=True))
     over = set(Run.objects.filter(id__in=runs).exclude(status__in=Run.OPEN).values_list("id", flat=True))
     called_off = Command.objects.filter(run__in=over, method="cancel", status=Command.Status.DONE)
-    ended = {named for named in called_off.values_list("arguments__command", flat=True) if _uuid(str(named))}
+    names = called_off.values_list("arguments__command", flat=True)
+    ended = [number for named in names if (number := _uuid(str(named))) is not None]
     unheard = rows.filter(Q(status=Command.Status.PENDING, tries=0) | Q(id__in=ended), run__in=over)
     for number in list(unheard.order_by("position").values_list("id", flat=True)) if over else ():
         with transaction.atomic():

@@ -278,6 +278,7 @@ def test_a_robot_without_a_run_has_the_door_opened_on_its_way_home():
 def test_what_a_program_says_anew_takes_the_place_of_what_it_said():
     floor = WithDoor({"robot01": WEST})
     go(floor, EAST)
+    floor.tell(m.RunOver("r"))
     go(floor, EAST, run="next", robot="robot02", zones=(m.FloorZone("p/y", "Wet", "slow", PASSAGE),))
     assert floor.state.passages == ()
 
