@@ -281,7 +281,7 @@ def end_commands_of_runs_over(now: datetime) -> None:
     A device was told nothing by a command that never went out, or if it has done its cancel without a word of it.
     """
     rows = Command.objects.filter(status__in=UNANSWERED, piece=False).exclude(run=None).exclude(method__in=CONTROLS)
-    runs = set(rows.values_list("run", flat=True))
+    runs = {run for run in rows.values_list("run", flat=True) if run is not None}
     over = set(Run.objects.filter(id__in=runs).exclude(status__in=Run.OPEN).values_list("id", flat=True))
     called_off = Command.objects.filter(run__in=over, method="cancel", status=Command.Status.DONE)
     names = called_off.values_list("arguments__command", flat=True)
