@@ -79,7 +79,7 @@ from registry.devices.reads import (
     list_positions,
 )
 from registry.devices.rows import BadDevice, NoSuchDevice
-from registry.devices.samples import flush_samples, note_samples, prune_samples
+from registry.devices.samples import flush_samples, prune_samples
 from registry.devices.stand_ins import StandInView, list_simulated_ids, list_stand_ins, switch_stand_in
 from registry.devices.states import StateMessage, ingest_state, ingest_states
 from registry.devices.views import DeviceView, device_to_json
@@ -331,7 +331,6 @@ __all__ = [
     "note_act",
     "note_alert",
     "note_mended",
-    "note_samples",
     "note_wall_seen",
     "open_zone",
     "prune_alerts",

@@ -220,7 +220,6 @@ class Ingester:
         return None
 
     def _pass_on(self, view: registry.DeviceView, at: datetime) -> None:
-        registry.note_samples(view=view, at=at)
         if view.only_done_flag:
             outbox.record_done_flag(device=view.id, done=view.done, at=at)
         self._wake_watching(view.site, monotonic())

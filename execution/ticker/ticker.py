@@ -99,7 +99,6 @@ def _do_each(*steps: Callable[[], object]) -> None:
 
 def _mark_stale(now: datetime) -> None:
     for view in registry.mark_stale(now=now):
-        registry.note_samples(view=view, at=now)
         mailbox.hint_now(view.site)
 
 

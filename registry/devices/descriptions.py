@@ -18,6 +18,7 @@ from django.db import connection, transaction
 from registry.devices.history import MOST_CHARACTERS, describe_change, history_text, line_of_history, write_lines
 from registry.devices.legacy_topics import claim_topics
 from registry.devices.rows import BadDevice, NoSuchDevice, announce_all, check_id
+from registry.devices.samples import note_samples
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, DeviceEvent, Site, TopicClaim
 from vipo_device.descriptions.changes import list_changes
@@ -145,16 +146,23 @@ def _make_rows(found: Sequence[_News], sites: Mapping[str, Site]) -> dict[str, F
 def _take(some: list[_News], sites: Mapping[str, Site]) -> dict[str, Fate]:
     if not some:
         return {}
+    said = {news.said.device_id: news for news in some}
     try:
         with transaction.atomic():
-            return _take_locked({news.said.device_id: news for news in some}, sites)
+            fates, changes = _take_locked(said, sites)
     except VipoError as error:
         if len(some) == 1:
             return {some[0].said.device_id: error}
+    else:
+        for before, after in changes:
+            note_samples(before=before, after=after, at=said[after.id].said.at)
+        return fates
     return {device: fate for news in some for device, fate in _take([news], sites).items()}
 
 
-def _take_locked(some: Mapping[str, _News], sites: Mapping[str, Site]) -> dict[str, Fate]:
+def _take_locked(
+    some: Mapping[str, _News], sites: Mapping[str, Site]
+) -> tuple[dict[str, Fate], list[tuple[DeviceView | None, DeviceView]]]:
     fates: dict[str, Fate] = {name: NoSuchDevice(f"The device {name} was taken away.") for name in some}
     rows = _lock_rows(list(some))
     changes: list[tuple[DeviceView | None, DeviceView]] = []
@@ -168,7 +176,7 @@ def _take_locked(some: Mapping[str, _News], sites: Mapping[str, Site]) -> dict[s
     _write(rows)
     write_lines(lines)
     announce_all(changes)
-    return fates
+    return fates, changes
 
 
 def _lock_rows(ids: list[str]) -> list[Device]:

@@ -18,6 +18,7 @@ from django.utils import timezone
 from registry.alerts.buffer import note_alert
 from registry.devices.history import MOST_CHARACTERS, history_text, write_event
 from registry.devices.rows import BadDevice, announce, check_id
+from registry.devices.samples import note_samples, write_samples
 from registry.devices.stand_ins import keep_aside, real_of
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, DeviceEvent, Site
@@ -76,6 +77,7 @@ def ingest_presence(*, device_id: str, payload: bytes, at: datetime, stand_in: b
             return None
         after = view_of(device, device.site.slug)
         announce(before, after)
+    note_samples(before=before, after=after, at=at)
     return after
 
 
@@ -109,16 +111,17 @@ def _tell_coming_and_going(device: Device, online: bool, at: datetime) -> None:
 def mark_stale(*, now: datetime) -> tuple[DeviceView, ...]:
     """Mark as offline the devices that have said nothing for 45 s, and return them."""
     silent = Device.objects.filter(online=True, last_seen_at__lt=now - STALE_AFTER)
-    found = []
+    changes = []
     for device in silent.select_related("site"):
         if silent.filter(pk=device.pk).update(online=False):
             write_event(device, now, "offline", history_text("silent", seconds=STALE_AFTER.seconds))
             before = view_of(device, device.site.slug) if device.description else None
             device.online = False
             if before:
-                found.append(view_of(device, device.site.slug))
-                announce(before, found[-1])
-    return tuple(found)
+                changes.append((before, view_of(device, device.site.slug)))
+                announce(*changes[-1])
+    write_samples(changes=changes, at=now)  # before whatever a gateway hears of them next
+    return tuple(after for _, after in changes)
 
 
 def count_dropped(*, dropped: Mapping[str, int]) -> None:

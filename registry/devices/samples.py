@@ -1,7 +1,9 @@
 """What properties were: on change, one row for each property and minute, kept for seven days.
 
-Readings are gathered in the process and written some seconds later, many at once: taking in a state costs no
-statement more. What a process that is killed had gathered, at most `FLUSH_S`, is lost.
+What has changed is told by the device's row before and after, since any process may hear a device next. Readings are
+gathered in the process and written some seconds later, many at once: taking in a state costs no statement more. What a
+process that is killed had gathered, at most `FLUSH_S`, is lost; so each process takes in all of a device that it hears
+for the first time.
 """
 
 from __future__ import annotations
@@ -11,10 +13,11 @@ import logging
 import threading
 import time
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
-from django.db import DatabaseError, connection, transaction
+from django.db import DatabaseError, InterfaceError, connection, transaction
 from django.db.models import F
 
 from registry.devices.views import DeviceView
@@ -45,12 +48,13 @@ class Bucket:
     at_ms: int
 
     def take(self, value: Scalar, at_ms: int) -> None:
-        """Take in a later value."""
+        """Take in another value; what it is in the end is the one that was said last."""
         number = _number(value)
         if number is not None:
             self.minimum = number if self.minimum is None else min(self.minimum, number)
             self.maximum = number if self.maximum is None else max(self.maximum, number)
-        self.value, self.at_ms = value, at_ms
+        if at_ms >= self.at_ms:
+            self.value, self.at_ms = value, at_ms
 
 
 class SampleBuffer:
@@ -59,23 +63,25 @@ class SampleBuffer:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._waiting: dict[Key, Bucket] = {}
-        self._last: dict[tuple[str, str], Scalar] = {}
+        self._heard: set[str] = set()
         self._since: float | None = None
         self._minute = 0
         self._begun: Counter[str] = Counter()
 
-    def note(self, view: DeviceView, at: datetime, now: float) -> None:
-        """Take in how a device is; `now` in seconds of a clock that only goes forward."""
-        at_ms = int(at.timestamp() * 1000)
+    def note(self, before: DeviceView | None, after: DeviceView, at: datetime, now: float) -> None:
+        """Take in what is new of a device; `now` in seconds of a clock that only goes forward."""
+        at_ms = _time_after(before, at)
         with self._lock:
-            for name, value in _readings(view).items():
-                if self._last.get((view.id, name), _NOTHING) != value:
-                    self._last[view.id, name] = value
-                    self._add(view.id, name, value, at_ms)
+            is_known = before is not None and before.lifecycle == "approved" and after.id in self._heard
+            known = _readings(before) if before is not None and is_known else {}
+            for name, value in _readings(after).items():
+                if known.get(name, _NOTHING) != value:
+                    self._add(after.id, name, value, at_ms)
             if self._waiting and self._since is None:
                 self._since = now
-            if len(self._last) > MOST_REMEMBERED:
-                self._last.clear()
+            if len(self._heard) >= MOST_REMEMBERED:
+                self._heard.clear()
+            self._heard.add(after.id)
 
     def _add(self, device: str, name: str, value: Scalar, at_ms: int) -> None:
         key = (device, name, at_ms // 60_000)
@@ -125,6 +131,13 @@ def _readings(view: DeviceView) -> dict[str, Scalar]:
     return {**described, DONE: view.done, ONLINE: view.online}
 
 
+def _time_after(before: DeviceView | None, at: datetime) -> int:
+    """Return a time in milliseconds since 1970, later than what another process took in a moment ago."""
+    at_ms = int(at.timestamp() * 1000)
+    seen = before.last_seen_at if before is not None else None
+    return at_ms if seen is None or seen <= at else int(seen.timestamp() * 1000) + 1
+
+
 def _number(value: Scalar) -> float | None:
     return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
 
@@ -137,10 +150,21 @@ def _greatest(a: float | None, b: float | None) -> float | None:
     return max((v for v in (a, b) if v is not None), default=None)
 
 
-def note_samples(*, view: DeviceView, at: datetime) -> None:
-    """Take in how an approved device is now; it is written by `flush_samples`."""
-    if view.lifecycle == "approved":
-        _buffer.note(view, at, time.monotonic())
+def note_samples(*, before: DeviceView | None, after: DeviceView, at: datetime) -> None:
+    """Take in what is new of a device that takes part, or did so until now; it is written by `flush_samples`.
+
+    `before` and `after` are as its row had it, under its lock; None before it had described itself.
+    """
+    if after.lifecycle == "approved" or (before is not None and before.lifecycle == "approved"):
+        _buffer.note(before, after, at, time.monotonic())
+
+
+def write_samples(*, changes: Sequence[tuple[DeviceView, DeviceView]], at: datetime) -> None:
+    """Take in what is new of devices, (before, after), and write it at once: where nobody would write it later."""
+    for before, after in changes:
+        note_samples(before=before, after=after, at=at)
+    if changes:
+        flush_samples(all_of_it=True)
 
 
 def flush_samples(*, all_of_it: bool = False) -> int:
@@ -150,7 +174,7 @@ def flush_samples(*, all_of_it: bool = False) -> int:
         return 0
     try:
         _write(taken)
-    except DatabaseError as error:
+    except (DatabaseError, InterfaceError) as error:
         log.warning("Samples wait: the database does not take them now: %s", error)
         _buffer.give_back(taken, time.monotonic())
         return 0
@@ -161,7 +185,9 @@ _ROW = "(%s, %s, %s, %s, %s, %s, %s, %s)"
 _INSERT = "INSERT INTO registry_sample (device_id, property, minute, value, minimum, maximum, at_ms, seq) VALUES "
 _JOIN = """
 ON CONFLICT (device_id, property, minute) DO UPDATE SET
-    value = excluded.value, at_ms = excluded.at_ms, seq = excluded.seq,
+    value = CASE WHEN excluded.at_ms >= registry_sample.at_ms THEN excluded.value ELSE registry_sample.value END,
+    at_ms = CASE WHEN excluded.at_ms >= registry_sample.at_ms THEN excluded.at_ms ELSE registry_sample.at_ms END,
+    seq = excluded.seq,
     minimum = CASE WHEN registry_sample.minimum < excluded.minimum THEN registry_sample.minimum
               ELSE COALESCE(excluded.minimum, registry_sample.minimum) END,
     maximum = CASE WHEN registry_sample.maximum > excluded.maximum THEN registry_sample.maximum

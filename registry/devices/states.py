@@ -16,6 +16,7 @@ from django.db import connection, transaction
 
 from registry.devices.history import history_text, write_event
 from registry.devices.rows import BadDevice
+from registry.devices.samples import note_samples
 from registry.devices.stand_ins import keep_aside, real_of
 from registry.devices.views import DeviceView, changed_state, view_of
 from registry.live.fanout import publish_all
@@ -64,7 +65,10 @@ def ingest_states(*, states: Sequence[StateMessage]) -> tuple[Outcome, ...]:
             outcomes[message.device_id] = error
     if said:
         with transaction.atomic():
-            outcomes |= _take_all(said)
+            taken, changes = _take_all(said)
+        outcomes |= taken
+        for before, after in changes:
+            note_samples(before=before, after=after, at=said[after.id][1].at)
     return tuple(outcomes.get(message.device_id) for message in states)
 
 
@@ -81,10 +85,12 @@ def ingest_state(
     return outcome
 
 
-def _take_all(said: Mapping[str, tuple[DeviceState, StateMessage]]) -> dict[str, Outcome]:
+def _take_all(
+    said: Mapping[str, tuple[DeviceState, StateMessage]],
+) -> tuple[dict[str, Outcome], list[tuple[DeviceView, DeviceView]]]:
     views: dict[str, Outcome] = {}
     written: list[Device] = []
-    news: list[tuple[str, dict[str, Any]]] = []
+    changes: list[tuple[DeviceView, DeviceView]] = []
     for device in _lock_rows(list(said)):
         state, message = said[device.pk]
         if message.stand_in and not device.stand_in:  # it was on its way when the device was switched back
@@ -101,10 +107,11 @@ def _take_all(said: Mapping[str, tuple[DeviceState, StateMessage]]) -> dict[str,
         if before is not None:
             views[device.pk] = after = view_of(device, device.site.slug)
             _tell_trouble(device, before, after, message.at)
-            news.append((after.site, changed_state(before, after)))
+            changes.append((before, after))
     _write(written)
+    news: list[tuple[str, dict[str, Any]]] = [(after.site, changed_state(before, after)) for before, after in changes]
     transaction.on_commit(lambda: publish_all([(slug, {"type": "device", "device": told}) for slug, told in news]))
-    return views
+    return views, changes
 
 
 def _why_unheard(device: Device, said: DeviceState, message: StateMessage) -> VipoError | None:

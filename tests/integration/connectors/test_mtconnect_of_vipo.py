@@ -49,8 +49,7 @@ def told(hall: str, live_server: Any, monkeypatch: pytest.MonkeyPatch) -> Iterat
 
 def tell(seq: int, *, done: bool = True, **readings: Any) -> None:
     now = timezone.now()
-    view = say(at=now, seq=seq, done=done, props=readings)
-    services.note_samples(view=view, at=now)
+    say(at=now, seq=seq, done=done, props=readings)
     services.flush_samples(all_of_it=True)
 
 

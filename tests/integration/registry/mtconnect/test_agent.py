@@ -42,8 +42,7 @@ class Plant:
     def say(self, seconds: float, *, done: bool = True, **readings: Any) -> None:
         self.seq += 1
         at = START + timedelta(seconds=seconds)
-        view = say("7.a", at=at, seq=self.seq, done=done, props=readings)
-        services.note_samples(view=view, at=at)
+        say("7.a", at=at, seq=self.seq, done=done, props=readings)
         services.flush_samples(all_of_it=True)
 
     def ask(self, call: str, status: int = 200, **query: Any) -> Any:
@@ -57,11 +56,11 @@ class Plant:
 
 @pytest.fixture
 def plant(hall: str, monkeypatch: pytest.MonkeyPatch) -> Plant:
-    monkeypatch.setattr(samples, "_buffer", SampleBuffer())
     topic = "vipo/v1/dev/7.a/down/mix"
     describe(replace(MIXER, id="7.a", properties=PROPERTIES, methods=(replace(MIXER.methods[0], topic=topic),)))
     Device.objects.update(lifecycle="approved")
     come("7.a", at=START)
+    monkeypatch.setattr(samples, "_buffer", SampleBuffer())
     return Plant()
 
 

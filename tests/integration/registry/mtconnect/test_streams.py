@@ -41,8 +41,7 @@ def mixer(hall: str, monkeypatch: pytest.MonkeyPatch) -> str:
 
 def tell(progress: float) -> None:
     now = timezone.now()
-    view = say(at=now, seq=int(progress), props={"jobStatus": progress})
-    services.note_samples(view=view, at=now)
+    say(at=now, seq=int(progress), props={"jobStatus": progress})
     services.flush_samples(all_of_it=True)
 
 
