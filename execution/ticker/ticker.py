@@ -39,7 +39,6 @@ PRUNE_S = 600.0
 KEPT_FOR = timedelta(days=2)
 LOST_AFTER = timedelta(seconds=1)
 PRUNES = (
-    registry.prune_samples,
     registry.prune_alerts,
     registry.prune_tokens,
     registry.prune_invitations,
@@ -60,6 +59,7 @@ class Ticker:
         self._lease = JobLease("ticker", holder)
         self._done_at: dict[str, datetime] = {}
         self._leads_since: datetime | None = None
+        self._has_old_samples = False
 
     def tick(self, now: datetime) -> bool:
         """Do what is due; False when another process has the lease."""
@@ -78,9 +78,14 @@ class Ticker:
             _do_each(lambda: _mark_stale(now), registry.flush_samples, alerts)
         if self._is_due("mail", MAIL_S, now):
             _do_each(lambda: _ask_for_mail(now))
+        if self._is_due("samples", SWEEP_S if self._has_old_samples else PRUNE_S, now):
+            _do_each(lambda: self._prune_samples(now))
         if self._is_due("prune", PRUNE_S, now):
             _prune(now)
         return True
+
+    def _prune_samples(self, now: datetime) -> None:
+        self._has_old_samples = not registry.prune_samples(now=now)
 
     def _is_due(self, what: str, every_s: float, now: datetime) -> bool:
         last = self._done_at.get(what)

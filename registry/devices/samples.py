@@ -1,4 +1,4 @@
-"""What properties were: on change, one row for each property and minute, kept for seven days.
+"""What properties were: on change, one row for each property and minute, kept for seven days and the last one before.
 
 What has changed is told by the device's row before and after, since any process may hear a device next. Readings are
 gathered in the process and written some seconds later, many at once: taking in a state costs no statement more. What a
@@ -18,9 +18,9 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 
 from django.db import DatabaseError, InterfaceError, connection, transaction
-from django.db.models import F
+from django.db.models import Count, F, OuterRef, Subquery
 
-from registry.devices.views import DeviceView
+from registry.devices.views import DeviceView, effective_description
 from registry.models import Device, Sample, SampleClock
 from vipo_device.protocol.description import MOST_PROPERTIES, Scalar
 
@@ -32,7 +32,11 @@ MOST_REMEMBERED = 200_000
 MOST_A_MINUTE = 1_000
 """So many rows a device may begin within a minute: one that is named anew all the time fills no disk."""
 ROWS_AT_ONCE = 100
-PRUNE_AT_ONCE = 50_000
+PRUNE_AT_ONCE = 10_000
+PRUNE_S = 0.5
+"""So long it may go on forgetting at once: timers wait meanwhile."""
+MOST_KEPT_BEFORE = MOST_PROPERTIES + 2
+"""So many properties of a device may have a row from before the seven days, whether it still describes them or not."""
 DONE, ONLINE = "$done", "$online"
 """What a device says of itself besides its properties; no property's name begins so."""
 Key = tuple[str, str, int]
@@ -218,8 +222,35 @@ def _take_numbers(count: int) -> int:
     return SampleClock.objects.get(pk=1).next - count
 
 
-def prune_samples(*, now: datetime) -> int:
-    """Forget what is older than seven days, a part at a time; return how many rows that were."""
-    before = int((now - KEPT_FOR).timestamp() // 60)
-    old = Sample.objects.filter(minute__lt=before).order_by("minute").values("pk")[:PRUNE_AT_ONCE]
-    return Sample.objects.filter(pk__in=old).delete()[0]
+def first_minute(now: datetime) -> int:
+    """Return the first minute since 1970 of which everything is kept."""
+    return int((now - KEPT_FOR).timestamp() // 60)
+
+
+def prune_samples(*, now: datetime) -> bool:
+    """Forget what is older than seven days, save what held when they began; False if not all could be forgotten yet."""
+    first, began = first_minute(now), time.monotonic()
+    while _forget_followed(first) == PRUNE_AT_ONCE:
+        if time.monotonic() - began >= PRUNE_S:
+            return False
+    _forget_undescribed(first)
+    return True
+
+
+def _forget_followed(first: int) -> int:
+    """Forget old rows, so many at once, that another old one of the same property follows; return how many."""
+    old = Sample.objects.filter(minute__lt=first)
+    same = old.filter(device=OuterRef("device"), property=OuterRef("property")).order_by("-minute")
+    followed = old.filter(minute__lt=Subquery(same.values("minute")[:1])).order_by("minute")
+    return Sample.objects.filter(pk__in=followed.values("pk")[:PRUNE_AT_ONCE]).delete()[0]
+
+
+def _forget_undescribed(first: int) -> None:
+    """Forget the old rows of what a device no longer describes, where it has many: its names may be others each day."""
+    old = Sample.objects.filter(minute__lt=first).order_by()
+    many = old.values("device").annotate(rows=Count("pk")).filter(rows__gt=MOST_KEPT_BEFORE)
+    for device in Device.objects.filter(pk__in=many.values("device")).defer("source"):
+        told = (
+            {p.name for p in effective_description(device).properties[:MOST_PROPERTIES]} if device.description else ()
+        )
+        old.filter(device=device).exclude(property__in=[*told, DONE, ONLINE]).delete()

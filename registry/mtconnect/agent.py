@@ -13,7 +13,7 @@ from django.db.models import Max, Q, QuerySet
 
 from registry.devices.queries import get_device, list_devices
 from registry.devices.rows import NoSuchDevice
-from registry.devices.samples import DONE, ONLINE
+from registry.devices.samples import DONE, ONLINE, first_minute
 from registry.devices.views import DeviceView
 from registry.models import Sample, SampleClock
 from registry.mtconnect import documents
@@ -70,7 +70,7 @@ def current_of_site(agent: Agent, question: Question) -> Answer:
     """Return how the devices are, or how they were when an observation was made. Raises AgentError."""
     devices = _devices(agent.site, question.device)
     wanted = _wanted(devices, question.path)
-    first, following = _bounds(agent.site)
+    first, following = _bounds(agent)
     sequences = Sequences(first, max(first, following - 1), following)
     situation = Situation(devices, _numbers(agent, devices if question.device else ()))
     if question.at is not None:
@@ -82,7 +82,7 @@ def sample_of_site(agent: Agent, question: Question) -> Answer:
     """Return what the devices have said from a sequence number on, so many observations at most. Raises AgentError."""
     devices = _devices(agent.site, question.device)
     wanted = _wanted(devices, question.path)
-    first, following = _bounds(agent.site)
+    first, following = _bounds(agent)
     start = whole("from", question.begin, first, first, following)
     most = whole("count", question.count, DEFAULT_COUNT, 1, MOST_COUNT)
     rows = _rows(agent.site).filter(_chosen(devices, wanted), seq__gte=start, seq__lt=following)
@@ -167,11 +167,11 @@ def _numbers(agent: Agent, devices: Sequence[DeviceView]) -> Iterable[Observatio
         yield Observation(device, name, "", at_ms, seq)
 
 
-def _bounds(site: str) -> tuple[int, int]:
-    """Return the first number that is kept, and the one that the next observation will have."""
+def _bounds(agent: Agent) -> tuple[int, int]:
+    """Return the number from which on everything is kept, and the one that the next observation will have."""
     following = next_number()
-    oldest = _rows(site).order_by("seq").values_list("seq", flat=True).first()
-    return oldest or following, following
+    kept = _rows(agent.site).filter(minute__gte=first_minute(agent.at)).order_by("minute", "seq")
+    return kept.values_list("seq", flat=True).first() or following, following
 
 
 def _observations(rows: Iterable[Sample]) -> Iterable[Observation]:

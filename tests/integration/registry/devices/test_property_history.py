@@ -102,12 +102,52 @@ def test_a_new_process_goes_on_where_the_last_one_ended(oven: str, monkeypatch: 
 
 def test_what_is_older_than_seven_days_is_forgotten(oven: str) -> None:
     talk = Talk()
-    for days in (-8, -7.5, -6.9, 0):
+    for days in (-8, -7.6, -7.5, -6.9, 0):
         talk(days * 24 * 60, heat=days)
     services.flush_samples(all_of_it=True)
-    Sample.objects.exclude(property="heat").delete()
-    assert services.prune_samples(now=NOW) == 2
-    assert [p[3] for p in points(history(minutes=-20_000))] == [-6.9, 0]
+    assert services.prune_samples(now=NOW)
+    assert list(Sample.objects.filter(property="heat").order_by("minute").values_list("value", flat=True)) == [
+        "-7.5",
+        "-6.9",
+        "0",
+    ]
+
+
+def test_a_value_that_has_not_changed_for_eight_days_is_still_there(oven: str) -> None:
+    talk = Talk()
+    for days in (-8, -6, -3, -0.1):
+        talk(days * 24 * 60, heat=60)
+        services.flush_samples(all_of_it=True)
+        services.prune_samples(now=NOW + timedelta(days=days))
+    services.prune_samples(now=NOW)
+    assert [p[3] for p in points(history())] == [60]
+    assert set(Sample.objects.values_list("property", flat=True)) == {"heat", "$done", "$online"}
+
+
+def test_of_a_device_that_was_named_anew_each_day_only_what_it_describes_outlives_the_seven_days(oven: str) -> None:
+    first = int((NOW - timedelta(days=7)).timestamp() // 60)
+    names = [*(f"p{number}" for number in range(100)), "heat", "$online"]
+    Sample.objects.bulk_create(
+        Sample(device_id="mixer1", property=name, minute=first - 1, value="1", at_ms=(first - 1) * 60_000, seq=seq)
+        for seq, name in enumerate(names)
+    )
+    assert services.prune_samples(now=NOW)
+    assert set(Sample.objects.values_list("property", flat=True)) == {"heat", "$online"}
+
+
+def test_it_is_forgotten_as_fast_as_it_is_written_a_part_at_a_time(oven: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = int((NOW - timedelta(days=7)).timestamp() // 60)
+    Sample.objects.bulk_create(
+        Sample(device_id="mixer1", property="heat", minute=first - n, value="1", at_ms=(first - n) * 60_000, seq=n)
+        for n in range(1, 52)
+    )
+    monkeypatch.setattr(samples, "PRUNE_AT_ONCE", 10)
+    monkeypatch.setattr(samples, "PRUNE_S", 0.0)
+    assert not services.prune_samples(now=NOW)
+    assert Sample.objects.count() == 41
+    monkeypatch.setattr(samples, "PRUNE_S", 60.0)
+    assert services.prune_samples(now=NOW)
+    assert Sample.objects.count() == 1
 
 
 def test_numbers_rise_with_each_writing_so_that_readers_can_go_on_from_one(oven: str) -> None:

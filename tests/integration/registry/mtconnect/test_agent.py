@@ -245,3 +245,15 @@ def test_every_member_may_read_and_strangers_learn_nothing(plant: Plant, role: s
     answers = [client.get(f"{ADDRESS}/{call}") for call in calls]
     assert [answer.status_code for answer in answers] == [expected] * len(calls)
     assert role != "stranger" or answers[0].json()["code"] == "not_found"
+
+
+def test_what_has_not_changed_for_eight_days_is_how_it_was_then_too(plant: Plant) -> None:
+    Device.objects.update(last_seen_at=None)
+    plant.say(-8 * 86_400, in_DEG_C=60)
+    plant.say(-8 * 86_400 + 60, in_M=1)
+    services.prune_samples(now=START)
+    plant.say(0, in_M=2)
+    first = header(plant.ask("current"))["first"]
+    assert first == header(plant.ask("current"))["last"]  # from there on everything is kept
+    then = plant.ask("current", at=first)
+    assert (texts(then, "Availability"), texts(then, "Temperature")) == (["AVAILABLE"], ["60.0"])
