@@ -102,6 +102,14 @@ def end_alert(*, device_id: str, code: AlertCode, at: datetime) -> None:
     end_alerts(ids=list(found.values_list("pk", flat=True)), at=at)
 
 
+def end_alerts_before(*, times: Mapping[tuple[str, AlertCode], datetime], at: datetime) -> None:
+    """Say that the causes of alerts, by device and code, had ended by a time; one that was raised later stays open."""
+    rows = DeviceAlert.objects.filter(code__in={code for _, code in times}, over_at=None)
+    found = rows.values_list("pk", "device_id", "code", "last_at")
+    ended = [(pk, times.get((device, cast(AlertCode, code))), last_at) for pk, device, code, last_at in found]
+    end_alerts(ids=[pk for pk, by, last_at in ended if by is not None and last_at <= by], at=at)
+
+
 def end_alerts(*, ids: Collection[int], at: datetime) -> None:
     """Say that the causes of these alerts have ended."""
     if not ids:

@@ -7,6 +7,7 @@ from datetime import UTC, datetime, timedelta
 from uuid import uuid4
 
 import pytest
+from django.db import OperationalError, connection
 
 from execution import services
 from execution.gateway.gateway import note_complaint
@@ -130,6 +131,48 @@ def test_refused_messages_are_told_until_better_ones_come(hall, tick):
     assert sorted(code for code, _, _ in alerts()) == ["messages_dropped", "messages_refused"]
     tick(48 * 3600)  # long after, also where this module was read an hour before its tests ran
     assert [code for code, _, _ in alerts()] == ["offline"]
+
+
+def _hear(payload):
+    """Let a gateway that has just been started hear a description, and write its alerts."""
+    entry = Entry(Message("vipo/v1/dev/mixer/up/desc", payload, False, lambda: None), "mixer", "desc")
+    Ingester(note_complaint, Counter()).ingest_all([entry], threading.Event())
+    registry.flush_alerts()
+
+
+def test_a_refused_description_is_over_once_any_gateway_hears_the_former_one_again(hall, monkeypatch):
+    good = write_description(MIXER).encode()
+    _hear(b"not a description")
+    assert [code for code, _, _ in alerts()] == ["description_refused"]
+    monkeypatch.setattr(buffer, "_buffer", NoteBuffer())  # another gateway, or this one started anew
+    _hear(good)
+    assert alerts() == []
+    _hear(b"not a description")
+    assert [code for code, _, _ in alerts()] == ["description_refused"]
+
+
+def test_a_good_description_is_not_the_end_of_a_later_refusal(hall, monkeypatch):
+    one, two = NoteBuffer(), NoteBuffer()
+    monkeypatch.setattr(buffer, "_buffer", one)
+    registry.note_mended(devices=["mixer"], code="description_refused")
+    monkeypatch.setattr(buffer, "_buffer", two)
+    _hear(b"not a description")
+    monkeypatch.setattr(buffer, "_buffer", one)
+    registry.flush_alerts()
+    assert [code for code, _, _ in alerts()] == ["description_refused"]
+
+
+def test_that_a_description_was_taken_outlasts_a_database_that_is_away(hall):
+    _hear(b"not a description")
+    registry.note_mended(devices=["mixer"], code="description_refused")
+
+    def away(*_):
+        raise OperationalError("server closed the connection unexpectedly")
+
+    with connection.execute_wrapper(away):
+        registry.flush_alerts()
+    registry.flush_alerts()
+    assert alerts() == []
 
 
 def test_what_failed_again_after_it_was_done_stays_an_alert_though_both_were_seen_at_once(hall, tick):

@@ -190,10 +190,17 @@ def test_notes_wait_for_their_turn_and_are_added_up() -> None:
     assert [raised.count for raised in buffer.take(0.0)[0]] == [1]
     for _ in range(3):
         buffer.add(cause)
-    assert buffer.take(AGAIN_S / 2) == ([], set())
+    assert buffer.take(AGAIN_S / 2) == ([], {})
     assert [raised.count for raised in buffer.take(AGAIN_S)[0]] == [3]
-    buffer.mend(["mixer1", "other"], "messages_dropped")
-    assert buffer.take(AGAIN_S) == ([], {("mixer1", "messages_dropped")})
+    buffer.mend(["mixer1", "other"], "messages_dropped", NOW, AGAIN_S)
+    ended = {("mixer1", "messages_dropped"): NOW, ("other", "messages_dropped"): NOW}
+    assert buffer.take(AGAIN_S) == ([], ended)
+    assert buffer.take(AGAIN_S) == ([], ended)  # until it is settled
+    buffer.settle(AGAIN_S)
+    assert buffer.take(AGAIN_S + 1) == ([], {})
+    assert buffer.take(2 * AGAIN_S) == ([], ended)
+    buffer.settle(4 * AGAIN_S)
+    assert buffer.take(8 * AGAIN_S) == ([], {})
 
 
 def test_a_thousand_alerts_at_once_are_few_statements_and_one_message(
