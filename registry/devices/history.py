@@ -1,6 +1,7 @@
 """A device's history: which lines there are, an English sentence each, and what a screen says them from elsewhere.
 
-The newest 200 lines of each device are kept.
+The newest 200 lines of each device are kept, and besides them 100 each of the kinds that a device can have written as
+often as it likes: that it came and left, what it reported, how it describes itself. So it pushes nothing else out.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from dataclasses import asdict, dataclass, field, replace
 from datetime import datetime, timedelta
 from typing import Any
 
-from django.db.models import Count
+from django.db.models import Count, Q
 
 from registry.audit.record import note_act
 from registry.models import Device, DeviceEvent, User
@@ -19,8 +20,15 @@ from vipo_device.descriptions.changes import Change
 from vipo_device.protocol.description import Description
 
 MOST_EVENTS = 200
+MOST_OF_NOISY = 100
+COMINGS = frozenset({"online", "offline", "flapping"})
+REPORTS = frozenset({"problem", "error", "recovered", "map"})
 DAMPED = frozenset({"described", "mended", "topic_asked", "topic_withdrawn"})
 """What a device can have written as often as it likes, by saying something else of itself each time."""
+_IS_DAMPED = Q(kind__in=DAMPED, by=None)
+_NOISY = (Q(kind__in=COMINGS), Q(kind__in=REPORTS), _IS_DAMPED)
+_LIMITS = ((~(_NOISY[0] | _NOISY[1] | _NOISY[2]), MOST_EVENTS), *((noisy, MOST_OF_NOISY) for noisy in _NOISY))
+"""Which lines of a history are counted together, and how many of them are kept."""
 MOST_DAMPED, DAMPED_FOR = 10, timedelta(minutes=10)
 EVENTS_TO_SPARE = 20
 """How many more a history may have before it is cut, where many devices speak at once."""
@@ -136,22 +144,23 @@ def write_event(
     *,
     changes: tuple[Change, ...] = (),
 ) -> None:
-    """Add a line of history and forget the ones beyond the newest 200; leave out what a device says all the time."""
+    """Add a line of history and forget the oldest that are too many; leave out what a device says all the time."""
     for line in _damped([line_of_history(device, at, kind, words, by, changes=changes)]):
         line.save(force_insert=True)
-        _forget_old(device.pk)
+        _forget_old(device.pk, *_limit_of(line))
 
 
 def write_lines(lines: Sequence[DeviceEvent]) -> None:
-    """Add lines of history of many devices, oldest first; who has 20 more than 200 keeps the newest 200."""
+    """Add lines of history of many devices, oldest first; old ones are forgotten where there are 20 too many."""
     lines = _damped(lines)
     if not lines:
         return
     DeviceEvent.objects.bulk_create(lines)
     kept = DeviceEvent.objects.filter(device__in={line.device_id for line in lines}).order_by()
-    counts = kept.values_list("device").annotate(lines=Count("pk")).filter(lines__gt=MOST_EVENTS + EVENTS_TO_SPARE)
-    for device_id, _ in counts:
-        _forget_old(device_id)
+    for those, most in {_limit_of(line) for line in lines}:
+        counts = kept.filter(those).values_list("device").annotate(lines=Count("pk"))
+        for device_id, _ in counts.filter(lines__gt=most + EVENTS_TO_SPARE):
+            _forget_old(device_id, those, most)
 
 
 def _damped(lines: Sequence[DeviceEvent]) -> list[DeviceEvent]:
@@ -179,9 +188,16 @@ def _is_damped(line: DeviceEvent) -> bool:
     return line.kind in DAMPED and line.by_id is None
 
 
-def _forget_old(device_id: str) -> None:
-    own = DeviceEvent.objects.filter(device=device_id)
-    for key in list(own.order_by("-pk").values_list("pk", flat=True)[MOST_EVENTS:][:1]):
+def _limit_of(line: DeviceEvent) -> tuple[Q, int]:
+    """Return which lines are counted together with one, and how many of them are kept."""
+    if _is_damped(line):
+        return _LIMITS[3]
+    return _LIMITS[1 if line.kind in COMINGS else 2 if line.kind in REPORTS else 0]
+
+
+def _forget_old(device_id: str, those: Q, most: int) -> None:
+    own = DeviceEvent.objects.filter(those, device=device_id)
+    for key in list(own.order_by("-pk").values_list("pk", flat=True)[most:][:1]):
         own.filter(pk__lte=key).delete()
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from datetime import timedelta
 from typing import Any
 
 from django.db import connection
@@ -102,12 +103,13 @@ def test_what_changed_besides_is_not_overwritten(hall: str) -> None:
     assert dict(view.readings) == {"jobStatus": 3}
 
 
-def test_a_history_that_grows_by_many_is_cut_to_the_newest_200(hall: str) -> None:
+def test_a_history_that_grows_by_many_is_cut_to_the_newest_100_of_their_kind(hall: str) -> None:
     services.ingest_descriptions(descriptions=many(2, "First"))
     device = Device.objects.get(pk="mixer01")
-    DeviceEvent.objects.bulk_create(DeviceEvent(device=device, at=NOW, kind="problem", text="x") for _ in range(219))
-    services.ingest_descriptions(descriptions=many(2, "Second"))
-    assert DeviceEvent.objects.filter(device="mixer01").count() == 200
+    DeviceEvent.objects.bulk_create(DeviceEvent(device=device, at=NOW, kind="described", text="x") for _ in range(119))
+    later = [replace(each, at=NOW + timedelta(hours=1)) for each in many(2, "Second")]
+    services.ingest_descriptions(descriptions=later)
+    assert DeviceEvent.objects.filter(device="mixer01").count() == 100
     newest = services.list_device_events(site="hall", device_id="mixer01", limit=1)[0]
     assert newest.text == "Calls itself Second 1"
     assert DeviceEvent.objects.filter(device="mixer00").count() == 2

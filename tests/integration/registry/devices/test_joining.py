@@ -343,9 +343,9 @@ def test_problems_are_noted_at_most_every_ten_seconds(hall: str) -> None:
     assert note(device_id="nobody", text="x", at=NOW) is False
 
 
-def test_a_history_keeps_the_newest_200(hall: str) -> None:
+def test_a_history_keeps_the_newest_100_of_what_was_refused(hall: str) -> None:
     describe()
     for second in range(205):
         services.record_problem(device_id="mixer1", text=str(second), at=NOW + timedelta(seconds=20 * second))
-    assert DeviceEvent.objects.count() == 200
+    assert [DeviceEvent.objects.filter(kind=kind).count() for kind in ("problem", "described")] == [100, 1]
     assert services.list_device_events(site="hall", device_id="mixer1", limit=1)[0].text == "204"
