@@ -119,7 +119,8 @@ def list_account_sites() -> dict[str, str]:
 def find_ended(*, logins: Mapping[str, Login]) -> frozenset[str]:
     """Return which of these connections, by user name, must end.
 
-    Those of devices that were taken out, or have another key or other topics, and of keys and tokens that have ended.
+    Those of devices that were taken out or forgotten, or have another key or other topics, and of keys and tokens that
+    have ended.
     """
     facts = ("pk", "lifecycle", "credential_hash", "ends_before", "granted")
     rows = Device.objects.filter(pk__in=list(logins)).values_list(*facts)
@@ -128,6 +129,8 @@ def find_ended(*, logins: Mapping[str, Login]) -> frozenset[str]:
     ended = {name for name, login in logins.items() if name.startswith(ENROLMENT) and keys.get(name) != login.key}
     if readers := {name for name in logins if is_reader(name)}:
         ended |= readers - {reader.name for reader in list_readers(now=timezone.now())}
+    known = {name for name, *_ in rows}
+    ended |= {name for name in logins if not (name in known or name in readers or name.startswith(ENROLMENT))}
     for name, lifecycle, key, ends_before, granted in rows:
         login = logins[name]
         is_out = lifecycle == Device.Lifecycle.RETIRED or (lifecycle == Device.Lifecycle.APPROVED and not key)

@@ -21,6 +21,7 @@ from registry.devices.rows import BadDevice, NoSuchDevice, announce_all, check_i
 from registry.devices.samples import note_samples
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, DeviceEvent, Site, TopicClaim
+from registry.sites.namespaces import OF_IDS, find_foreign
 from vipo_device.descriptions.changes import list_changes
 from vipo_device.descriptions.forms import CONTENT_TYPES
 from vipo_device.descriptions.reader import Reading, hash_of_json, read, source_hash
@@ -125,7 +126,10 @@ def _site_for(slug: str, sites: Mapping[str, Site]) -> Site:
 
 
 def _make_rows(found: Sequence[_News], sites: Mapping[str, Site]) -> dict[str, Fate]:
-    """Make rows for devices that nobody knows, before any is locked; return who has no site to stand at."""
+    """Make rows for devices that nobody knows, before any is locked; return who has no site to stand at.
+
+    Nobody comes to a site that may not give this id: whoever may connect as another site's device stays there.
+    """
     ids = [news.said.device_id for news in found]
     there = set(Device.objects.filter(pk__in=ids).values_list("pk", flat=True)) if ids else set()
     rows, homeless = list[Device](), dict[str, Fate]()
@@ -138,8 +142,10 @@ def _make_rows(found: Sequence[_News], sites: Mapping[str, Site]) -> dict[str, F
             homeless[news.said.device_id] = error
         else:
             rows.append(Device(pk=news.said.device_id, site=site, first_seen_at=news.said.at))
-    if rows:
-        Device.objects.bulk_create(rows, ignore_conflicts=True)
+    sites_of = {row.pk: row.site for row in rows}
+    for name in find_foreign(sites_of, OF_IDS):
+        homeless[name] = BadDevice(*refusal_facts("id_of_site", device=name, site=sites_of[name].slug))
+    Device.objects.bulk_create([row for row in rows if row.pk not in homeless], ignore_conflicts=True)
     return homeless
 
 

@@ -22,6 +22,7 @@ from registry.devices.samples import note_samples, write_samples
 from registry.devices.stand_ins import keep_aside, real_of
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, DeviceEvent, Site
+from registry.sites.namespaces import OF_IDS, may_name
 from vipo_device.protocol.faults import refusal_facts
 from vipo_device.protocol.messages import Presence, parse_presence
 
@@ -32,11 +33,14 @@ PROBLEM_EVERY = timedelta(seconds=10)
 
 
 def _lock_or_make(device_id: str, at: datetime) -> Device:
-    """Return the device's locked row; a new one stands at the default site until it describes itself."""
+    """Return the device's locked row; a new one stands at the default site, if that may give its id."""
     check_id(device_id)
     device = Device.objects.select_for_update(of=("self",)).select_related("site").filter(pk=device_id).first()
     if device is None:
-        Device.objects.get_or_create(pk=device_id, defaults={"site": _default_site(), "first_seen_at": at})
+        site = _default_site()
+        if not may_name(site, device_id, OF_IDS):
+            raise BadDevice(*refusal_facts("id_of_site", device=device_id, site=site.slug))
+        Device.objects.get_or_create(pk=device_id, defaults={"site": site, "first_seen_at": at})
         device = Device.objects.select_for_update(of=("self",)).select_related("site").get(pk=device_id)
     return device
 

@@ -6,6 +6,8 @@ So whether a new name is taken never tells what there is at another site, and no
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from django.conf import settings
 
 from registry.models import Device, Site, TopicClaim
@@ -16,10 +18,21 @@ OF_IDS, OF_TOPICS = ".", "/"
 
 def may_name(site: Site, name: str, separator: str) -> bool:
     """Tell whether a site may give a new id or topic of this name, whatever names there are."""
-    first, found, _ = name.partition(separator)
-    if found and first == site.slug:
-        return True
-    return _gives_plain_names(site) and not (found and Site.objects.filter(slug=first).exists())
+    return not find_foreign({name: site}, separator)
+
+
+def find_foreign(names: Mapping[str, Site], separator: str) -> frozenset[str]:
+    """Return those of new ids or topics that the site of each may not give; at most three questions for all."""
+    parts = {name: name.partition(separator) for name in names}
+    asked = {name: site for name, site in names.items() if parts[name][:2] != (site.slug, separator)}
+    if not asked:
+        return frozenset()
+    slugs = {first for first, found, _ in map(parts.__getitem__, asked) if found}
+    taken = set(Site.objects.filter(slug__in=slugs).values_list("slug", flat=True)) if slugs else set()
+    plain = _find_plain_site()
+    return frozenset(
+        name for name, site in asked.items() if site.pk != plain or (parts[name][1] and parts[name][0] in taken)
+    )
 
 
 def may_have_device(site: Site, device_id: str, home: int | None) -> bool:
@@ -27,9 +40,10 @@ def may_have_device(site: Site, device_id: str, home: int | None) -> bool:
     return may_name(site, device_id, OF_IDS) if home is None else home == site.pk
 
 
-def _gives_plain_names(site: Site) -> bool:
+def _find_plain_site() -> int | None:
+    """Return the row of the site that gives plain names."""
     default = Site.objects.filter(slug=settings.VIPO_DEFAULT_SITE).values_list("pk", flat=True).first()
-    return site.pk == (default or Site.objects.order_by("pk").values_list("pk", flat=True).first())
+    return default or Site.objects.order_by("pk").values_list("pk", flat=True).first()
 
 
 def is_in_use(slug: str) -> bool:

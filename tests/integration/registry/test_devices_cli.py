@@ -114,6 +114,7 @@ def test_a_legacy_topic_is_confirmed_by_its_name(hall: str, capsys: pytest.Captu
 def test_alerts_of_all_sites_are_listed_with_the_latest_first(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
     services.create_site(name="Shed", slug="shed")
     describe()
+    services.expect_device(site="shed", device_id="robot1", credential="r" * 32)
     describe(replace(ROBOT, site="shed"))
     for minutes, device in ((0, "robot1"), (5, "mixer1"), (10, "robot1")):
         code = "error" if minutes == 0 else "warning"

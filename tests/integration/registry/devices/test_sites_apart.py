@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from datetime import timedelta
 from typing import Any
 
 import pytest
 
 from registry import services
+from registry.devices.authentication import Login
+from registry.devices.rows import BadDevice
 from registry.models import Device, DeviceAlert, DeviceEvent, TopicClaim
 from registry.services import NotOfSite, TopicTaken
 from tests.kit.sign_in import add_person, find_person, post_json, signed_in
-from tests.kit.sites import MIXER, NOW, approve, describe
+from tests.kit.sites import MIXER, NOW, approve, come, describe, describe_later
+from vipo_device.protocol.credentials import secret_hash
 from vipo_device.protocol.description import MethodSpec
 from vipo_device.protocol.messages import BadMessage
 
@@ -152,3 +156,34 @@ def test_what_another_site_has_from_before_is_refused_like_what_nobody_has(yard:
         "hall.old.",
     )
     assert comes_in("old", HALL) == ""
+
+
+def test_a_newcomer_that_was_forgotten_has_to_come_in_anew_and_comes_up_at_no_other_site(
+    yard: str, settings: Any
+) -> None:
+    settings.VIPO_DEFAULT_SITE = "hall"
+    assert comes_in("yard.ghost", YARD) == "yard"
+    logins = {"yard.ghost": Login("", NOW), "join:yard": Login(secret_hash(YARD), NOW)}
+    assert services.find_ended(logins=logins) == frozenset()
+    Device.objects.update(first_seen_at=NOW - timedelta(hours=25))
+    assert enrol("yard.mixer1")
+    assert services.find_ended(logins=logins) == {"yard.ghost"}
+    for site in ("hall", "nowhere"):
+        with pytest.raises(BadDevice, match=r"yard\.ghost cannot be a new id here"):
+            describe(replace(MIXER, id="yard.ghost", site=site, methods=()))
+    with pytest.raises(BadDevice, match=r"yard\.ghost cannot be a new id here"):
+        come("yard.ghost")
+    assert list(Device.objects.values_list("pk", "site__slug")) == [("yard.mixer1", "yard")]
+
+
+def test_of_many_that_come_at_once_only_those_with_ids_of_their_site_are_taken(yard: str) -> None:
+    said = [
+        describe_later(replace(MIXER, id=name, site=site, methods=()))
+        for name, site in (("plain", "hall"), ("yard.1", "yard"), ("yard.2", "hall"), ("odd", "yard"))
+    ]
+    fates = services.ingest_descriptions(descriptions=said)
+    assert [isinstance(fate, BadDevice) for fate in fates] == [False, False, True, True]
+    assert list(Device.objects.order_by("pk").values_list("pk", "site__slug")) == [
+        ("plain", "hall"),
+        ("yard.1", "yard"),
+    ]

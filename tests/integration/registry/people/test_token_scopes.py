@@ -25,6 +25,7 @@ def ids(hall: str) -> dict[str, str]:
     """What stands in the addresses: one of each thing at the hall; its admin is one of the shed, too."""
     services.create_site(name="Shed", slug="shed")
     services.set_member(site="shed", email="admin@vipo.example", role="admin")
+    services.expect_device(site="shed", device_id="there", credential="t" * 32)
     describe(replace(ROBOT, id="there", site="shed"))
     Device.objects.filter(pk="there").update(lifecycle="approved")
     return {**make_one_of_each("hall"), "token_id": "0" * 16}

@@ -64,6 +64,7 @@ def two_sites(hall: str) -> None:
     for name, site in (("b", "shed"), ("a", "hall"), ("c", "hall")):
         topic = f"vipo/v1/dev/{name}/down/mix"
         methods = (replace(MIXER.methods[0], topic=topic),)
+        services.expect_device(site=site, device_id=name, credential=name * 32, approved=False)
         describe(replace(MIXER, id=name, site=site, name=f"Mixer {'zba'['abc'.index(name)]}", methods=methods))
     Device.objects.exclude(pk="c").update(lifecycle="approved")
 
