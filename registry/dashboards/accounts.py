@@ -15,7 +15,15 @@ from django.db import transaction
 from registry.broker.accounts import Account, accounts, close_readers
 from registry.errors import RegistryError
 from registry.models import User
-from registry.people.tokens import NoSuchToken, TokenView, drop_token, keep_token, list_readers, stands_locked
+from registry.people.tokens import (
+    NoSuchToken,
+    TokenView,
+    drop_token,
+    end_without_access,
+    keep_token,
+    list_readers,
+    stands_locked,
+)
 from vipo_device.protocol.topics import is_reader, reader_name, things_prefix
 
 
@@ -56,14 +64,19 @@ def revoke_token(*, token_id: str, site: str = "", user: User | None = None) -> 
 def end_readers(*, known: frozenset[str] | None, now: datetime) -> frozenset[str]:
     """Take away from the broker the accounts of tokens that have ended; return those that it has now.
 
-    `known` are those that it had when this was last asked, None to ask the broker for them. Raises BrokerAway.
+    A token whose person may come in no more ends with its account, for good, and the site's record says so: if they may
+    again, nobody could give the broker its account back. `known` are those that it had when this was last asked, None
+    to ask the broker for them. Raises BrokerAway.
     """
     if known is None:
         known = frozenset(filter(is_reader, accounts().names() or ()))
     standing = frozenset(reader.name for reader in list_readers(now=now))
-    for name in known - standing:
+    ended = {
+        name for name in known - standing if end_without_access(token_id=name.removeprefix(reader_name("")), now=now)
+    }
+    for name in ended:
         accounts().remove(name)
-    return standing
+    return standing | (known - ended)
 
 
 def broker_of(*, view: TokenView) -> dict[str, str] | None:

@@ -207,6 +207,23 @@ def drop_all_tokens(*, user: User, now: datetime) -> tuple[TokenView, ...]:
     return views
 
 
+def end_without_access(*, token_id: str, now: datetime) -> bool:
+    """End a token whose person may not come in at the moment, though it has not expired; False if they may.
+
+    Its account at the broker goes, and cannot come back if they may again: nobody knows its secret but its owner.
+    """
+    with transaction.atomic():
+        row = ApiToken.objects.select_for_update().filter(public_id=token_id, expires_at__gt=now).first()
+        if row is None:
+            return True
+        if _standing(now).filter(pk=row.pk).exists():
+            return False
+        (view,) = map(_view, _rows().filter(pk=row.pk))
+        row.delete()
+        _tell_end(view)
+    return True
+
+
 def _tell_end(view: TokenView, *, by: str = "") -> None:
     """Write into the record that a token has ended, and have what was opened by it end, too."""
     note_act(site_id=view.site_id, code="token_revoked", facts={"name": view.name, "person": view.person}, by=by)

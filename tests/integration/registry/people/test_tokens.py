@@ -16,10 +16,11 @@ from asgiref.sync import sync_to_async
 from django.conf import LazySettings, settings
 from django.db import connection
 from django.test import Client
+from django.utils import timezone
 
 from registry import services
 from registry.broker import accounts
-from registry.models import ApiToken
+from registry.models import ApiToken, AuditLine, Membership
 from registry.people import tokens
 from registry.people.sessions import Session
 from registry.thing_directory.event_stream import Listener, stream_events
@@ -136,6 +137,34 @@ def test_a_token_for_the_broker_says_how_to_come_in_and_reads_over_http_as_other
     kept = services.list_broker_hashes()[asked["username"]]
     salt = base64.b64decode(kept.split("$")[3])
     assert kept == broker_hash(made["token"], salt)
+
+
+def test_a_token_for_the_broker_ends_for_good_with_its_account_and_the_record_says_so(hall: str) -> None:
+    made, other, expired = make("viewer", "broker"), make("operator", "broker"), make("author", "broker")
+    names = {told["id"]: told["broker"]["username"] for told in (made, other, expired)}
+    known = services.end_readers(known=None, now=timezone.now())
+    assert known == set(names.values())
+    ApiToken.objects.filter(public_id=expired["id"]).update(expires_at=timezone.now() - timedelta(seconds=1))
+    of_viewer = Membership.objects.filter(user=find_person("viewer"))
+    of_viewer.update(ends_at=timezone.now() - timedelta(seconds=1))
+    known = services.end_readers(known=known, now=timezone.now())
+    assert known == {names[other["id"]]}
+    of_viewer.update(ends_at=None)
+    assert services.end_readers(known=known, now=timezone.now()) == known
+    assert bearer(made["token"]).get("/api/sites/hall").status_code == 401
+    assert {view.id for view in services.list_tokens(site="hall")} == {other["id"], expired["id"]}
+    line = AuditLine.objects.get(code="token_revoked")
+    assert (line.actor_kind, line.facts) == ("vipo", {"name": "Line display", "person": "Viewer Person"})
+
+
+def test_whose_access_was_given_again_before_anybody_looked_keeps_token_and_account(hall: str) -> None:
+    made = make("viewer", "broker")
+    known = services.end_readers(known=None, now=timezone.now())
+    of_viewer = Membership.objects.filter(user=find_person("viewer"))
+    of_viewer.update(ends_at=timezone.now() - timedelta(seconds=1))
+    of_viewer.update(ends_at=None)
+    assert services.end_readers(known=known, now=timezone.now()) == known == {made["broker"]["username"]}
+    assert bearer(made["token"]).get("/api/sites/hall").status_code == 200
 
 
 def test_a_broker_that_does_not_take_the_account_leaves_no_token(
