@@ -8,9 +8,9 @@ from __future__ import annotations
 import zlib
 from dataclasses import dataclass
 from datetime import datetime
-from itertools import takewhile
 
-from django.db import models, transaction
+from django.db import transaction
+from django.utils import timezone
 
 from registry.audit.record import note_act
 from registry.devices.queries import list_devices
@@ -27,6 +27,8 @@ from registry.sites.sites import find_site, list_places
 from vipo_device.protocol.description import Description
 
 MOST_VERSIONS = 50
+FRAME = ("width", "height", "resolution_m", "origin_x_m", "origin_y_m")
+"""Where a map lies: two that differ in one of these say other things of a point."""
 MOST_KEPT_CELLS = 20_000_000
 """Of each kind of work; a floor takes about twenty bytes for each cell, the others one."""
 _grids: KeptWork[Grid] = KeptWork(MOST_KEPT_CELLS)
@@ -152,19 +154,19 @@ def save_map(
     """
     with transaction.atomic():
         row = Site.objects.select_for_update().get(slug=site)
-        latest = SiteMap.objects.filter(site=row).aggregate(models.Max("version"))["version__max"] or 0
+        last = SiteMap.objects.filter(site=row).defer("packed_cells").order_by("-version").first()
+        latest = last.version if last else 0
         if replaces is not None and replaces != latest:
             raise MapChanged(
                 "Somebody has changed the site's map meanwhile. Look at it again, then decide.", {"why": "site"}
             )
+        frame = {field: getattr(grid, field) for field in FRAME}
+        lies_so_still = last is not None and all(getattr(last, field) == value for field, value in frame.items())
         saved = SiteMap.objects.create(
             site=row,
             version=latest + 1,
-            width=grid.width,
-            height=grid.height,
-            resolution_m=grid.resolution_m,
-            origin_x_m=grid.origin_x_m,
-            origin_y_m=grid.origin_y_m,
+            **frame,
+            frame_since=last.frame_since if last is not None and lies_so_still else timezone.now(),
             packed_cells=zlib.compress(grid.cells, 6),
             source=source,
             by=by,
@@ -201,11 +203,10 @@ def get_map_frame(*, site: str) -> tuple[datetime, float, float]:
     Points from before were said of a map of another size, resolution or origin.
     """
     versions = SiteMap.objects.filter(site__slug=site).order_by("-version")
-    kept = list(versions.values_list("width", "height", "resolution_m", "origin_x_m", "origin_y_m", "created_at"))
-    if not kept:
+    latest = versions.values_list("frame_since", "width", "height", "resolution_m").first()
+    if latest is None:
         raise _no_map(site)
-    width, height, resolution_m, *_ = kept[0]
-    *_, (*_, since) = takewhile(lambda version: version[:5] == kept[0][:5], kept)
+    since, width, height, resolution_m = latest
     return since, width * resolution_m, height * resolution_m
 
 

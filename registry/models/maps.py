@@ -5,13 +5,17 @@ from __future__ import annotations
 import zlib
 
 from django.db import models
+from django.utils import timezone
 
 from registry.models.people import User
 from registry.models.sites import Site
 
 
 class SiteMap(models.Model):
-    """One version of a site's occupancy grid; the highest version is the one that holds."""
+    """One version of a site's occupancy grid; the highest version is the one that holds.
+
+    `frame_since` is when the first of the versions before it was made that lie as it does, without another between.
+    """
 
     site = models.ForeignKey(Site, on_delete=models.CASCADE, related_name="maps")
     version = models.PositiveIntegerField()
@@ -24,6 +28,7 @@ class SiteMap(models.Model):
     source = models.CharField(max_length=200, blank=True)
     by = models.ForeignKey(User, null=True, on_delete=models.SET_NULL, related_name="+")
     created_at = models.DateTimeField(auto_now_add=True)
+    frame_since = models.DateTimeField(default=timezone.now)
 
     class Meta:
         """Versions count up from 1 at each site."""

@@ -39,7 +39,7 @@ run = Run.objects.get(id=os.environ["RUN"])
 told = {"run": run, "t_s": 0, "kind": "wait", "step": "a", "robot": "robot01"}
 args = {"zone_key": "site/" + os.environ["ZONE"], "zone": "Narrows"}
 begun_at, seq = run.ended_at - timedelta(seconds=200), run.events.count() + 1000
-SiteMap.objects.update(created_at=begun_at - timedelta(days=1))  # it lay so before
+SiteMap.objects.update(frame_since=begun_at - timedelta(days=1))  # it lay so before
 RunEvent.objects.create(seq=seq, at=begun_at, code="zone_taken", text="waits", args=args, **told)
 RunEvent.objects.create(seq=seq + 1, at=run.ended_at, code="wait_over", text="goes on", **told)
 """

@@ -35,8 +35,11 @@ def _at_noon(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def save_map(grid: Grid, *, days_ago: float) -> None:
+    before = SiteMap.objects.order_by("-version").first()
     version = registry.save_map(site="hall", grid=grid).version
-    SiteMap.objects.filter(version=version).update(created_at=NOON - timedelta(days=days_ago))
+    saved = SiteMap.objects.filter(version=version)
+    if before is None or saved.get().frame_since != before.frame_since:
+        saved.update(frame_since=NOON - timedelta(days=days_ago))
 
 
 @pytest.fixture
