@@ -118,6 +118,12 @@ async function receivePart<T>(path: string): Promise<ListPart<T>> {
   return { items: await receive<T[]>(response), next: nextOf(response), headers: response.headers };
 }
 
+/** What is there as bytes, and its ETag; empty where none came. */
+async function receiveTagged(path: string): Promise<{ tag: string; bytes: Uint8Array<ArrayBuffer> }> {
+  const response = await send("GET", path);
+  return { tag: response.headers.get("ETag") ?? "", bytes: new Uint8Array(await response.arrayBuffer()) };
+}
+
 /** Put something in the place of what is there, if nobody changes that meanwhile. */
 async function replace(path: string, body: unknown): Promise<void> {
   const known = await send("GET", path);
@@ -139,5 +145,6 @@ export const api = {
   upload: async <T>(path: string, form: FormData, headers: Readonly<Record<string, string>> = {}) =>
     receive<T>(await send("POST", path, form, headers)),
   text: async (path: string) => (await send("GET", path)).text(),
-  bytes: async (path: string) => new Uint8Array(await (await send("GET", path)).arrayBuffer()),
+  tagged: receiveTagged,
+  bytes: async (path: string) => (await receiveTagged(path)).bytes,
 };
