@@ -1,13 +1,10 @@
-/** Run a version as it was, after a question. */
-import { Button, Modal } from "@mantine/core";
-import { useMutation } from "@tanstack/react-query";
+/** A version is run as it was, asked about like any other run. */
+import { Loader, Modal } from "@mantine/core";
 import { useTranslation } from "react-i18next";
-import { useNavigate } from "react-router-dom";
-import { useOnce } from "@/api/once";
-import type { Program, RunSummary, Site, Version } from "@/api/types";
-import { ReviewBeforeRun, useRunReview } from "@/shell/review/ReviewBeforeRun";
-import { problemText } from "@/shell/LoadProblem";
-import styles from "../pages.module.css";
+import { useComparison, useDevices, useSiteMap, useVersion } from "@/api/queries";
+import type { Program, Site, Version } from "@/api/types";
+import { LoadProblem } from "@/shell/LoadProblem";
+import { RunDialog } from "@/shell/start/RunForm";
 
 interface RunProps {
   version: Version;
@@ -16,35 +13,30 @@ interface RunProps {
   onClose: () => void;
 }
 
-export function RunVersion({ version, program, site, onClose }: RunProps) {
+const stored = () => Promise.resolve();
+
+export function RunVersion({ version: { number }, program, site, onClose }: RunProps) {
   const { t } = useTranslation();
-  const navigate = useNavigate();
-  const begin = useOnce();
-  const review = useRunReview(program.id, version.number);
-  const run = useMutation({
-    mutationFn: () =>
-      begin<RunSummary>(`/programs/${program.id}/runs`, {
-        version: version.number,
-        ...(review.emergency ? { emergency: review.emergency } : {}),
-      }),
-    onSuccess: (started) => navigate(`/runs/${started.id}`),
-  });
-  const names = { name: program.name, number: version.number };
+  const whole = useVersion(program.id, number, true);
+  const devices = useDevices(site.slug).data ?? [];
+  const places = useSiteMap(site.slug).data?.places ?? [];
+  const side = String(number);
+  const checked = useComparison(program.id, [side, side]).data?.new;
+  if (!whole.data)
+    return (
+      <Modal opened onClose={onClose} title={t("start.run.title")}>
+        {whole.error ? <LoadProblem error={whole.error} again={() => void whole.refetch()} /> : <Loader />}
+      </Modal>
+    );
+  const { document } = whole.data;
   return (
-    <Modal opened onClose={onClose} title={t("history.run_ask", names)} size={440}>
-      <div className={styles.form}>
-        <p>{t("history.run_text")}</p>
-        <ReviewBeforeRun program={program.id} version={version.number} role={site.role} state={review} />
-        {run.isError ? <p role="alert">{problemText(run.error, t("shell.problem.screen"))}</p> : null}
-        <div className={styles.buttons}>
-          <Button variant="default" onClick={onClose}>
-            {t("history.cancel")}
-          </Button>
-          <Button data-autofocus loading={run.isPending} disabled={!review.open} onClick={() => run.mutate()}>
-            {t("history.run_it", names)}
-          </Button>
-        </div>
-      </div>
-    </Modal>
+    <RunDialog
+      opened
+      about={{ program, site, document, compiled: checked?.compiled ?? null, devices, places, version: number, stored }}
+      errors={checked && !checked.problem ? checked.errors : null}
+      warnings={0}
+      facts={[{ tone: "plain", text: t("history.run_text", { number }) }]}
+      onClose={onClose}
+    />
   );
 }

@@ -1,6 +1,7 @@
 /** Run asks once: which robots, which checks; then the run's own screen opens. */
 import { Button, Modal } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
+import type { TFunction } from "i18next";
 import { type ReactNode, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
@@ -17,8 +18,8 @@ import classes from "./start.module.css";
 
 interface RunFormProps {
   about: Startable;
-  /** So many errors and warnings the checks have found. */
-  errors: number;
+  /** So many errors and warnings the checks have found; null errors: nobody knows yet, the server decides. */
+  errors: number | null;
   warnings: number;
   /** The parameters to begin with. */
   given?: Given;
@@ -69,7 +70,7 @@ function RunForm(props: RunFormProps) {
         <Button
           data-autofocus
           loading={run.isPending}
-          disabled={props.errors > 0 || parameters === null || terms === null || !review.open}
+          disabled={(props.errors ?? 0) > 0 || parameters === null || terms === null || !review.open}
           onClick={() => run.mutate()}
         >
           {t(form.notBefore ? "start.run.plan" : "editor.run")}
@@ -124,12 +125,15 @@ function Facts({ about, errors, warnings, facts = [] }: RunFormProps) {
         ...facts,
         ...robots,
         ...(simulated ? [{ tone: "warn", text: t("start.run.standIns", { devices: simulated }) } as const] : []),
-        errors > 0
-          ? { tone: "error", text: t("start.run.errors", { count: errors }) }
-          : { tone: "done", text: t("start.run.checked") },
+        ...(errors === null ? [] : [checkFact(errors, t)]),
         ...(warnings > 0 ? [{ tone: "warn", text: t("start.run.warnings", { count: warnings }) } as const] : []),
         ...(stop.active ? [{ tone: "error", text: t("start.run.stopped", { by: stop.by ?? "?" }) } as const] : []),
       ]}
     />
   );
+}
+
+function checkFact(errors: number, t: TFunction): Fact {
+  if (errors > 0) return { tone: "error", text: t("start.run.errors", { count: errors }) };
+  return { tone: "done", text: t("start.run.checked") };
 }
