@@ -201,6 +201,19 @@ export const useRuns = (slug: Maybe) =>
     keys.runs(slug ?? ""),
     at(slug, (s) => `/sites/${s}/runs`),
   );
+/** So many runs the server gives at once. */
+export const RUNS_AT_ONCE = 50;
+/**
+ * A site's runs as the server has them, the newest first, part after part. Fetched anew, each part begins where the one
+ * before ends, so that however many runs have begun meanwhile none is missing between them.
+ */
+export const useRunParts = (slug: string, wanted: boolean) =>
+  useInfiniteQuery({
+    queryKey: [...keys.runs(slug), "parts"],
+    queryFn: wanted ? ({ pageParam }) => api.part<RunSummary>(pageParam) : skipToken,
+    initialPageParam: `/sites/${slug}/runs?limit=${RUNS_AT_ONCE}`,
+    getNextPageParam: (last: { next?: string | undefined }) => last.next,
+  });
 const RUNS_OF_A_PROGRAM = 200;
 /** The newest runs of one program, each with the version that it used. */
 export const useProgramRuns = (slug: Maybe, program: Maybe) =>

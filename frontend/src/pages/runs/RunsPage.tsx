@@ -1,13 +1,9 @@
-import { useState } from "react";
-import { useMutation } from "@tanstack/react-query";
 import { History } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link, useParams } from "react-router-dom";
 import { Button } from "@mantine/core";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
-import { api } from "@/api/client";
-import { useRuns } from "@/api/queries";
 import type { RunSummary } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { EmptyState } from "@/design/EmptyState";
@@ -19,12 +15,10 @@ import { RunTerms } from "@/run/RunTerms";
 import { isPlanned } from "@/run/terms";
 import styles from "../pages.module.css";
 import { nameOf } from "../people";
-import { isOpen, joinRuns, secondsOfRun, statusOfRun, stepsDone } from "./runStatus";
+import { isOpen, secondsOfRun, statusOfRun, stepsDone } from "./runStatus";
 import { TableSkeleton } from "../TableSkeleton";
+import { useShownRuns } from "./useShownRuns";
 import { useNow } from "@/design/useNow";
-
-/** So many runs the server gives at once. */
-const PART = 50;
 
 function Row({ run, now }: { run: RunSummary; now: number }) {
   const { t } = useTranslation();
@@ -83,22 +77,6 @@ function RunTable({ runs }: { runs: RunSummary[] }) {
   );
 }
 
-/** Older runs than the newest, which the server gives in parts: what is shown in all, and how to have more. */
-function useOlderRuns(slug: string, newest: RunSummary[] | undefined) {
-  const [kept, setKept] = useState<RunSummary[]>([]);
-  const [hasAll, setHasAll] = useState(false);
-  const shown = joinRuns(newest ?? [], kept);
-  const more = useMutation({
-    mutationFn: () => api.get<RunSummary[]>(`/sites/${slug}/runs?limit=${PART}&before=${shown.at(-1)?.number ?? 1}`),
-    onSuccess: (older) => {
-      // What is shown is kept, too: a run that falls out of the newest ones must not leave a gap.
-      setKept(joinRuns(shown, older));
-      setHasAll(older.length < PART);
-    },
-  });
-  return { shown, more, hasMore: !hasAll && shown.length >= PART };
-}
-
 export function RunsPage() {
   const { slug = "" } = useParams();
   return <RunsOfSite key={slug} slug={slug} />;
@@ -106,8 +84,8 @@ export function RunsPage() {
 
 function RunsOfSite({ slug }: { slug: string }) {
   const { t } = useTranslation();
-  const runs = useRuns(slug);
-  const { shown, more, hasMore } = useOlderRuns(slug, runs.data);
+  const { runs, shown, parts } = useShownRuns(slug);
+  const again = () => void (parts.isFetchNextPageError ? parts.fetchNextPage() : parts.refetch());
   const now = useNow(15_000);
   const open = runs.data?.filter((run) => isOpen(run) && !isPlanned(run, now)).length ?? 0;
   return (
@@ -118,9 +96,9 @@ function RunsOfSite({ slug }: { slug: string }) {
       {runs.isPending ? <TableSkeleton /> : null}
       {runs.isLoadingError ? <LoadProblem error={runs.error} again={() => void runs.refetch()} /> : null}
       {runs.data?.length ? <RunTable runs={shown} /> : null}
-      {more.isError ? <LoadProblem error={more.error} again={() => more.mutate()} /> : null}
-      {hasMore && !more.isError ? (
-        <Button variant="default" loading={more.isPending} onClick={() => more.mutate()}>
+      {parts.isError ? <LoadProblem error={parts.error} again={again} /> : null}
+      {parts.hasNextPage && !parts.isError ? (
+        <Button variant="default" loading={parts.isFetchingNextPage} onClick={() => void parts.fetchNextPage()}>
           {t("pages.runs.showOlder")}
         </Button>
       ) : null}
