@@ -23,7 +23,9 @@ class RunsAsked(Asked):
 
     limit: int = Field(50, ge=1, le=200)
     before: int | None = Field(None, ge=1, lt=2**31)
-    state: RunStatus | None = None
+    state: Literal[RunStatus, "open"] | None = Field(
+        None, description="With `open` those that are pending, running or paused."
+    )
     program: UUID | None = None
     since: AwareDatetime | None = Field(None, description="Made at this moment or later.")
     until: AwareDatetime | None = Field(None, description="Made before this moment.")

@@ -25,6 +25,7 @@ from registry import services as registry
 from vipo_device.protocol.messages import EXPLORE
 
 EVENTS_AT_ONCE = 1000
+OPEN = "open"
 STOPPED = "The site is stopped. Reset the stop, then resume the run."
 
 
@@ -221,7 +222,10 @@ def get_run(*, run_id: UUID | str) -> WholeRunView:
 
 @dataclass(frozen=True, slots=True)
 class RunFilter:
-    """Which runs are looked for: with a status, of a program, and made from one moment until another."""
+    """Which runs are looked for: with a status, of a program, and made from one moment until another.
+
+    `state` is a status, or `open` for all that are not over.
+    """
 
     state: str | None = None
     program: UUID | None = None
@@ -231,7 +235,7 @@ class RunFilter:
     def conditions(self) -> dict[str, Any]:
         """Return what the rows of such runs fulfil."""
         named = {
-            "status": self.state,
+            "status__in": None if self.state is None else Run.OPEN if self.state == OPEN else (self.state,),
             "program": self.program,
             "created_at__gte": self.since,
             "created_at__lt": self.until,

@@ -45,6 +45,7 @@ export const keys = {
   program: (id: string) => ["program", id] as const,
   document: (id: string) => ["document", id] as const,
   runs: (slug: string) => ["runs", slug] as const,
+  openRuns: (slug: string) => ["runs", slug, "open"] as const,
   run: (id: string) => ["run", id] as const,
   questions: (slug: string) => ["questions", slug] as const,
   admissions: (slug: string) => ["admissions", slug] as const,
@@ -196,13 +197,14 @@ export const useProgramDocument = (id: Maybe) =>
     keys.document(id ?? ""),
     at(id, (p) => `/programs/${p}/document`),
   );
+/** How many runs `useRuns` gives at most, apart from those that have changed since. */
+export const NEWEST_RUNS = 50;
+/** The newest runs of a site, over or not; an older one may still be under way. */
 export const useRuns = (slug: Maybe) =>
   useGet<RunSummary[]>(
     keys.runs(slug ?? ""),
     at(slug, (s) => `/sites/${s}/runs`),
   );
-/** So many runs the server gives at once. */
-export const RUNS_AT_ONCE = 50;
 /**
  * A site's runs as the server has them, the newest first, part after part. Fetched anew, each part begins where the one
  * before ends, so that however many runs have begun meanwhile none is missing between them.
@@ -211,9 +213,15 @@ export const useRunParts = (slug: string, wanted: boolean) =>
   useInfiniteQuery({
     queryKey: [...keys.runs(slug), "parts"],
     queryFn: wanted ? ({ pageParam }) => api.part<RunSummary>(pageParam) : skipToken,
-    initialPageParam: `/sites/${slug}/runs?limit=${RUNS_AT_ONCE}`,
+    initialPageParam: `/sites/${slug}/runs?limit=${NEWEST_RUNS}`,
     getNextPageParam: (last: { next?: string | undefined }) => last.next,
   });
+/** All runs of a site that are not over, however old they are: those that are planned, too. */
+export const useOpenRuns = (slug: Maybe) =>
+  useAll<RunSummary>(
+    keys.openRuns(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/runs?state=open&limit=200`),
+  );
 const RUNS_OF_A_PROGRAM = 200;
 /** The newest runs of one program, each with the version that it used. */
 export const useProgramRuns = (slug: Maybe, program: Maybe) =>

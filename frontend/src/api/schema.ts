@@ -6316,7 +6316,8 @@ export interface components {
             program?: string | null;
             /** @description Made at this moment or later. */
             since?: string | null;
-            state?: ("pending" | "running" | "paused" | "finished" | "failed" | "cancelled") | null;
+            /** @description With `open` those that are pending, running or paused. */
+            state?: ("pending" | "running" | "paused" | "finished" | "failed" | "cancelled" | "open") | null;
             /** @description Made before this moment. */
             until?: string | null;
         };
@@ -12719,7 +12720,8 @@ export interface operations {
             query?: {
                 limit?: number;
                 before?: number | null;
-                state?: ("pending" | "running" | "paused" | "finished" | "failed" | "cancelled") | null;
+                /** @description With `open` those that are pending, running or paused. */
+                state?: ("pending" | "running" | "paused" | "finished" | "failed" | "cancelled" | "open") | null;
                 program?: string | null;
                 /** @description Made at this moment or later. */
                 since?: string | null;

@@ -24,6 +24,7 @@ import { LiveCaches } from "./caches";
 import {
   applyChanges,
   applyChecked,
+  applyOpenRun,
   applyQuestion,
   applyRehearsal,
   applyRun,
@@ -204,6 +205,7 @@ export class SiteFeed {
 
   #run(run: RunSummary): void {
     this.#caches.write<RunSummary[]>(keys.runs(this.slug), (runs) => applyRun(runs, run));
+    this.#caches.write<RunSummary[]>(keys.openRuns(this.slug), (runs) => applyOpenRun(runs, run));
     this.#caches.write<Run>(keys.run(run.id), (full) => ({ ...full, ...run }));
   }
 

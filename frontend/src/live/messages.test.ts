@@ -3,6 +3,7 @@ import type { Question, Device, RunEvent, RunSummary } from "@/api/types";
 import {
   applyChanges,
   applyChecked,
+  applyOpenRun,
   applyQuestion,
   applyRehearsal,
   applyRun,
@@ -55,6 +56,14 @@ test("a run takes its place by number and is never there twice", () => {
   const runs = [run("b", 2), run("a", 1)];
   expect(applyRun(runs, run("c", 3)).map((each) => each.id)).toEqual(["c", "b", "a"]);
   expect(applyRun(runs, run("a", 1, "finished")).map((each) => each.status)).toEqual(["running", "finished"]);
+});
+
+test("a list of open runs has a run until it is over", () => {
+  const runs = [run("b", 2), run("a", 1)];
+  expect(applyOpenRun(runs, run("c", 3, "pending")).map((each) => each.id)).toEqual(["c", "b", "a"]);
+  expect(applyOpenRun(runs, run("a", 1, "paused")).map((each) => each.status)).toEqual(["running", "paused"]);
+  for (const over of ["finished", "failed", "cancelled"])
+    expect(applyOpenRun(runs, run("a", 1, over)).map((each) => each.id)).toEqual(["b"]);
 });
 
 const event = (seq: number) => ({ seq }) as unknown as RunEvent;

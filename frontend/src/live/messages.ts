@@ -140,6 +140,16 @@ export function applyRun(runs: readonly RunSummary[], run: RunSummary): RunSumma
   return [...rest, run].sort((a, b) => b.number - a.number);
 }
 
+/** Whether a run is not over: it is planned, waits, runs or is paused. */
+export function isOpen({ status }: RunSummary): boolean {
+  return status === "pending" || status === "running" || status === "paused";
+}
+
+/** The same for a list of the runs that are not over: one that is goes. */
+export function applyOpenRun(runs: readonly RunSummary[], run: RunSummary): RunSummary[] {
+  return applyRun(runs, run).filter(isOpen);
+}
+
 /** Add an event to a run's journal unless it is there already; by its number. */
 export function applyRunEvent(events: readonly RunEvent[], event: RunEvent): readonly RunEvent[] {
   if (events.some((each) => each.seq === event.seq)) return events;

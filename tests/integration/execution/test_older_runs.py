@@ -63,6 +63,14 @@ def found_by(program: UUID) -> list[int]:
     return numbers(f"?limit=200&program={program}")
 
 
+def test_runs_that_are_not_over_are_found_at_once_however_old_they_are(runs: None) -> None:
+    Run.objects.filter(number=1).update(status="running")
+    Run.objects.filter(number=3).update(status="paused")
+    Run.objects.filter(number=100).update(status="pending")
+    assert numbers("?state=open") == [120, 119, 100, 3, 1]
+    assert get("?limit=2&state=open")["Link"] == '</api/sites/hall/runs?limit=2&state=open&before=119>; rel="next"'
+
+
 def test_runs_are_found_by_status_program_and_time(runs: None) -> None:
     assert numbers("?state=running") == [120, 119]
     assert found_by(PAINT) == [*range(120, 0, -3)]

@@ -6,7 +6,7 @@ import { Link } from "react-router-dom";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { useCurrentSite } from "@/shell/currentSite";
-import { useMe, usePrograms, useRuns, useSites } from "@/api/queries";
+import { useMe, useOpenRuns, usePrograms, useRuns, useSites } from "@/api/queries";
 import type { Site } from "@/api/types";
 import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
@@ -24,13 +24,14 @@ function SitePart({ site }: { site: Site }) {
   const { t } = useTranslation();
   const programs = usePrograms(site.slug);
   const runs = useRuns(site.slug).data;
+  const open = useOpenRuns(site.slug).data;
   return (
     <>
       <h2 className={styles.heading}>{t("pages.home.programsIn", { site: site.name })}</h2>
       <div className={styles.row}>
         <Panel className={styles.programs}>
           {programs.data?.length ? (
-            <ProgramTable programs={programs.data.slice(0, 6)} runs={runs ?? []} editable={mayEdit(site.role)} />
+            <ProgramTable programs={programs.data.slice(0, 6)} runs={runs} open={open} editable={mayEdit(site.role)} />
           ) : null}
           {programs.data?.length === 0 ? (
             <EmptyState

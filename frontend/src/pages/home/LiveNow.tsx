@@ -1,7 +1,7 @@
 /** What is going on at the site at this moment. */
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
-import { useDevices, useRun, useRuns } from "@/api/queries";
+import { useDevices, useOpenRuns, useRun } from "@/api/queries";
 import type { Device, RunSummary } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
@@ -10,7 +10,7 @@ import { activityWords } from "@/i18n/activity";
 import { formatClock } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
 import { outerProgress, stepLines } from "@/run/stepList";
-import { isOpen, secondsOfRun, statusOfRun } from "../runs/runStatus";
+import { secondsOfRun, statusOfRun, underWay } from "../runs/runStatus";
 import { useNow } from "@/design/useNow";
 import styles from "./home.module.css";
 
@@ -56,8 +56,8 @@ function DeviceLine({ device, slug }: { device: Device; slug: string }) {
 
 export function LiveNow({ slug }: { slug: string }) {
   const { t } = useTranslation();
-  const known = useRuns(slug).data;
-  const runs = (known ?? []).filter(isOpen);
+  const known = useOpenRuns(slug).data;
+  const runs = underWay(known ?? [], useNow());
   const devices = (useDevices(slug).data ?? [])
     .filter((device) => TELLING.includes(device.status))
     .sort((a, b) => TELLING.indexOf(a.status) - TELLING.indexOf(b.status));

@@ -1,22 +1,29 @@
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
+import { NEWEST_RUNS } from "@/api/queries";
 import type { RunSummary } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { formatAgo, formatSpan } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
+import { isPlanned } from "@/run/terms";
 import { isOpen, secondsOfRun, statusOfRun, stepsDone } from "../runs/runStatus";
 import { useNow } from "@/design/useNow";
 import styles from "./home.module.css";
 
 function RunLine({ run, now }: { run: RunSummary; now: number }) {
   const { t } = useTranslation();
+  const planned = isPlanned(run, now);
   const seconds = secondsOfRun(run, now);
   const facts = [
-    t(`pages.runs.status.${run.status}`),
+    t(planned ? "run.terms.planned" : `pages.runs.status.${run.status}`),
     seconds === null ? "" : formatSpan(seconds),
     run.started_at ? t("pages.runs.stepsDone", { count: stepsDone(run) }) : "",
   ];
+  const whenOf = () => {
+    if (isOpen(run)) return planned ? "" : t("pages.home.now");
+    return run.ended_at ? formatAgo(run.ended_at, now) : "";
+  };
   return (
     <li>
       <Link to={`/runs/${run.id}`} className={styles.recent}>
@@ -29,7 +36,7 @@ function RunLine({ run, now }: { run: RunSummary; now: number }) {
               : facts.filter(Boolean).join(", ")}
           </span>
         </span>
-        <small>{isOpen(run) ? t("pages.home.now") : run.ended_at ? formatAgo(run.ended_at, now) : ""}</small>
+        <small>{whenOf()}</small>
       </Link>
     </li>
   );
@@ -44,7 +51,9 @@ export function RecentRuns({ slug, runs }: { slug: string; runs: readonly RunSum
       <div className={styles.recentHead}>
         <h2 id="recent-runs">{t("pages.home.recentRuns")}</h2>
         {shown.length > 0 ? (
-          <Link to={`/sites/${slug}/runs`}>{t("pages.home.seeAll", { count: shown.length })}</Link>
+          <Link to={`/sites/${slug}/runs`}>
+            {shown.length < NEWEST_RUNS ? t("pages.home.seeAll", { count: shown.length }) : t("pages.home.seeAllRuns")}
+          </Link>
         ) : null}
       </div>
       <ul>

@@ -3,12 +3,13 @@ import { Button } from "@mantine/core";
 import { Plus } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
-import { useDevices, useMe, usePrograms, useRuns, useSiteMap } from "@/api/queries";
+import { useDevices, useMe, useOpenRuns, usePrograms, useSiteMap } from "@/api/queries";
 import type { Site } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
+import { useNow } from "@/design/useNow";
 import { StaticMap } from "@/map/StaticMap";
-import { isOpen } from "../runs/runStatus";
+import { underWay } from "../runs/runStatus";
 import styles from "./home.module.css";
 
 function SiteState({ site, running }: { site: Site; running: boolean }) {
@@ -24,7 +25,7 @@ function SiteCard({ site }: { site: Site }) {
   const map = useSiteMap(site.has_map ? site.slug : undefined).data ?? null;
   const devices = useDevices(site.slug).data ?? [];
   const programs = usePrograms(site.slug).data?.length ?? 0;
-  const running = (useRuns(site.slug).data ?? []).some(isOpen);
+  const running = underWay(useOpenRuns(site.slug).data ?? [], useNow()).length > 0;
   const isBare = !site.has_map && site.role === "admin";
   const facts = [
     t("pages.home.machines", { count: site.machines }),

@@ -1,7 +1,7 @@
 /** Programs as rows: what they use, who edited them, whether they are sound, when they last ran. */
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
-import { useSite } from "@/api/queries";
+import { NEWEST_RUNS, useSite } from "@/api/queries";
 import type { Program, RunSummary } from "@/api/types";
 import { ArmSwitch } from "@/shell/ArmSwitch";
 import { Avatar } from "@/design/Avatar";
@@ -10,7 +10,7 @@ import { formatAgo } from "@/i18n/format";
 import { StepIcons } from "@/program/StepIcons";
 import styles from "../pages.module.css";
 import { nameOf } from "../people";
-import { isOpen, lastRuns, statusOfRun } from "../runs/runStatus";
+import { isOpen, joinRuns, lastRuns, statusOfRun } from "../runs/runStatus";
 import { ProgramActions } from "./ProgramActions";
 import { useNow } from "@/design/useNow";
 
@@ -24,9 +24,9 @@ export function Soundness({ program }: { program: Program }) {
   return <StatusBadge status="done">{t("pages.programs.checked")}</StatusBadge>;
 }
 
-function LastRun({ run, now }: { run: RunSummary | undefined; now: number }) {
+function LastRun({ run, never, now }: Pick<RowProps, "run" | "never" | "now">) {
   const { t } = useTranslation();
-  if (!run) return <>{t("pages.programs.neverRan")}</>;
+  if (!run) return <>{never}</>;
   const when = run.started_at ? formatAgo(run.ended_at ?? run.started_at, now) : "";
   return (
     <Link to={`/runs/${run.id}`} className={styles.link}>
@@ -40,11 +40,13 @@ function LastRun({ run, now }: { run: RunSummary | undefined; now: number }) {
 interface RowProps {
   program: Program;
   run: RunSummary | undefined;
+  /** What is said where no run is known. */
+  never: string;
   now: number;
   editable: boolean;
 }
 
-function Row({ program, run, now, editable }: RowProps) {
+function Row({ program, run, never, now, editable }: RowProps) {
   const { t } = useTranslation();
   const editor = nameOf(program.edited_by);
   const role = useSite(program.site).data?.role;
@@ -73,7 +75,7 @@ function Row({ program, run, now, editable }: RowProps) {
         <Soundness program={program} />
       </td>
       <td>
-        <LastRun run={run} now={now} />
+        <LastRun run={run} never={never} now={now} />
       </td>
       {editable ? (
         <td className={styles.more}>
@@ -86,15 +88,26 @@ function Row({ program, run, now, editable }: RowProps) {
 
 interface ProgramTableProps {
   programs: readonly Program[];
-  runs: readonly RunSummary[];
+  /** The newest runs of the site; undefined until they are known. */
+  runs: readonly RunSummary[] | undefined;
+  /** Those that are not over, however old they are; undefined until they are known. */
+  open: readonly RunSummary[] | undefined;
   /** Whether the reader may rename and delete. */
   editable: boolean;
 }
 
-export function ProgramTable({ programs, runs, editable }: ProgramTableProps) {
+/** What is true of a program of whose runs none is known. */
+function useNever({ runs, open }: Pick<ProgramTableProps, "runs" | "open">): string {
+  const { t } = useTranslation();
+  if (!runs || !open) return "";
+  return t(runs.length < NEWEST_RUNS ? "pages.programs.neverRan" : "pages.programs.notLately");
+}
+
+export function ProgramTable({ programs, runs, open, editable }: ProgramTableProps) {
   const { t } = useTranslation();
   const now = useNow();
-  const last = lastRuns(runs);
+  const last = lastRuns(joinRuns(runs ?? [], open ?? []), now);
+  const never = useNever({ runs, open });
   return (
     <div className={styles.scroll}>
       <table className={styles.table}>
@@ -114,7 +127,14 @@ export function ProgramTable({ programs, runs, editable }: ProgramTableProps) {
         </thead>
         <tbody>
           {programs.map((program) => (
-            <Row key={program.id} program={program} run={last.get(program.id)} now={now} editable={editable} />
+            <Row
+              key={program.id}
+              program={program}
+              run={last.get(program.id)}
+              never={never}
+              now={now}
+              editable={editable}
+            />
           ))}
         </tbody>
       </table>

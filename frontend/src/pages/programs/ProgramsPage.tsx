@@ -5,7 +5,7 @@ import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
-import { usePrograms, useRuns, useSite } from "@/api/queries";
+import { useOpenRuns, usePrograms, useRuns, useSite } from "@/api/queries";
 import type { Program } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { EmptyState } from "@/design/EmptyState";
@@ -19,7 +19,8 @@ import { TableSkeleton } from "../TableSkeleton";
 function Programs({ slug, programs }: { slug: string; programs: Program[] }) {
   const { t } = useTranslation();
   const [query, setQuery] = useState("");
-  const runs = useRuns(slug).data ?? [];
+  const runs = useRuns(slug).data;
+  const open = useOpenRuns(slug).data;
   const role = useSite(slug).data?.role;
   const wanted = query.trim().toLowerCase();
   const found = programs.filter((program) => program.name.toLowerCase().includes(wanted));
@@ -43,7 +44,7 @@ function Programs({ slug, programs }: { slug: string; programs: Program[] }) {
       />
       <Panel>
         {found.length > 0 ? (
-          <ProgramTable programs={found} runs={runs} editable={mayEdit(role)} />
+          <ProgramTable programs={found} runs={runs} open={open} editable={mayEdit(role)} />
         ) : (
           <NothingFound clear={() => setQuery("")} />
         )}

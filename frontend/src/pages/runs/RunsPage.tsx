@@ -15,7 +15,7 @@ import { RunTerms } from "@/run/RunTerms";
 import { isPlanned } from "@/run/terms";
 import styles from "../pages.module.css";
 import { nameOf } from "../people";
-import { isOpen, secondsOfRun, statusOfRun, stepsDone } from "./runStatus";
+import { isOpen, secondsOfRun, statusOfRun, stepsDone, underWay } from "./runStatus";
 import { TableSkeleton } from "../TableSkeleton";
 import { useShownRuns } from "./useShownRuns";
 import { useNow } from "@/design/useNow";
@@ -87,7 +87,7 @@ function RunsOfSite({ slug }: { slug: string }) {
   const { runs, shown, parts } = useShownRuns(slug);
   const again = () => void (parts.isFetchNextPageError ? parts.fetchNextPage() : parts.refetch());
   const now = useNow(15_000);
-  const open = runs.data?.filter((run) => isOpen(run) && !isPlanned(run, now)).length ?? 0;
+  const open = underWay(runs.data ?? [], now).length;
   return (
     <PageShell
       title={t("shell.nav.runs")}

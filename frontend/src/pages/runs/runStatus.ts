@@ -1,6 +1,8 @@
 /** A run in a list: how it stands, how far it is, how long it took. */
 import type { RunStatus, RunSummary } from "@/api/types";
 import type { StatusName } from "@/design/StatusGlyph";
+import { isOpen } from "@/live/messages";
+import { isPlanned } from "@/run/terms";
 
 const STATUS: Readonly<Record<RunStatus, StatusName>> = {
   pending: "idle",
@@ -15,8 +17,11 @@ export function statusOfRun(run: RunSummary): StatusName {
   return STATUS[run.status] ?? "idle";
 }
 
-export function isOpen(run: RunSummary): boolean {
-  return run.status === "pending" || run.status === "running" || run.status === "paused";
+export { isOpen };
+
+/** Those that are not over and do not wait for their time; `now` in milliseconds since 1970. */
+export function underWay(runs: readonly RunSummary[], now: number): RunSummary[] {
+  return runs.filter((run) => isOpen(run) && !isPlanned(run, now));
 }
 
 /** How many steps are done; a list knows only of those that have begun, so not of how many. */
@@ -31,10 +36,12 @@ export function secondsOfRun(run: RunSummary, now: number): number | null {
   return Math.max(0, (end - new Date(run.started_at).getTime()) / 1000);
 }
 
-/** The newest run of each program. */
-export function lastRuns(runs: readonly RunSummary[]): Map<string, RunSummary> {
+/** The newest run of each program, or the newest that is under way; one that waits for its time is none yet. */
+export function lastRuns(runs: readonly RunSummary[], now: number): Map<string, RunSummary> {
   const last = new Map<string, RunSummary>();
-  for (const run of [...runs].sort((a, b) => a.number - b.number)) last.set(run.program.id, run);
+  const begun = runs.filter((run) => !isPlanned(run, now));
+  const order = (a: RunSummary, b: RunSummary) => Number(isOpen(a)) - Number(isOpen(b)) || a.number - b.number;
+  for (const run of begun.sort(order)) last.set(run.program.id, run);
   return last;
 }
 

@@ -1,13 +1,13 @@
 /** The runs of a site as the screen lists them: without a gap, as far down as somebody has asked. */
 import { useEffect, useRef } from "react";
-import { RUNS_AT_ONCE, useRunParts, useRuns } from "@/api/queries";
+import { NEWEST_RUNS, useRunParts, useRuns } from "@/api/queries";
 import { joinRuns } from "./runStatus";
 
 /** The newest runs, which live news keep, and the older ones, which the server gives in parts. */
 export function useShownRuns(slug: string) {
   const runs = useRuns(slug);
   const newest = runs.data;
-  const parts = useRunParts(slug, (newest?.length ?? 0) >= RUNS_AT_ONCE);
+  const parts = useRunParts(slug, (newest?.length ?? 0) >= NEWEST_RUNS);
   const { hasNextPage, isFetching, isError, fetchNextPage } = parts;
   const known = parts.data?.pages.flatMap(({ items }) => items) ?? [];
   // Live news tell of older runs, too: one below the last part waits for its own.

@@ -3,7 +3,7 @@ import { Button, Modal } from "@mantine/core";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { useChangePlace } from "@/api/places";
-import { usePrograms, useRuns } from "@/api/queries";
+import { useOpenRuns, usePrograms } from "@/api/queries";
 import type { MapPlace, RunSummary } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
@@ -21,7 +21,7 @@ export function PlaceUses({ slug, place }: { slug: string; place: string }) {
   const { t } = useTranslation();
   useFreshUses(slug);
   const uses = usePlaceUses(slug, place);
-  const runs = underWay(useRuns(slug).data ?? [], uses ?? []);
+  const runs = underWay(useOpenRuns(slug).data ?? [], uses ?? []);
   if (uses === null) return null;
   if (uses.length === 0) return <p className={styles.quiet}>{t("place.unused")}</p>;
   return (
@@ -69,7 +69,7 @@ export function RemovePlace({ slug, place, select, onClose }: RemovePlaceProps) 
   useReturnFocus();
   const change = useChangePlace(slug);
   const uses = usePlaceUses(slug, place.id);
-  const later = planned(useRuns(slug).data ?? [], uses ?? []);
+  const later = planned(useOpenRuns(slug).data ?? [], uses ?? []);
   const remove = () => {
     select(null);
     const onError = (error: Error) => (isGone(error) ? onClose() : select(place.id));

@@ -2,7 +2,7 @@
 import { Button, Modal } from "@mantine/core";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
-import { useDevices, usePrograms, useRuns } from "@/api/queries";
+import { useDevices, useOpenRuns, usePrograms } from "@/api/queries";
 import type { MapZone, SiteMap } from "@/api/types";
 import { useChangeZone } from "@/api/zones";
 import { useReturnFocus } from "@/design/useReturnFocus";
@@ -21,7 +21,7 @@ interface ZoneUsesProps {
 export function ZoneUses({ slug, map, zone }: ZoneUsesProps) {
   const { t } = useTranslation();
   useFreshUses(slug);
-  const [devices, programs, runs] = [useDevices(slug).data, usePrograms(slug).data, useRuns(slug).data];
+  const [devices, programs, runs] = [useDevices(slug).data, usePrograms(slug).data, useOpenRuns(slug).data];
   if (!devices || !programs || !runs) return null;
   const uses = usesOf(zone, { places: map.places, devices, programs, runs });
   const inside = [...uses.places, ...uses.machines].map(({ name }) => name);

@@ -1,5 +1,6 @@
 /** Whom a zone concerns: what stands in it, the programs that go there, and their runs under way; pure. */
 import type { Device, MapPlace, MapZone, Program, RunSummary } from "@/api/types";
+import { isOpen } from "@/live/messages";
 import { footprint } from "@/map/devices/device";
 import { PIXELS_PER_METRE, type Point } from "@/map/plane/projection";
 import { holds } from "./outline";
@@ -41,10 +42,8 @@ export const underWay = (runs: readonly RunSummary[], programs: readonly Program
 export const planned = (runs: readonly RunSummary[], programs: readonly Program[]): RunSummary[] =>
   openRuns(runs, programs).filter(({ started_at: began }) => began === null);
 
-const OPEN: readonly string[] = ["pending", "running", "paused"];
-
 const openRuns = (runs: readonly RunSummary[], programs: readonly Program[]) =>
-  runs.filter(({ status, program }) => OPEN.includes(status) && programs.some(({ id }) => id === program.id));
+  runs.filter((run) => isOpen(run) && programs.some(({ id }) => id === run.program.id));
 
 /** A machine's middle, and where robots might stand on each side of it. */
 function around(device: Device): Point[] {
