@@ -25,8 +25,8 @@ import { HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
 import { QuickAdd } from "./parts/QuickAdd";
 import { ToolRail } from "./parts/ToolRail";
 import { ROW_PX, useToolRows } from "./parts/toolRows";
-import { pasteIfScript } from "./script/pastedScript";
-import { useOpenProgram } from "./state/context";
+import { looksLikeScript } from "./script/scriptLines";
+import { type OpenProgram, useOpenProgram } from "./state/context";
 import { resetGestures, useGestures } from "./state/gestures";
 import { useUi } from "./state/ui";
 import { useRunning } from "./state/useRunning";
@@ -38,9 +38,10 @@ const EmptyProgram = lazy(async () => ({ default: (await loadEmptyProgram()).Emp
 const NextSteps = lazy(async () => ({ default: (await loadNextSteps()).NextSteps }));
 const Tour = lazy(async () => ({ default: (await import("./beginning/Tour")).Tour }));
 const loadComments = () => import("./comments/CommentsPanel");
+const loadPasting = () => import("./script/pastedScript");
 const ZoneForm = lazy(async () => ({ default: (await loadZoneForm()).ZoneForm }));
-/** Fetched once the program has come, so that the first form opens at once. */
-const LATER = [loadPanels, loadZoneForm, loadComments, loadCorners];
+/** Fetched once the program has come, so that the first form opens and the first script is pasted at once. */
+const LATER = [loadPanels, loadZoneForm, loadComments, loadCorners, loadPasting];
 
 const FITTED: Insets = { left: 100, right: 336, top: 34, bottom: 300 };
 
@@ -128,4 +129,11 @@ function useGestureInput(): void {
   usePaletteOffer(open);
   useClipboard(open, pasteIfScript);
   useEffect(() => resetGestures, [open.program.id]);
+}
+
+/** Take a pasted text for script, if it looks like it. */
+function pasteIfScript(open: OpenProgram, text: string): boolean {
+  const isScript = looksLikeScript(text);
+  if (isScript) void loadPasting().then(({ pasteScript }) => pasteScript(open, text));
+  return isScript;
 }

@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import { clippedScript } from "./clippedScript";
-import { looksLikeScript, scriptWith } from "./pastedScript";
+import { scriptWith } from "./pastedScript";
+import { looksLikeScript } from "./scriptLines";
 
 const PRINTED = {
   script: `class Task(object):

@@ -1,5 +1,5 @@
 /** Selected steps as script that people can read, and that any program takes again: a small task of its own. */
-import { blockOf, functionsOf, indentOf, type Printed } from "./pastedScript";
+import { blockOf, functionsOf, indentOf, type Printed } from "./scriptLines";
 
 const INDENT = 8;
 const CALLED = /self\.(\p{ID_Continue}+)\(/gu;

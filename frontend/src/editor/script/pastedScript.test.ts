@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import type { NamedDevice } from "./completion";
-import { looksLikeScript, scriptWith } from "./pastedScript";
+import { scriptWith } from "./pastedScript";
+import { looksLikeScript } from "./scriptLines";
 
 const OVEN: NamedDevice = { id: "curingOven01", name: "Curing Oven", kind: "machine", methods: [], properties: [] };
 const PRINTED = {

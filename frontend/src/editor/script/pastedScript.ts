@@ -6,25 +6,14 @@ import { putWith } from "../state/putting";
 import { say, select, useUi } from "../state/ui";
 import type { NamedDevice } from "./completion";
 import { pythonName } from "./names";
+import { blockOf, functionsOf, indentOf, type Printed } from "./scriptLines";
 import { type Chosen, withChosen } from "../edits/holes";
 import { differenceOf, withFreshIds } from "./difference";
 import { scriptWithChosen, strangersInScript } from "./strangers";
 import type { DrawnScript } from "./session";
 
-const SCRIPT = /^\s*(self\.\p{ID_Start}|if .*:|while .*:|for .*:|try:|class Task)/u;
 const GIVEN = /self\.(\p{ID_Continue}+)\s*=\s*(ctx\.\w+\([^\n]*\))/gu;
 const CALL_OF_NEW_TASK = /^\s*self\.new_task\(\)\s*$/;
-
-export interface Printed {
-  readonly script: string;
-  /** The step of each line. */
-  readonly lines: readonly string[];
-}
-
-/** Whether a text may be script: its first line that says something begins like one. */
-export function looksLikeScript(text: string): boolean {
-  return SCRIPT.test(text.split("\n").find((line) => line.trim() !== "") ?? "");
-}
 
 /** The program's script with the pasted lines behind a step, or at its end; null where nothing is to be pasted. */
 export function scriptWith(
@@ -59,27 +48,9 @@ function bodyOf(lines: readonly string[]): string[] {
   return first < 0 ? [] : bare.slice(first, bare.findLastIndex(Boolean) + 1);
 }
 
-export function indentOf(line: string): number {
-  return line.length - line.trimStart().length;
-}
-
 interface Spot {
   readonly at: number;
   readonly indent: number;
-}
-
-/** The lines of a step and of what stands in it: from the first to before the other. */
-export function blockOf(
-  printed: readonly string[],
-  lines: readonly string[],
-  step: string,
-): { readonly from: number; readonly to: number } | null {
-  const from = lines.indexOf(step);
-  if (from < 0) return null;
-  const indent = indentOf(printed[from] ?? "");
-  let to = lines.lastIndexOf(step) + 1;
-  while ((printed[to] ?? "").trim() && indentOf(printed[to] ?? "") > indent) to += 1;
-  return { from, to };
 }
 
 function spotBehind(printed: readonly string[], lines: readonly string[], step: string | null): Spot | null {
@@ -101,19 +72,6 @@ function missingFunctions(pasted: readonly string[], printed: readonly string[])
 }
 
 const OWN_FUNCTIONS = ["new_task", "run"];
-
-/** The functions of a script, each with its lines. */
-export function functionsOf(script: readonly string[]): ReadonlyMap<string, readonly string[]> {
-  const found = new Map<string, string[]>();
-  let current: string[] | null = null;
-  for (const line of script) {
-    const name = /^ {4}def (\p{ID_Continue}+)\(/u.exec(line)?.[1];
-    if (name) found.set(name, (current = []));
-    current?.push(line);
-  }
-  for (const lines of found.values()) while (lines.at(-1)?.trim() === "") lines.pop();
-  return found;
-}
 
 /** The lines that `run` needs for names that it does not give yet. */
 function missingNames(body: string, script: string, pasted: string, devices: readonly NamedDevice[]): string[] {
@@ -162,11 +120,4 @@ export async function drawPasted(open: OpenProgram, pasted: string, chosen: Chos
     if (!(error instanceof ApiProblem)) throw error;
     say(error.detail);
   }
-}
-
-/** Take a pasted text for script, if it looks like it. */
-export function pasteIfScript(open: OpenProgram, text: string): boolean {
-  const isScript = looksLikeScript(text);
-  if (isScript) pasteScript(open, text);
-  return isScript;
 }
