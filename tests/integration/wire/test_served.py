@@ -255,7 +255,7 @@ def plan_waits(client: httpx.Client, begin: datetime) -> list[str]:
 
 def test_planned_runs_begin_once_at_their_time_though_workers_die_while_they_wait(served: Served) -> None:
     with served.signed_in("author", 0) as client:
-        begin = datetime.now(UTC) + timedelta(seconds=15)
+        begin = datetime.now(UTC) + timedelta(seconds=30)
         runs = plan_waits(client, begin)
         served.kill("worker-1")
         assert [client.get(f"/api/runs/{run}").json()["status"] for run in runs] == ["pending"] * 4
