@@ -152,6 +152,7 @@ export function applyOpenRun(runs: readonly RunSummary[], run: RunSummary): RunS
 
 /** Add an event to a run's journal unless it is there already; by its number. */
 export function applyRunEvent(events: readonly RunEvent[], event: RunEvent): readonly RunEvent[] {
+  if ((events.at(-1)?.seq ?? 0) < event.seq) return [...events, event]; // as nearly always, and there may be thousands
   if (events.some((each) => each.seq === event.seq)) return events;
   return [...events, event].sort((a, b) => a.seq - b.seq);
 }

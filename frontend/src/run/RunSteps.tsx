@@ -1,4 +1,5 @@
-import { useEffect, useRef } from "react";
+import { Button } from "@mantine/core";
+import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Measured, RunEvent } from "@/api/types";
 import { StatusGlyph, type StatusName } from "@/design/StatusGlyph";
@@ -14,6 +15,8 @@ import { eventWords } from "./eventWords";
 import { outerProgress, spentSeconds, type StepLine } from "./stepList";
 
 const FAR_PERCENT = 20;
+/** So many lines of a journal are on the screen at first, and so many more come at a press: a run may write for days. */
+const LINES = 500;
 const GLYPHS: Record<StepLine["status"], StatusName> = {
   waiting: "idle",
   running: "busy",
@@ -184,12 +187,15 @@ function Time({ event, onWrite }: { event: RunEvent; onWrite: JournalProps["onWr
 export function Journal({ events, numberOf, nameOf, label, full = false, onWrite }: JournalProps) {
   const { t } = useTranslation();
   const list = useRef<HTMLOListElement>(null);
-  const shown = full ? events : events.filter((event) => !["command", "way"].includes(event.kind));
-  const atEnd = useRef(true);
+  const all = full ? events : events.filter((event) => !["command", "way"].includes(event.kind));
+  const [atEnd, setAtEnd] = useState(true);
+  // Who reads further up keeps the lines there, however many come below.
+  const [kept, setKept] = useState<number | null>(null);
+  const older = kept ?? Math.max(0, all.length - LINES);
   useEffect(() => {
     const element = list.current;
-    if (element && atEnd.current) element.scrollTop = element.scrollHeight;
-  }, [shown.length]);
+    if (element && atEnd) element.scrollTop = element.scrollHeight;
+  }, [all.length, atEnd]);
   return (
     <section className={styles.journal} aria-label={label}>
       {full ? null : (
@@ -197,6 +203,11 @@ export function Journal({ events, numberOf, nameOf, label, full = false, onWrite
           {label} <small>{t("run.entries", { count: events.length })}</small>
         </h2>
       )}
+      {older > 0 ? (
+        <Button size="compact-xs" variant="default" onClick={() => setKept(Math.max(0, older - LINES))}>
+          {t("run.older_lines", { count: older })}
+        </Button>
+      ) : null}
       <ol
         ref={list}
         // A list that scrolls must be reachable by keyboard.
@@ -204,10 +215,13 @@ export function Journal({ events, numberOf, nameOf, label, full = false, onWrite
         tabIndex={0}
         aria-label={label}
         onScroll={({ currentTarget: element }) => {
-          atEnd.current = element.scrollHeight - element.scrollTop - element.clientHeight < 40;
+          const isAtEnd = element.scrollHeight - element.scrollTop - element.clientHeight < 40;
+          if (isAtEnd === atEnd) return;
+          setAtEnd(isAtEnd);
+          setKept(isAtEnd ? null : older);
         }}
       >
-        {shown.map((event) => (
+        {all.slice(older).map((event) => (
           <li key={event.seq}>
             <Time event={event} onWrite={onWrite} />
             <StatusGlyph status={eventGlyph(event)} size={13} />
