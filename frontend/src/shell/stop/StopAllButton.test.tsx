@@ -1,7 +1,7 @@
 // @vitest-environment jsdom
 import { MantineProvider } from "@mantine/core";
 import { QueryClientProvider } from "@tanstack/react-query";
-import { cleanup, fireEvent, render, screen } from "@testing-library/react";
+import { act, cleanup, fireEvent, render, screen } from "@testing-library/react";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient } from "@/api/queries";
 import { startI18n } from "@/i18n";
@@ -41,6 +41,6 @@ test.each([
     </QueryClientProvider>,
   );
   fireEvent.click(screen.getByText("Stopped"));
-  await new Promise((done) => setTimeout(done));
+  await act(() => new Promise<void>((done) => setTimeout(done)));
   expect(sent).toEqual(wanted);
 });
