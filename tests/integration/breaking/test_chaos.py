@@ -11,7 +11,7 @@ from tests.integration.breaking.chaos.game import play
 from tests.integration.breaking.chaos.hall import Game
 
 pytestmark = pytest.mark.servers
-GAME = Game(runs=9, sites=2, commands=5, seed=12)
+GAME = Game(runs=6, sites=2, commands=5, seed=12)
 FAULTS = (
     at_point("before_commit", "kill"),
     at_point("after_publish", "kill"),

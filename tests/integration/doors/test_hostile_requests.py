@@ -52,7 +52,7 @@ POISONS = {
     what: poison for what, poison in {**TEXTS, **OTHERS}.items() if not ON_POSTGRESQL or what in HARD_FOR_DATABASES
 }
 """On PostgreSQL, where all of this runs a second time, those that one database may take and another not."""
-TURNS = 3 if os.environ.get("VIPO_STEADY") == "1" else 1
+TURNS = (6 if ON_POSTGRESQL else 3) if os.environ.get("VIPO_STEADY") == "1" else 1
 """Where a change is judged, each place of a call is told one poison in so many, and the place after it the next one."""
 pytestmark = pytest.mark.django_db
 

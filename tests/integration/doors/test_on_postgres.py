@@ -24,5 +24,5 @@ def test_what_comes_in_is_kept_and_refused_on_postgresql_as_on_sqlite(database_u
     kept = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
     command = [sys.executable, "-m", "pytest", "-q", "--no-header", "-p", "no:cacheprovider", *TRIED]
     told = {**kept, "VIPO_TEST_DATABASE": database_url}
-    done = subprocess.run(command, cwd=ROOT, env=told, capture_output=True, text=True, timeout=500)
+    done = subprocess.run(command, cwd=ROOT, env=told, capture_output=True, text=True, timeout=1500)
     assert done.returncode == 0, done.stdout[-8000:] + done.stderr[-2000:]

@@ -7,6 +7,7 @@ import pytest
 from bench.hall import SITE, fill_hall
 from execution import mailbox, tasks
 from execution.engine import drive
+from execution.job_lease import LEASE_S
 from execution.models import InboxEvent, SiteLease
 from execution.ticker import ticker
 from tests.integration.execution.engine.hall import answer_open, heating, row, start, told
@@ -61,7 +62,7 @@ def test_a_doubled_task_finds_the_site_owned_and_a_site_that_is_gone_is_nobodys(
     run = start(heating(1))
     assert drive.drive_site(SITE, stay_s=0.3, linger_s=0.1)
     assert len(told(run)) == 1
-    SiteLease.objects.update(owner="somebody else", expires_at=datetime.now(UTC) + timedelta(minutes=1))
+    SiteLease.objects.update(owner="somebody else", expires_at=datetime.now(UTC) + timedelta(seconds=LEASE_S))
     answer_open(run)
     assert drive.drive_site(SITE) is False
     assert row(run).status == "running"
