@@ -66,7 +66,8 @@ class Form:
 
     def post(self, session: str, path: str, body: object = None) -> None:
         """Do something by HTTP, in the other web process where there is one."""
-        with httpx.Client(base_url=f"http://127.0.0.1:{self.other.port}/api", cookies={"sessionid": session}) as client:
+        address, cookies = f"http://127.0.0.1:{self.other.port}/api", {"sessionid": session}
+        with httpx.Client(base_url=address, cookies=cookies, timeout=60) as client:
             client.headers["X-CSRFToken"] = client.get("/me").json()["csrf"]
             answer = client.post(path, json=body)
             assert answer.status_code == 200, answer.text
