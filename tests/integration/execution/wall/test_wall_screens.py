@@ -293,11 +293,11 @@ async def test_no_frame_and_no_answer_tells_the_name_of_a_person(hall: str) -> N
         "id": MIXER.id, "status": "error", "activity": None, "properties": [{"name": "jobStatus", "value": 41}],
     }  # fmt: skip
     assert [(run["number"], run["status"], run["done"], run["total"]) for run in picture["runs"]] == [
+        (1, "running", 1, 2),
         (3, "pending", 1, 2),
         (2, "paused", 1, 2),
-        (1, "running", 1, 2),
     ]
-    assert picture["runs"][0]["wait"] == {"code": "offline", "args": {"device": MIXER.id}}
+    assert picture["runs"][1]["wait"] == {"code": "offline", "args": {"device": MIXER.id}}
     assert sorted(alert["code"] for alert in picture["alerts"]) == ["command_failed", "error"]
     answer = await database_sync_to_async(lambda: open_link(code_of(make())))()
     told = json.dumps(heard) + answer.content.decode() + str(answer.headers)
