@@ -193,6 +193,7 @@ def _make_robot(name: str, site: str) -> None:
     """Let a robot be approved at a site, and send a map."""
     methods = (MethodSpec("mix", f"vipo/v1/dev/{name}/down/mix"),)
     properties = (PropertySpec("jobStatus", "number", "PERCENT"),)
+    services.expect_device(site=site, device_id=name, credential=f"the key of {name} ".ljust(32, "."), approved=False)
     describe(replace(ROBOT, id=name, site=site, methods=methods, properties=properties))
     Device.objects.filter(pk=name).update(lifecycle="approved", properties={"jobStatus": 0})
     for payload in write_grid(RobotGrid(4, 3, 1.0, (0.0, 0.0, 0.0), bytes(12)), 1, 1):

@@ -51,7 +51,7 @@ function readPoint(text: string): number[] {
     .filter(Boolean);
   const bare = parts.map((part) => part.replace(/,$/, ""));
   const hasPoint = text.includes(".");
-  if (parts.length === 1) return hasPoint ? bare[0]!.split(",").map(readWritten) : [NaN];
+  if (parts.length === 1) return hasPoint ? (bare[0] ?? "").split(",").map(readWritten) : [NaN];
   const hasDecimalComma = bare.some((part) => part.includes(","));
   const hasPartingComma = parts.some((part, at) => part !== bare[at]);
   if (hasDecimalComma && (hasPartingComma || hasPoint)) return [NaN];
