@@ -12,7 +12,7 @@ chmod 700 secrets
 if [ "${1:-}" = --renew ]; then
     case ${2:-} in
     django-key) # the former keys stay in further lines: they read what was sealed with them, and sign nothing
-        { openssl rand -hex 32 && cat secrets/django-key; } >secrets/django-key.new
+        { openssl rand -hex 32 && if [ -e secrets/django-key ]; then cat secrets/django-key; fi; } >secrets/django-key.new
         mv -f secrets/django-key.new secrets/django-key
         ;;
     redis-password | broker-password) rm -f "secrets/$2" ;;

@@ -7,19 +7,16 @@ the same code at once one is let in. docs/adr/0061 has the reasons.
 
 from __future__ import annotations
 
-import base64
 import hmac
 import logging
 import re
 import secrets
-from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 
 import pyotp
 import segno
-from cryptography.fernet import Fernet, InvalidToken
-from django.conf import settings
+from cryptography.fernet import InvalidToken
 from django.db import transaction
 from django.db.models import F
 from django.utils.crypto import salted_hmac
@@ -28,6 +25,7 @@ from registry.audit.record import note_act
 from registry.errors import RegistryError
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import Membership, RecoveryCode, SecondFactor, User
+from registry.people.sealing import Sealing, server_keys
 
 log = logging.getLogger(__name__)
 STEP_S = 30
@@ -104,7 +102,7 @@ def begin_factor(*, user: User) -> NewFactor:
         User.objects.select_for_update().get(pk=user.pk)
         if has_factor(user=user):
             raise FactorStands("You have a second factor already. Turn it off before you set up another one.")
-        kept = {"secret": _seal(secret), "confirmed_at": None, "last_step": 0}
+        kept = {"secret": _SEALING.seal(secret), "confirmed_at": None, "last_step": 0}
         SecondFactor.objects.update_or_create(user=user, defaults=kept)
     address = pyotp.TOTP(secret).provisioning_uri(name=user.email, issuer_name="VIPO")
     picture = segno.make(address, error="m").svg_data_uri(scale=5, border=3, dark="#171b26", light="#ffffff")
@@ -188,7 +186,7 @@ def _take_step(row: SecondFactor, code: str, now: datetime) -> bool:
     if not _DIGITS.fullmatch(digits) or not digits.isascii():
         return False
     try:
-        secret, is_of_today = _unseal(row.secret)
+        secret, is_of_today = _SEALING.unseal(row.secret)
     except InvalidToken:
         log.warning("The second factor of %s was sealed with a key that VIPO_SECRET_KEY does not name.", row.user_id)
         return False
@@ -196,7 +194,7 @@ def _take_step(row: SecondFactor, code: str, now: datetime) -> bool:
     here = int(now.timestamp()) // STEP_S
     found = [here + off for off in TOLERANCE if hmac.compare_digest(totp.generate_otp(here + off), digits)]
     rows = SecondFactor.objects.filter(pk=row.pk, secret=row.secret)
-    sealed = row.secret if is_of_today else _seal(secret)
+    sealed = row.secret if is_of_today else _SEALING.seal(secret)
     return any(rows.filter(last_step__lt=step).update(last_step=step, secret=sealed) for step in found)
 
 
@@ -220,30 +218,16 @@ def _hashes(user: User, code: str) -> list[str]:
     """Return what a recovery code is kept as, by the server's key and then by its former ones."""
     plain = re.sub(r"[\s-]", "", code).lower()
     return [
-        salted_hmac(f"vipo recovery {user.pk}", plain, secret=key, algorithm="sha256").hexdigest() for key in _keys()
+        salted_hmac(f"vipo recovery {user.pk}", plain, secret=key, algorithm="sha256").hexdigest()
+        for key in server_keys()
     ]
 
 
-def _keys() -> list[str | bytes]:
-    return [settings.SECRET_KEY, *settings.VIPO_FORMER_KEYS]
+def _sealing_key(key: str) -> bytes:
+    return salted_hmac("vipo second factor", "", secret=key, algorithm="sha256").digest()
 
 
-def _fernets() -> list[Fernet]:
-    """Return what encrypts with the server's key, and what reads by its former ones."""
-    digests = (salted_hmac("vipo second factor", "", secret=key, algorithm="sha256").digest() for key in _keys())
-    return [Fernet(base64.urlsafe_b64encode(digest)) for digest in digests]
-
-
-def _seal(secret: str) -> str:
-    return _fernets()[0].encrypt(secret.encode()).decode()
-
-
-def _unseal(sealed: str) -> tuple[str, bool]:
-    """Return a secret, and whether it was sealed with the server's key of today. Raises InvalidToken."""
-    for number, fernet in enumerate(_fernets()):
-        with suppress(InvalidToken):
-            return fernet.decrypt(sealed.encode()).decode(), number == 0
-    raise InvalidToken
+_SEALING = Sealing(_sealing_key)
 
 
 def _end_sessions(user: User) -> None:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from base64 import urlsafe_b64encode
 from collections.abc import Collection, Sequence
 from datetime import datetime, timedelta
 from hashlib import sha256
 
-from cryptography.fernet import Fernet, InvalidToken, MultiFernet
-from django.conf import settings
+from cryptography.fernet import InvalidToken
 from django.db import IntegrityError, transaction
 from django.utils import timezone
 from django.utils.text import slugify
@@ -16,11 +14,13 @@ from django.utils.text import slugify
 from registry.errors import RegistryError
 from registry.models import Device, Membership, Place, SimulatedObstacle, Site, SiteMap, SiteZone, User
 from registry.people.access import NotAMember, access_of, list_memberships
+from registry.people.sealing import Sealing
 from registry.sites.namespaces import is_in_use, may_have_device
 from registry.sites.views import ObstacleView, PlaceView, SiteView, StopView, ZoneView
 from vipo_device.protocol.credentials import broker_hash, secret_hash
 from vipo_device.protocol.texts import find_unfit, normal
 
+_SEALING = Sealing(lambda key: sha256(b"join-key:" + key.encode()).digest())
 AT_ONCE = timedelta(seconds=10)
 """Who presses "new key" within this time after somebody else is told the same key."""
 
@@ -232,7 +232,7 @@ def set_enrolment_key(*, site: str, key: str) -> None:
         row = lock_site(site)
         if row.join_key_hash != secret_hash(key) or not row.join_broker_hash or not _unsealed(row):
             row.join_key_hash, row.join_broker_hash = secret_hash(key), broker_hash(key)
-            row.join_key_sealed, row.join_key_at = _seal().encrypt(key.encode()).decode(), timezone.now()
+            row.join_key_sealed, row.join_key_at = _SEALING.seal(key), timezone.now()
             row.save(update_fields=["join_key_hash", "join_broker_hash", "join_key_sealed", "join_key_at"])
 
 
@@ -262,20 +262,18 @@ def replace_enrolment_key(*, site: str, key: str) -> str:
     return key
 
 
-def _seal() -> MultiFernet:
-    """Return what seals a key with the secret of this VIPO, so that the database alone does not tell it.
-
-    What was sealed with a former secret is read, too.
-    """
-    secrets = (settings.SECRET_KEY, *settings.VIPO_FORMER_KEYS)
-    return MultiFernet(
-        [Fernet(urlsafe_b64encode(sha256(b"join-key:" + secret.encode()).digest())) for secret in secrets]
-    )
-
-
 def _unsealed(row: Site) -> str:
-    """Return a site's key; empty where there is none, or it was sealed with another secret."""
+    """Return a site's key; empty where there is none, or it was sealed with a secret that nobody names any more.
+
+    What a former secret has sealed is sealed anew, so that that one can go.
+    """
+    if not row.join_key_sealed:
+        return ""
     try:
-        return _seal().decrypt(row.join_key_sealed.encode()).decode() if row.join_key_sealed else ""
+        key, is_of_today = _SEALING.unseal(row.join_key_sealed)
     except InvalidToken:
         return ""
+    if not is_of_today:
+        rows = Site.objects.filter(pk=row.pk, join_key_sealed=row.join_key_sealed)
+        rows.update(join_key_sealed=_SEALING.seal(key))
+    return key

@@ -26,6 +26,9 @@ def test_a_renewed_key_comes_before_the_former_ones_and_a_renewed_password_alone
     run(tmp_path, "--renew", "django-key")
     third, second, kept = keys.read_text().splitlines(keepends=True)
     assert (kept, len({first, second, third}), keys.stat().st_mode & 0o777) == (first, 3, 0o444)
+    keys.unlink()
+    run(tmp_path, "--renew", "django-key")
+    assert len(keys.read_text().splitlines()) == 1
     run(tmp_path, "--renew", "redis-password")
     assert len(password.read_text().splitlines()) == 1
     assert password.read_text() != before

@@ -206,6 +206,8 @@ def test_former_keys_stand_in_further_lines_and_sign_nothing(tmp_path: Path, rea
     assert read_settings(named) == read_settings(dict(SERVED))
     (tmp_path / "keys").write_text(f"{SERVED['VIPO_SECRET_KEY']}\nshort\n")
     assert read_settings(named)[1] == "VIPO_SECRET_KEY can be guessed: take 32 random characters at least."
+    blank = read_settings({**SERVED, "VIPO_SECRET_KEY": "  "})
+    assert blank == ("", "VIPO_SECRET_KEY can be guessed: take 32 random characters at least.")
 
 
 @pytest.mark.parametrize(

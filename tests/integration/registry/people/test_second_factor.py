@@ -18,6 +18,7 @@ from registry import services
 from registry.models import AuditLine, RecoveryCode, SecondFactor, User
 from registry.people import second_factor
 from registry.people.second_factor import WrongCode, check_code, confirm_factor
+from registry.sites.sites import NoEnrolmentKey, get_enrolment_key
 from tests.kit.processes.forked import run_forked
 from tests.kit.sign_in import PASSWORD, find_person, post_json, signed_in
 from tests.kit.web import Web, environment, prepare
@@ -188,6 +189,19 @@ def test_a_former_key_of_the_server_still_reads_it_and_is_needed_until_one_has_s
     settings.VIPO_FORMER_KEYS = []
     SecondFactor.objects.update(last_step=0)
     assert [sign_in(code).status_code for code in (codes[1], code_at(secret, 1))] == [422, 200]
+
+
+def test_an_enrolment_key_is_read_by_a_former_key_and_needs_it_no_more_once_it_was_looked_at(
+    hall: str, settings: Settings
+) -> None:
+    services.set_enrolment_key(site="hall", key="j" * 32)
+    former, settings.SECRET_KEY = settings.SECRET_KEY, "another key of the server, as long as it should be 0123456789"
+    with pytest.raises(NoEnrolmentKey):
+        get_enrolment_key(site="hall")
+    settings.VIPO_FORMER_KEYS = [former]
+    assert get_enrolment_key(site="hall") == "j" * 32
+    settings.VIPO_FORMER_KEYS = []
+    assert get_enrolment_key(site="hall") == "j" * 32
 
 
 def test_a_step_that_was_taken_takes_none_before_it(hall: str) -> None:
