@@ -53,7 +53,8 @@ class Comparison:
 def compare_sides(*, site: str, old: Content, new: Content) -> Comparison:
     """Compare two contents, both as programs of one site. Raises NoSuchProgram."""
     surroundings = services.build_surroundings(site=site)
-    sides = [_side(content.program, content.number, surroundings) for content in (old, new)]
+    first = _side(old.program, old.number, surroundings)
+    sides = [first, first if new == old else _side(new.program, new.number, surroundings)]
     documents = [side.document for side in sides]
     readable = None not in documents
     found = compare(documents[0] or {}, documents[1] or {}) if readable else None
