@@ -24,7 +24,7 @@ from registry.devices.authentication import list_broker_hashes
 from registry.devices.enrolment import JUST_NOW
 from registry.devices.history import history_text, note_decision, write_event
 from registry.devices.rows import STARTS, announce, forget_starts, lock_device
-from registry.devices.samples import write_samples
+from registry.devices.samples import write_when_committed
 from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
 from registry.models import Device, User
@@ -125,7 +125,7 @@ def revoke_credential(*, site: str, device_id: str, by: User | None, at: datetim
         note_decision(device, "device_key_revoked")
         after = view_of(device, site)
         announce(before, after)
-        transaction.on_commit(lambda: write_samples(changes=[(before, after)], at=at))
+        write_when_committed(before=before, after=after, at=at)
     return after
 
 

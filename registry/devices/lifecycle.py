@@ -24,7 +24,7 @@ from registry.devices.credentials import (
 from registry.devices.history import HistoryText, history_text, note_decision, write_event
 from registry.devices.legacy_topics import claim_again, release_topics
 from registry.devices.rows import STARTS, BadDevice, announce, forget_starts, lock_device
-from registry.devices.samples import write_samples
+from registry.devices.samples import write_when_committed
 from registry.devices.things import record_thing
 from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
@@ -81,9 +81,9 @@ def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) 
         device.save(update_fields=["lifecycle", "credential_hash", "broker_hash", "key_told_at"])
         write_event(device, at, "approved", history_text("approved"), by)
         note_decision(device, "device_approved")
-        after = approved = view_of(device, site)
+        after = view_of(device, site)
         announce(before, after)
-        transaction.on_commit(lambda: write_samples(changes=[(before, approved)], at=at))
+        write_when_committed(before=before, after=after, at=at)
     taken = after.online and deliver_key(device_id=device_id, credential=credential)
     if had_own_key and taken:
         after = replace_key(site, device_id, credential, by, at, device.credential_hash)
@@ -137,7 +137,7 @@ def _take_out(
         transaction.on_commit(lambda: publish(site, {"type": "device_removed", "id": device_id}))
         after = view_of(device, site)
         record_thing(before, after)
-        transaction.on_commit(lambda: write_samples(changes=[(before, after)], at=at))
+        write_when_committed(before=before, after=after, at=at)
     return after
 
 

@@ -164,11 +164,19 @@ def note_samples(*, before: DeviceView | None, after: DeviceView, at: datetime) 
 
 
 def write_samples(*, changes: Sequence[tuple[DeviceView, DeviceView]], at: datetime) -> None:
-    """Take in what is new of devices, (before, after), and write it at once: where nobody would write it later."""
+    """Take in what is new of devices, (before, after), and write it at once: where nobody would write it later.
+
+    What the database does not take now goes with what is written here next.
+    """
     for before, after in changes:
         note_samples(before=before, after=after, at=at)
     if changes:
         flush_samples(all_of_it=True)
+
+
+def write_when_committed(*, before: DeviceView, after: DeviceView, at: datetime) -> None:
+    """Write what is new of a device once the transaction holds, in a process that hears no devices."""
+    transaction.on_commit(lambda: write_samples(changes=[(before, after)], at=at))
 
 
 def flush_samples(*, all_of_it: bool = False) -> int:

@@ -10,11 +10,9 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
-from django.db import transaction
-
 from registry.devices.history import history_text, note_decision, write_event
 from registry.devices.rows import announce, lock_device
-from registry.devices.samples import write_samples
+from registry.devices.samples import write_when_committed
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, User
 
@@ -54,7 +52,7 @@ def switch_stand_in(*, site: str, device_id: str, simulated: bool, by: User | No
     note_decision(device, f"device_{code}")
     after = view_of(device, site)
     announce(before, after)
-    transaction.on_commit(lambda: write_samples(changes=[(before, after)], at=at))
+    write_when_committed(before=before, after=after, at=at)
     return after
 
 
