@@ -125,7 +125,7 @@ def find_program(program_id: UUID | str) -> Program:
     return program
 
 
-def keep_existing(program_ids: Iterable[UUID]) -> frozenset[UUID]:
+def keep_existing(*, program_ids: Iterable[UUID]) -> frozenset[UUID]:
     """Return which of these programs there are."""
     return frozenset(Program.objects.filter(pk__in=list(program_ids)).values_list("pk", flat=True))
 

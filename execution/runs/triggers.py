@@ -98,7 +98,7 @@ def start_armed(*, now: datetime) -> int:
     One that was deleted is disarmed.
     """
     rows = list(ArmedProgram.objects.select_related("site"))
-    there = editor.keep_existing([row.program for row in rows]) if rows else frozenset()
+    there = editor.keep_existing(program_ids=[row.program for row in rows]) if rows else frozenset()
     for row in rows:
         if row.program not in there:
             _disarm(row)

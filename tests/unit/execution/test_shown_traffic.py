@@ -9,7 +9,7 @@ import pytest
 from execution.floor import fold
 from execution.traffic import messages as m
 from registry import services as registry
-from tests.unit.execution.traffic.test_site_zones import EAST, WEST, floor_with, go, zone
+from tests.unit.execution.traffic.zones.test_site_zones import EAST, WEST, floor_with, go, zone
 
 POSES = {"robot01": WEST}
 

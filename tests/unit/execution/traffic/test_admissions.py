@@ -9,7 +9,7 @@ import pytest
 from execution.traffic import floor as traffic
 from execution.traffic import messages as m
 from tests.unit.execution.traffic.simulated_floor import PretendFloor
-from tests.unit.execution.traffic.test_site_zones import (
+from tests.unit.execution.traffic.zones.test_site_zones import (
     EAST,
     WEST,
     change,

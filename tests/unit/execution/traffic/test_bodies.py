@@ -9,7 +9,7 @@ from execution.traffic import messages as m
 from execution.traffic.outlines import touches
 from tests.kit import demo_floor
 from tests.unit.execution.traffic.simulated_floor import PretendFloor
-from tests.unit.execution.traffic.test_site_zones import WEST, block_round, drive, go
+from tests.unit.execution.traffic.zones.test_site_zones import WEST, block_round, drive, go
 
 MIDDLE, EAST = (10.0, -8.0), (18.0, -8.0)
 

@@ -12,7 +12,7 @@ from execution.traffic.outlines import touches
 from execution.traffic.path_planner import ELSEWHERE_COST, drawn, length_m
 from execution.traffic.zones import path_outside
 from tests.kit import demo_floor
-from tests.unit.execution.traffic.test_site_zones import (
+from tests.unit.execution.traffic.zones.test_site_zones import (
     EAST,
     WEST,
     block_round,

@@ -13,7 +13,7 @@ from execution.traffic.layout import make_layout
 from registry.floorplan.plan import FREE, OCCUPIED, Grid
 from tests.kit import demo_floor
 from tests.unit.execution.traffic.simulated_floor import PretendFloor
-from tests.unit.execution.traffic.test_site_zones import go
+from tests.unit.execution.traffic.zones.test_site_zones import go
 
 WIDE_M, HIGH_M, CELL_M = 24.0, 14.0, 0.1
 WIDTHS = (0.3, 0.4, 0.6)

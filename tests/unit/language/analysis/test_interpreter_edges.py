@@ -14,7 +14,7 @@ from editor.language.compiler import EditedProgram
 from editor.language.tree.nodes import Block, Wait
 from tests.kit.demo_site import factory
 from tests.kit.programs import document, step
-from tests.unit.language.test_units_to_the_run import document_of, script, site
+from tests.unit.language.units.test_units_to_the_run import document_of, script, site
 
 BODY = ("program", "body")
 NEVER = "def never(self):\n    for n, t in enumerate([1, 2], 1):\n        self.notify(f'{1 / (n - 2)}')"

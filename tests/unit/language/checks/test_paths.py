@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from editor.language.compiler import EditedProgram, compile_document
-from tests.unit.language.test_units_to_the_run import document_of, script, site
+from tests.unit.language.units.test_units_to_the_run import document_of, script, site
 
 HOT = "self.curing_oven.temperature > 60"
 PICK = 'self.robot.pick({"value": 1, "object": "box"})'

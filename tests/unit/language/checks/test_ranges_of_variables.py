@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from editor.language.compiler import EditedProgram
-from tests.unit.language.test_units_to_the_run import document_of, script, site
+from tests.unit.language.units.test_units_to_the_run import document_of, script, site
 
 WAIT = 'def rest(self, t: Number("s")):\n    self.wait(t)'
 SHARE = "def share(self, n: Number) -> Number:\n    return 10 / n"

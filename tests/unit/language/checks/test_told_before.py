@@ -6,7 +6,7 @@ import pytest
 
 from editor.language.compiler import EditedProgram, compile_document
 from tests.kit.demo_site import factory
-from tests.unit.language.test_units_to_the_run import document_of
+from tests.unit.language.units.test_units_to_the_run import document_of
 
 GIVEN = {
     "shelf": "itemInventory01", "cans": "paintInventory01", "mixer": "paintMixer01", "mixer_2": "paintMixer02",
