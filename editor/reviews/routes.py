@@ -36,9 +36,9 @@ def show_review_rule(request: HttpRequest, slug: str) -> rules.Rule:
 
 @router.put("/sites/{slug}/review-rule", response=ReviewRuleShape)
 def set_review_rule(request: HttpRequest, slug: str, body: SetReviewRule) -> rules.Rule:
-    """Choose what the site demands from now on; runs that are under way go on."""
+    """Choose what the site demands from now on, or a part of it; runs that are under way go on."""
     require(request.user, slug, "admin")
-    return rules.set_rule(site=slug, rule=rules.Rule(body.approvals, body.least_role))
+    return rules.set_rule(site=slug, approvals=body.approvals, least_role=body.least_role)
 
 
 @router.get("/sites/{slug}/reviews", response=list[AskedReviewShape])

@@ -29,12 +29,17 @@ def get_rule(*, site: str) -> Rule:
     return _view(row) if row else Rule()
 
 
-def set_rule(*, site: str, rule: Rule) -> Rule:
-    """Choose what a site demands from now on; runs that are under way go on. Raises BadRequest."""
-    if not 0 <= rule.approvals <= MOST_APPROVALS:
+def set_rule(*, site: str, approvals: int | None = None, least_role: LeastRole | None = None) -> Rule:
+    """Choose what a site demands from now on, None as before; runs that are under way go on. Raises BadRequest."""
+    if approvals is not None and not 0 <= approvals <= MOST_APPROVALS:
         raise BadRequest(f"A site demands 0 to {MOST_APPROVALS} approvals. Choose such a number.")
     with transaction.atomic():
         row = _lock(site)
+        before = _view(row)
+        rule = Rule(
+            before.approvals if approvals is None else approvals,
+            before.least_role if least_role is None else least_role,
+        )
         row.approvals, row.least_role = rule.approvals, rule.least_role
         row.save(update_fields=["approvals", "least_role"])
         facts = {"count": rule.approvals, "role": rule.least_role}

@@ -27,10 +27,10 @@ class ReviewRuleShape(Schema):
 
 
 class SetReviewRule(Asked):
-    """What a site shall demand from now on."""
+    """What a site shall demand from now on; what is not named stays as it is."""
 
-    approvals: Count
-    least_role: LeastRole
+    approvals: Count | None = None
+    least_role: LeastRole | None = None
 
 
 class VersionAsked(Asked):

@@ -27,7 +27,7 @@ def show_retention(request: HttpRequest, site: str) -> dict[str, Any]:
 def set_retention(request: HttpRequest, site: str, body: SetKeeping) -> dict[str, Any]:
     """Choose for how many days the site keeps each kind; what is older then is archived within the next minutes."""
     require(request.user, site, "admin")
-    set_keeping(site=site, chosen={"runs": body.runs, "rehearsals": body.rehearsals, "calls": body.calls})
+    set_keeping(site=site, chosen=body.model_dump(exclude_unset=True))
     return _retention(site)
 
 

@@ -15,11 +15,14 @@ Kind = Literal["runs", "rehearsals", "calls"]
 
 
 class SetKeeping(Asked):
-    """For how many days a site keeps what has ended; 0: for ever, null: as the server's settings say."""
+    """For how many days a site keeps what has ended; 0: for ever, null: as the server's settings say.
 
-    runs: Days | None
-    rehearsals: Days | None
-    calls: Days | None
+    What is not named stays as it is.
+    """
+
+    runs: Days | None = None
+    rehearsals: Days | None = None
+    calls: Days | None = None
 
 
 class KeepingShape(Schema):

@@ -3630,7 +3630,7 @@ export interface paths {
         get: operations["show_review_rule"];
         /**
          * Set Review Rule
-         * @description Choose what the site demands from now on; runs that are under way go on.
+         * @description Choose what the site demands from now on, or a part of it; runs that are under way go on.
          */
         put: operations["set_review_rule"];
         post?: never;
@@ -6370,17 +6370,20 @@ export interface components {
             since: string;
             unit: string;
         };
-        /** @description For how many days a site keeps what has ended; 0: for ever, null: as the server's settings say. */
+        /**
+         * @description For how many days a site keeps what has ended; 0: for ever, null: as the server's settings say.
+         *
+         *     What is not named stays as it is.
+         */
         SetKeeping: {
-            calls: number | null;
-            rehearsals: number | null;
-            runs: number | null;
+            calls?: number | null;
+            rehearsals?: number | null;
+            runs?: number | null;
         };
-        /** @description What a site shall demand from now on. */
+        /** @description What a site shall demand from now on; what is not named stays as it is. */
         SetReviewRule: {
-            approvals: number;
-            /** @enum {string} */
-            least_role: "operator" | "author" | "admin";
+            approvals?: number | null;
+            least_role?: ("operator" | "author" | "admin") | null;
         };
         /**
          * @description A side: a version, or what is drawn now. With a problem it has neither a document nor its compiled form.

@@ -19,7 +19,7 @@ const retentionOf = (chosen: Days) =>
 beforeEach(async () => {
   vi.stubGlobal("matchMedia", () => ({ matches: false, addEventListener() {}, removeEventListener() {} }));
   vi.stubGlobal("fetch", (_: string, init: RequestInit) => {
-    if (init.method === "PUT") days = JSON.parse(init.body as string) as Days;
+    if (init.method === "PUT") days = { ...days, ...(JSON.parse(init.body as string) as Partial<Days>) };
     return Promise.resolve(Response.json(retentionOf(days)));
   });
   await startI18n();

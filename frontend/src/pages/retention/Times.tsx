@@ -11,9 +11,6 @@ import { PATH, readDays } from "./retention";
 type Kind = Retention["keeping"][number]["kind"];
 type Typed = Record<Kind, string>;
 
-const chosenOf = ({ keeping }: Retention) =>
-  Object.fromEntries(keeping.map(({ kind, chosen }) => [kind, chosen])) as SetKeeping;
-
 function typedOf(retention: Retention): Typed {
   const typed: Typed = { runs: "", rehearsals: "", calls: "" };
   for (const { kind, chosen } of retention.keeping) typed[kind] = chosen === null ? "" : String(chosen);
@@ -28,7 +25,7 @@ function readAll(typed: Partial<Typed>): Partial<SetKeeping> | null {
 
 export function Times({ slug, retention }: { slug: string; retention: Retention }) {
   const { t } = useTranslation();
-  const save = useSetSetting<Retention, SetKeeping>({ slug, path: PATH, saved: t("retention.saved"), chosenOf });
+  const save = useSetSetting<Retention, SetKeeping>({ slug, path: PATH, saved: t("retention.saved") });
   const { fields: typed, touched, touch, settle } = useTouched(typedOf(retention));
   const daysOf = (days: number) => (days === 0 ? t("retention.forEver") : t("retention.daysOf", { count: days }));
   const days = readAll(touched);

@@ -26,7 +26,8 @@ const SITE = { slug: "", name: "Hall", role: "admin", machines: 0, robots: 0, on
 let rule: { approvals: number; least_role: string };
 
 function answer(path: string, init: RequestInit) {
-  if (path.endsWith("/review-rule") && init.method === "PUT") rule = JSON.parse(init.body as string) as typeof rule;
+  if (path.endsWith("/review-rule") && init.method === "PUT")
+    rule = { ...rule, ...(JSON.parse(init.body as string) as Partial<typeof rule>) };
   if (path.endsWith("/review-rule")) return rule;
   if (path === "/api/me") return { csrf: "", demo_accounts: [], user: { id: 1, name: "Anna" } };
   return /^.api.sites.[^/]+$/.test(path) ? SITE : [];

@@ -25,7 +25,6 @@ function RuleForm({ slug, rule }: { slug: string; rule: ReviewRule }) {
   const { t } = useTranslation();
   const save = useSetSetting<ReviewRule, ReviewRule>({
     ...{ slug, path: PATH, saved: t("review.rule.saved"), touches: keys.reviews },
-    chosenOf: (held) => held,
   });
   const { fields: chosen, touched, touch, settle } = useTouched(rule);
   const counts = Array.from({ length: MOST_APPROVALS + 1 }, (_, count) => ({

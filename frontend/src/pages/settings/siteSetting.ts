@@ -36,30 +36,21 @@ function without<Fields extends object>(now: Partial<Fields>, sent: Partial<Fiel
   return Object.fromEntries(names.map((name) => [name, now[name]])) as Partial<Fields>;
 }
 
-interface Setting<Held, Chosen> {
+interface Setting {
   slug: string;
   path: string;
   /** What is told once it is set. */
   saved: string;
   /** What follows from it and is asked for anew then. */
   touches?: QueryKey;
-  /** What of it is chosen, as it is set. */
-  chosenOf: (held: Held) => Chosen;
 }
 
-/**
- * Set what was touched of it; the rest stays as it is held by then. People are told that it was set, or why not.
- *
- * It is set as a whole, so what is held is asked for before: what another sets while that answer is on its way is lost.
- */
-export function useSetSetting<Held, Chosen>({ slug, path, saved, touches, chosenOf }: Setting<Held, Chosen>) {
+/** Set what was touched of it; the rest stays as the server holds it. People are told that it was set, or why not. */
+export function useSetSetting<Held, Chosen>({ slug, path, saved, touches }: Setting) {
   const { t } = useTranslation();
   const queries = useQueryClient();
   return useMutation({
-    mutationFn: async (touched: Partial<Chosen>) => {
-      const held = await api.get<Held>(addressOf(slug, path));
-      return api.put<Held>(addressOf(slug, path), { ...chosenOf(held), ...touched });
-    },
+    mutationFn: (touched: Partial<Chosen>) => api.put<Held>(addressOf(slug, path), touched),
     onSuccess: (held) => {
       queries.setQueryData(keys.setting(slug, path), held);
       notifications.show({ message: saved });

@@ -72,6 +72,14 @@ def test_an_admin_chooses_times_and_nobody_chooses_nonsense() -> None:
     assert Keeping.objects.values_list("runs_days", "rehearsals_days", "calls_days").get() == (90, None, 0)
 
 
+def test_what_two_admins_choose_of_each_other_stays_and_a_whole_choice_is_taken_too() -> None:
+    one, other = signed_in("admin"), signed_in("admin")
+    one.put(ADDRESS, {"runs": 90, "rehearsals": None, "calls": 0}, content_type="application/json")
+    one.put(ADDRESS, {"rehearsals": 5}, content_type="application/json")
+    answer = other.put(ADDRESS, {"runs": None}, content_type="application/json")
+    assert [each["chosen"] for each in answer.json()["keeping"]] == [None, 5, 0]
+
+
 def test_a_choice_of_times_is_in_the_record_once_and_a_refused_one_is_not() -> None:
     admin = signed_in("admin")
     chosen = {"runs": 90, "rehearsals": None, "calls": 0}

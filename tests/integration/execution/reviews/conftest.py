@@ -14,7 +14,7 @@ from django.test import Client
 from editor import services as editor
 from editor.documents.shared_document import SharedDocument
 from editor.documents.store import Change, append_changes, load_document
-from editor.reviews.rules import LeastRole, Rule, set_rule
+from editor.reviews.rules import LeastRole, set_rule
 from registry import services as registry
 from tests.kit.programs import SITE, document, step
 from tests.kit.sign_in import add_person, find_person, post_json, signed_in
@@ -37,7 +37,7 @@ class Team:
     program: UUID
 
     def demand(self, approvals: int, least_role: LeastRole = "author") -> None:
-        set_rule(site=SITE, rule=Rule(approvals, least_role))
+        set_rule(site=SITE, approvals=approvals, least_role=least_role)
 
     def draw(self, who: str, seconds: float) -> None:
         """Let somebody make the wait of the program that long."""

@@ -12,7 +12,7 @@ from pytest_django import DjangoDbBlocker
 
 from editor import services as editor
 from editor.errors import NotApproved
-from editor.reviews.rules import Rule, set_rule
+from editor.reviews.rules import Rule, get_rule, set_rule
 from execution import services
 from execution.models import Run
 from execution.runs.programs import prepare
@@ -82,7 +82,17 @@ def withdraw(team: Team) -> None:
 
 
 def demand_more(team: Team) -> None:
-    set_rule(site=SITE, rule=Rule(2))
+    set_rule(site=SITE, approvals=2)
+
+
+def test_two_admins_who_choose_a_part_of_the_rule_at_once_turn_nothing_back(
+    team: Team, aside: Callable[[Callable[[], Any]], Future[Any]]
+) -> None:
+    with transaction.atomic():
+        set_rule(site=SITE, approvals=2)
+        choosing = aside(lambda: set_rule(site=SITE, least_role="admin"))
+        wait_for("the other waits", one_waits)
+    assert choosing.result(60) == get_rule(site=SITE) == Rule(2, "admin")
 
 
 @pytest.mark.parametrize("change", [withdraw, demand_more], ids=lambda change: change.__name__)
