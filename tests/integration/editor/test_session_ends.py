@@ -20,7 +20,7 @@ from tests.kit.files import ROOT
 from tests.kit.processes.forked import run_forked
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis
-from tests.kit.waiting import PATIENCE_S
+from tests.kit.waiting import PATIENCE_S, wait_for
 from tests.kit.web import Web, environment, prepare
 
 WITHIN = 3
@@ -301,6 +301,7 @@ async def test_an_author_who_becomes_a_viewer_reads_on_and_draws_no_more(form: F
     ):
         reading = asyncio.create_task(read_socket(drawing, beat))
         await drawing.send(yjs_protocol.encode_step_2(step("before")))
+        await asyncio.to_thread(wait_for, "the author's step", lambda: kept_steps(web, program))
         await asyncio.to_thread(form.account, "lowered", "--site", "hall", "--role", "viewer")
         await beat.wait(WITHIN)
         await drawing.send(yjs_protocol.encode_update(step("after")))
