@@ -19,10 +19,11 @@ const down = (from: number, to: number) => Array.from({ length: from - to + 1 },
 
 /** A site with the runs from 1 to `site.runs`, which the server gives in parts. */
 function serve(runs: number) {
-  const site = { runs };
+  const site = { runs, asked: 0 };
   vi.stubGlobal("fetch", (address: string) => {
     const { pathname, searchParams } = new URL(address, "http://vipo");
     if (pathname !== "/api/sites/hall/runs") return Promise.resolve(new Response("{}", { status: 404 }));
+    site.asked += 1;
     const newest = Number(searchParams.get("before") ?? site.runs + 1) - 1;
     const oldest = Math.max(1, newest - PART + 1);
     const next = `</api/sites/hall/runs?limit=${PART}&before=${oldest}>; rel="next"`;
@@ -58,7 +59,23 @@ test("no run is missing after more than a part of them while nobody heard of it"
   await shows(down(120, 21), true);
   site.runs = 230;
   act(() => feed.take({ type: "hello", site: "hall" }));
-  await shows(down(230, 1), false); // on from the newest until it meets what was shown, in parts of 50
+  await shows(down(230, 131), true); // as many parts as were asked for
+  await showOlder();
+  await showOlder();
+  await shows(down(230, 31), true);
+});
+
+test("a list that nobody went down in stays one part, however many runs begin while it is open", async () => {
+  const site = serve(120);
+  const { feed, shows } = open();
+  await shows(down(120, 71), true);
+  for (const runs of [420, 1020]) {
+    [site.runs, site.asked] = [runs, 0];
+    act(() => feed.take({ type: "hello", site: "hall" }));
+    await shows(down(runs, runs - 49), true);
+    await new Promise((done) => setTimeout(done, 50));
+    expect(site.asked).toBe(2); // the newest, and the part
+  }
 });
 
 test("news of an old run leave no gap before it", async () => {
