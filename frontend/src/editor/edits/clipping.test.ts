@@ -1,6 +1,14 @@
 import { expect, test } from "vitest";
-import { EMPTY_DOCUMENT, type ProgramDocument, type Step, type Value, type Zone } from "@/program/document/document";
+import {
+  EMPTY_DOCUMENT,
+  type ProgramDocument,
+  type Role,
+  type Step,
+  type Value,
+  type Zone,
+} from "@/program/document/document";
 import { PROGRAM } from "@/program/document/tree";
+import { roleOfStep } from "@/program/operation";
 import { clip, clippingFromText, clippingToText, paste } from "./clipping";
 import { applyEdits } from "./edits";
 import { endOfBranch } from "./joints";
@@ -56,13 +64,72 @@ test("pasted steps keep their robot, and those of the program keep theirs", () =
   expect(again.params).toEqual([{ role: id, to: { place: "dock" } }]);
 });
 
-test("a program whose steps have no robot yet takes the pasted one's as its own, and one that has a robot keeps it", () => {
+test("a program whose steps have no robot yet takes the pasted one's as its own", () => {
   const { document, params } = pasted(bound, ["go"], EMPTY_DOCUMENT);
   expect(document.roles).toEqual(bound.roles);
   expect(params).toEqual([{ to: { place: "dock" } }]);
-  const own = pasted(bound, ["go"], { ...driving, roles: { robot: { name: "Robot", device: "robot02" } } });
-  expect(own.document.roles).toEqual({ robot: { name: "Robot", device: "robot02" } });
   expect(pasted(bound, ["go"], { ...bound, roles: {} }, "a").document.roles).toEqual({});
+});
+
+/** The robots that drive the steps of a program, by the steps' ids. */
+function robotsOf({ roles, steps }: ProgramDocument) {
+  return Object.fromEntries(Object.entries(steps).map(([id, step]) => [id, roles[roleOfStep(step) ?? ""]?.device]));
+}
+
+const byRobot01: Role = { name: "Robot", device: "robot01" };
+const mover: Role = { name: "Mover", can: ["move"] };
+const onLoad: Role = {
+  name: "On load",
+  can: [],
+  where: { op: ">", args: [{ property: [{ role: "r1" }, "load"] }, 0] },
+};
+
+test.each<[what: string, own: ProgramDocument["roles"], after: string[]]>([
+  ["a role that is not bound", { r1: mover }, ["r1", "new"]],
+  ["a role that is bound to another robot", { r1: { name: "Robot", device: "robot02" } }, ["r1", "new"]],
+  ["a role that any robot may have", { r1: { name: "Robot", can: [] } }, ["r1", "new"]],
+  ["the role with another name", { r1: { name: "First", device: "robot01" } }, ["r1"]],
+  ["a role of the same robot under another id", { r1: mover, r2: byRobot01 }, ["r1", "r2"]],
+  ["nothing, though steps name it", {}, ["new"]],
+])("a pasted step drives its robot where another program has under its role's id %s", (_, own, after) => {
+  for (const role of ["robot", "r1"]) {
+    const as = (id: string) => (id === "r1" ? role : id);
+    const roles = Object.fromEntries(Object.entries(own).map(([id, value]) => [as(id), value]));
+    const drive = (place: string) => at("move", first, { ...(role === "robot" ? {} : { role }), to: { place } });
+    const source = { ...EMPTY_DOCUMENT, roles: { [role]: byRobot01 }, steps: { go: drive("dock") } };
+    const target = { ...EMPTY_DOCUMENT, roles, steps: { t: drive("lab") } };
+    const { document } = pasted(source, ["go"], target);
+    expect(robotsOf(document)).toEqual({ ...robotsOf(target), new1_1: "robot01" });
+    expect(document.steps.t).toEqual(target.steps.t);
+    expect(Object.keys(document.roles).map((id) => (id.startsWith("new") ? "new" : id))).toEqual(after.map(as));
+    expect(pasted(source, ["go"], document).document.roles).toEqual(document.roles);
+  }
+});
+
+test("steps pasted into a copy of their program, which has the same ids, drive their robot whatever it has been bound to", () => {
+  const copy = { ...bound, roles: { robot: { name: "Robot", device: "robot02" } } };
+  const { document } = pasted(bound, ["go"], copy);
+  expect(robotsOf(document)).toMatchObject({ go: "robot02", honk: "robot02", new3_1: "robot01" });
+  expect(pasted(bound, ["go"], bound).document.roles).toEqual(bound.roles);
+});
+
+test("in their own program pasted steps have their role as it is now", () => {
+  const now = { ...bound, roles: { robot: { name: "Robot", device: "robot02" } } };
+  const { document } = pasted(bound, ["go"], now, "a");
+  expect([document.roles, robotsOf(document).new3_1]).toEqual([now.roles, "robot02"]);
+});
+
+test("a role that is not bound comes in once, also where its condition names it", () => {
+  const source = (role: Role) => ({
+    ...EMPTY_DOCUMENT,
+    roles: { r1: role },
+    steps: { go: at("move", first, { role: "r1", to: { place: "dock" } }) },
+  });
+  for (const role of [mover, onLoad]) {
+    const { document } = pasted(source(role), ["go"], source({ name: "Carrier", can: ["pick"] }));
+    expect(Object.keys(document.roles)).toHaveLength(2);
+    expect(pasted(source(role), ["go"], document).document.roles).toEqual(document.roles);
+  }
 });
 
 test("the condition of a role that gets another id names the role itself", () => {
@@ -106,6 +173,15 @@ test("a zone comes under another id where another program has that id for anothe
   expect(params[2]?.args).toEqual({ zone: "z1" });
   const again = pasted(cleaning, ["cover"], document);
   expect([again.document.zones, again.params[0]?.zone]).toEqual([document.zones, id]);
+});
+
+test("a zone is not taken for another one that only its id is left of, and stays where it is alike", () => {
+  const dangling = { ...cleaning, zones: {}, functions: {}, steps: { t: at("cover", first, { zone: "z1" }) } };
+  const { document, params } = pasted(cleaning, ["cover"], dangling);
+  const id = String(params[0]?.zone);
+  expect([id === "z1", document.zones]).toEqual([false, { [id]: hall }]);
+  const alike = pasted(cleaning, ["cover"], { ...EMPTY_DOCUMENT, zones: { z3: hall, z1: hall } });
+  expect([alike.document.zones, alike.params[0]?.zone]).toEqual([{ z3: hall, z1: hall }, "z1"]);
 });
 
 test("in their own program pasted steps mean the zone as it is now", () => {

@@ -187,17 +187,18 @@ function companyOf(
   own: boolean,
   makeId: MakeId,
 ): Company {
-  const isTaken = (id: string) => id === DEFAULT_ROLE && isNamed(document, id);
   const roles = meeting<Role>(namedOf(clipping.roles, brought, "role"), document.roles, makeId, {
-    stays: (id) => id in document.roles || (own && isTaken(id)),
-    isTaken,
+    // Every program has the usual role, though it says nothing of it: there it is that of the steps that have it.
+    stays: (id) => own && (id in document.roles || (id === DEFAULT_ROLE && isNamed(document, id, "role"))),
+    isTaken: (id) => id in document.roles || (!own && isNamed(document, id, "role")),
     // Of one robot, or of robots that can do and must meet the same.
-    isAlike: (one, other) => (other.device ? one.device === other.device : isSameValue(one, other)),
+    isAlike: ([one, there], [id, role]) =>
+      role.device ? there.device === role.device : isSameValue(there, roleAs(role, id, one)),
   });
   const zones = meeting<Zone>(namedOf(clipping.zones, brought, "zone"), document.zones, makeId, {
-    stays: (id, zone) => id in document.zones && (own || isSameValue(document.zones[id], zone)),
-    isTaken: (id) => id in document.zones,
-    isAlike: isSameValue,
+    stays: (id) => own && id in document.zones,
+    isTaken: (id) => id in document.zones || (!own && isNamed(document, id, "zone")),
+    isAlike: ([, there], [, zone]) => isSameValue(there, zone),
   });
   return {
     edits: [
@@ -208,12 +209,13 @@ function companyOf(
   };
 }
 
+type Named<T> = readonly [id: string, value: T];
 interface Rules<T> {
-  /** What is there under the id is meant. */
-  readonly stays: (id: string, value: T) => boolean;
-  /** Something else has the id. */
+  /** What is there under the id is meant, whatever it is now. */
+  readonly stays: (id: string) => boolean;
+  /** What comes in cannot have the id, unless what is there is alike. */
   readonly isTaken: (id: string) => boolean;
-  readonly isAlike: (one: T, other: T) => boolean;
+  readonly isAlike: (there: Named<T>, wanted: Named<T>) => boolean;
 }
 
 /** What comes in, each with its id before and now, and the ids by which the steps have to name what they named. */
@@ -226,13 +228,23 @@ function meeting<T>(
   const fresh: [string, string, T][] = [];
   const others = new Map<string, string>();
   for (const [id, value] of Object.entries(wanted)) {
-    if (stays(id, value)) continue;
-    const alike = isTaken(id) ? Object.entries(there).find(([, each]) => isAlike(each, value))?.[0] : undefined;
+    if (stays(id)) continue;
+    const alike = isTaken(id) ? alikeTo([id, value], there, isAlike) : undefined;
     const other = alike ?? (isTaken(id) ? makeId() : id);
     if (other !== id) others.set(id, other);
     if (alike === undefined) fresh.push([id, other, value]);
   }
   return { fresh, others };
+}
+
+/** The id of what is there and alike: the same id, if that is. */
+function alikeTo<T>(
+  wanted: Named<T>,
+  there: Readonly<Record<string, T>>,
+  isAlike: Rules<T>["isAlike"],
+): string | undefined {
+  const alike = Object.entries(there).flatMap((each) => (isAlike(each, wanted) ? [each[0]] : []));
+  return alike.find((id) => id === wanted[0]) ?? alike[0];
 }
 
 /** The role under another id, which its own condition names, too. */
@@ -241,9 +253,8 @@ function roleAs(role: Role, id: string, other: string): Role {
   return withIds({ ...role, name: role.name ?? id }, (each) => (each === id ? other : each)) as Role;
 }
 
-/** Every program has the usual role, though it says nothing of it: it is taken by the steps that have it. */
-function isNamed(document: ProgramDocument, role: string): boolean {
-  return Object.values(document.steps).some((step) => idsNamedBy(step, "role").has(role));
+function isNamed(document: ProgramDocument, id: string, key: "role" | "zone"): boolean {
+  return Object.values(document.steps).some((step) => idsNamedBy(step, key).has(id));
 }
 
 function withOthers(step: Step, others: Others): Step {
