@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import type { Question, Device, RunEvent, RunSummary } from "@/api/types";
+import type { Question, Device, RunEvent, RunStatus, RunSummary } from "@/api/types";
 import {
   applyChanges,
   applyChecked,
@@ -8,6 +8,7 @@ import {
   applyRehearsal,
   applyRun,
   applyRunEvent,
+  isOpen,
   isUrgent,
   joinChanges,
 } from "./messages";
@@ -112,4 +113,9 @@ test("how far a rehearsal is never jumps back, except where it is begun anew", (
   expect(applyRehearsal(shown, told(0.4))).toBe(shown);
   expect(applyRehearsal(shown, told(0, 1, "queued"))).toEqual({ ...shown, status: "queued", progress: 0 });
   expect(applyRehearsal(shown, told(0.1, 2)).progress).toBe(0.1);
+});
+
+test("a run is not over while it waits, runs or is paused", () => {
+  const statuses: RunStatus[] = ["pending", "running", "paused", "finished", "failed", "cancelled"];
+  expect(statuses.filter((status) => isOpen({ status } as RunSummary))).toEqual(["pending", "running", "paused"]);
 });

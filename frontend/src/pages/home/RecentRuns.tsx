@@ -6,8 +6,9 @@ import { Panel } from "@/design/Panel";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { formatAgo, formatSpan } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
+import { isOpen } from "@/live/messages";
 import { isPlanned } from "@/run/terms";
-import { isOpen, secondsOfRun, statusOfRun, stepsDone } from "../runs/runStatus";
+import { secondsOfRun, statusOfRun, stepsDone } from "../runs/runStatus";
 import { useNow } from "@/design/useNow";
 import styles from "./home.module.css";
 

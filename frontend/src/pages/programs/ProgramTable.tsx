@@ -7,10 +7,11 @@ import { ArmSwitch } from "@/shell/ArmSwitch";
 import { Avatar } from "@/design/Avatar";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatAgo } from "@/i18n/format";
+import { isOpen } from "@/live/messages";
 import { StepIcons } from "@/program/StepIcons";
 import styles from "../pages.module.css";
 import { nameOf } from "../people";
-import { isOpen, joinRuns, lastRuns, statusOfRun } from "../runs/runStatus";
+import { joinRuns, lastRuns, statusOfRun } from "../runs/runStatus";
 import { ProgramActions } from "./ProgramActions";
 import { useNow } from "@/design/useNow";
 

@@ -4,6 +4,7 @@ import { Link, useParams } from "react-router-dom";
 import { Button } from "@mantine/core";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
+import { useOpenRuns } from "@/api/queries";
 import type { RunSummary } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { EmptyState } from "@/design/EmptyState";
@@ -11,11 +12,12 @@ import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatAgo, formatSpan } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
+import { isOpen } from "@/live/messages";
 import { RunTerms } from "@/run/RunTerms";
 import { isPlanned } from "@/run/terms";
 import styles from "../pages.module.css";
 import { nameOf } from "../people";
-import { isOpen, secondsOfRun, statusOfRun, stepsDone, underWay } from "./runStatus";
+import { secondsOfRun, statusOfRun, stepsDone, underWay } from "./runStatus";
 import { TableSkeleton } from "../TableSkeleton";
 import { useShownRuns } from "./useShownRuns";
 import { useNow } from "@/design/useNow";
@@ -87,7 +89,7 @@ function RunsOfSite({ slug }: { slug: string }) {
   const { runs, shown, parts } = useShownRuns(slug);
   const again = () => void (parts.isFetchNextPageError ? parts.fetchNextPage() : parts.refetch());
   const now = useNow(15_000);
-  const open = underWay(runs.data ?? [], now).length;
+  const open = underWay(useOpenRuns(slug).data ?? [], now).length;
   return (
     <PageShell
       title={t("shell.nav.runs")}

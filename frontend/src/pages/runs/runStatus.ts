@@ -17,11 +17,9 @@ export function statusOfRun(run: RunSummary): StatusName {
   return STATUS[run.status] ?? "idle";
 }
 
-export { isOpen };
-
-/** Those that are not over and do not wait for their time; `now` in milliseconds since 1970. */
-export function underWay(runs: readonly RunSummary[], now: number): RunSummary[] {
-  return runs.filter((run) => isOpen(run) && !isPlanned(run, now));
+/** Of the runs that are not over those that do not wait for their time; `now` in milliseconds since 1970. */
+export function underWay(open: readonly RunSummary[], now: number): RunSummary[] {
+  return open.filter((run) => !isPlanned(run, now));
 }
 
 /** How many steps are done; a list knows only of those that have begun, so not of how many. */

@@ -9,7 +9,7 @@ import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
 import { useFreshUses } from "../useFreshUses";
 import { isGone } from "../useRemovedMeanwhile";
-import { planned, underWay } from "../zones/uses";
+import { begun, planned } from "../zones/uses";
 import styles from "./places.module.css";
 
 /** The programs of a site that name the place; null until that is known. */
@@ -21,7 +21,7 @@ export function PlaceUses({ slug, place }: { slug: string; place: string }) {
   const { t } = useTranslation();
   useFreshUses(slug);
   const uses = usePlaceUses(slug, place);
-  const runs = underWay(useOpenRuns(slug).data ?? [], uses ?? []);
+  const runs = begun(useOpenRuns(slug).data ?? [], uses ?? []);
   if (uses === null) return null;
   if (uses.length === 0) return <p className={styles.quiet}>{t("place.unused")}</p>;
   return (

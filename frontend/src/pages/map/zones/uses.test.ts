@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { Program, RunSummary } from "@/api/types";
-import { planned, underWay } from "./uses";
+import { begun, planned } from "./uses";
 
 const PROGRAMS = [{ id: "paint" }] as Program[];
 
@@ -9,17 +9,15 @@ function run(number: number, status: string, began: string | null, program = "pa
 }
 
 const RUNS = [
-  run(1, "finished", "2026-11-29T08:00:00Z"),
   run(2, "running", "2026-11-29T08:00:00Z"),
   run(3, "paused", "2026-11-29T08:00:00Z"),
   run(4, "running", "2026-11-29T08:00:00Z", "another"),
   run(5, "pending", null),
   run(6, "paused", null),
-  run(7, "cancelled", null),
 ];
 
-test("runs that have begun and are not over are under way", () => {
-  expect(underWay(RUNS, PROGRAMS).map(({ number }) => number)).toEqual([2, 3]);
+test("of the runs that are not over those that have begun are under way", () => {
+  expect(begun(RUNS, PROGRAMS).map(({ number }) => number)).toEqual([2, 3]);
 });
 
 test("runs that wait for their time have not begun, also those that are paused until then", () => {

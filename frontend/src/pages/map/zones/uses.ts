@@ -1,6 +1,5 @@
 /** Whom a zone concerns: what stands in it, the programs that go there, and their runs under way; pure. */
 import type { Device, MapPlace, MapZone, Program, RunSummary } from "@/api/types";
-import { isOpen } from "@/live/messages";
 import { footprint } from "@/map/devices/device";
 import { PIXELS_PER_METRE, type Point } from "@/map/plane/projection";
 import { holds } from "./outline";
@@ -19,6 +18,7 @@ interface Known {
   readonly places: readonly MapPlace[];
   readonly devices: readonly Device[];
   readonly programs: readonly Program[];
+  /** Those that are not over. */
   readonly runs: readonly RunSummary[];
 }
 
@@ -31,19 +31,19 @@ export function usesOf({ points }: Pick<MapZone, "points">, known: Known): ZoneU
   const programs = known.programs.filter((program) =>
     [...program.places, ...program.devices].some((each) => names.has(each)),
   );
-  return { places, machines, programs, runs: underWay(known.runs, programs) };
+  return { places, machines, programs, runs: begun(known.runs, programs) };
 }
 
-/** The runs of these programs that are under way. */
-export const underWay = (runs: readonly RunSummary[], programs: readonly Program[]): RunSummary[] =>
-  openRuns(runs, programs).filter(({ started_at: began }) => began !== null);
+/** Of the runs that are not over those of these programs that have begun. */
+export const begun = (runs: readonly RunSummary[], programs: readonly Program[]): RunSummary[] =>
+  runsOf(runs, programs).filter(({ started_at: began }) => began !== null);
 
-/** The runs of these programs that have not begun yet. */
+/** Of the runs that are not over those of these programs that have not begun yet. */
 export const planned = (runs: readonly RunSummary[], programs: readonly Program[]): RunSummary[] =>
-  openRuns(runs, programs).filter(({ started_at: began }) => began === null);
+  runsOf(runs, programs).filter(({ started_at: began }) => began === null);
 
-const openRuns = (runs: readonly RunSummary[], programs: readonly Program[]) =>
-  runs.filter((run) => isOpen(run) && programs.some(({ id }) => id === run.program.id));
+const runsOf = (runs: readonly RunSummary[], programs: readonly Program[]) =>
+  runs.filter(({ program }) => programs.some(({ id }) => id === program.id));
 
 /** A machine's middle, and where robots might stand on each side of it. */
 function around(device: Device): Point[] {
