@@ -27,6 +27,7 @@ from execution.engine.memory import SiteMemory
 from execution.floor.fold import FloorWork, news_of, step_floor
 from execution.floor.layouts import places_to_json
 from execution.floor_protocol import (
+    ResumeAsked,
     RoleFilled,
     TaskEnded,
     ToFloor,
@@ -35,7 +36,7 @@ from execution.floor_protocol import (
     run_message_from_json,
     to_json,
 )
-from execution.machine.messages import CancelAsked
+from execution.machine.messages import CancelAsked, PauseAsked
 from execution.mailbox import run_target, site_target
 from execution.models import Run
 from execution.reasons import SENTENCES
@@ -203,31 +204,29 @@ class Turn:
         """Let a run take messages in; one that raises is set aside, the run is paused in its place."""
         work = self._with_places(work)
         reading = self._facts_reader(work, messages)
-        cancel = next((message for message in messages if isinstance(message, CancelAsked)), None)
-        for _ in range(len(messages) + 2):
+        while True:  # each time round there is one thing less that may raise
             names = self.site.names_of(things_named(messages))
             try:
                 new, told = fold(work, reading, messages, self.now, names)
+                break
             except CannotTakeIn as bad:
                 with bind_ids({"run": work.id}):
                     log.exception("Run %s cannot take something in.", work.id)
                 error = words_of(bad)
-                untold = None if bad.index is None else messages[bad.index]
-                if bad.index is not None and untold is not cancel and untold != pause_for(error):
-                    self._note_dead(run_target(work.id), to_json(messages[bad.index]), error, work.id)
-                    messages[bad.index] = pause_for(error)
-                elif bad.index is None and work.state is not None and reading is not _no_facts:
-                    self._note_dead(run_target(work.id), {"type": "facts"}, error, work.id)
-                    reading, messages = _no_facts, [pause_for(error), *messages]
-                else:
-                    self._settle_by_hand(work, error, cancel)
-                    return
-            else:
-                self.runs[work.id] = new
-                self._for_floor += told
-                if self._begins(new):  # by what it was told; whether its approvals suffice is asked before that
-                    self._for_runs.setdefault(work.id, [])
-                return
+                match bad.what:
+                    case "facts":
+                        self._note_dead(run_target(work.id), {"type": "facts"}, error, work.id)
+                        reading, messages = _no_facts, [pause_for(error), *messages]
+                    case int(index) if not isinstance(messages[index], PauseAsked | CancelAsked):
+                        self._note_dead(run_target(work.id), to_json(messages[index]), error, work.id)
+                        messages[index] = pause_for(error)
+                    case _:
+                        self._settle_by_hand(work, error, messages)
+                        return
+        self.runs[work.id] = new
+        self._for_floor += told
+        if self._begins(new):  # by what it was told; whether its approvals suffice is asked before that
+            self._for_runs.setdefault(work.id, [])
 
     def _with_places(self, work: RunWork) -> RunWork:
         """Return a run that begins now with the places of its site: by these it goes, whatever becomes of them."""
@@ -248,13 +247,20 @@ class Turn:
 
         return read
 
-    def _settle_by_hand(self, work: RunWork, error: str, cancel: CancelAsked | None) -> None:
-        """Pause a run that cannot begin, or whose machine raises whatever it is told; end it if somebody cancels it."""
+    def _settle_by_hand(self, work: RunWork, error: str, messages: Sequence[ToRun]) -> None:
+        """Pause a run that cannot begin, or whose machine raises whatever it is told; end it if somebody cancels it.
+
+        One that is paused has heard none of the messages: all are set aside but orders to pause or resume.
+        """
         new = work.fork()
         journal: Journal | None
+        cancel = next((message for message in messages if isinstance(message, CancelAsked)), None)
         if cancel is not None:
             journal = self._cut_off(new.row, cancel)
         else:
+            for message in messages:
+                if not isinstance(message, PauseAsked | ResumeAsked):  # a retry resumes it, whatever it hands over
+                    self._note_dead(run_target(work.id), to_json(message), error, work.id)
             self._note_dead(run_target(work.id), {"type": "start" if work.state is None else "step"}, error, work.id)
             journal = pause_by_hand(new.row, error, self.now)
         if journal is not None:

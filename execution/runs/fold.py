@@ -6,7 +6,7 @@ import copy
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
-from typing import Any, assert_never
+from typing import Any, Literal, assert_never
 
 from editor.language.plan.instructions import Plan
 from execution.floor_protocol import AskingRun, DeadlinePassed, ToFloor, ToRun, to_floor, to_json, to_machine
@@ -27,11 +27,14 @@ REASON_CHARACTERS = 500
 
 
 class CannotTakeIn(Exception):
-    """A run cannot take something in; `index` says which of the messages, None that it is the facts or the start."""
+    """A run cannot take something in; `what` is the index of a message, or says that it is none of them.
 
-    def __init__(self, index: int | None) -> None:
-        super().__init__(index)
-        self.index = index
+    `pause` is that of its machine, which is to follow the row.
+    """
+
+    def __init__(self, what: int | Literal["start", "facts", "pause"]) -> None:
+        super().__init__(what)
+        self.what = what
 
 
 @dataclass
@@ -149,12 +152,13 @@ def _take_pause(fold: _Fold) -> None:
         _do(fold, actions)
         fold.told.append(RunPaused(work.id))
     except Exception as error:
-        raise CannotTakeIn(None) from error
+        raise CannotTakeIn("pause") from error
 
 
 def _take_facts(fold: _Fold, facts: Callable[[], Facts]) -> None:
     """Begin the run, or take in what readings are news."""
     work = fold.work
+    begins = work.state is None
     try:
         known = facts()
         if work.state is None:
@@ -170,7 +174,7 @@ def _take_facts(fold: _Fold, facts: Callable[[], Facts]) -> None:
             work.inputs.append({"facts": _listed(news)})
             _tell(fold, r.Facts(news))
     except Exception as error:
-        raise CannotTakeIn(None) from error
+        raise CannotTakeIn("start" if begins else "facts") from error
 
 
 def _listed(facts: Facts) -> list[list[Scalar]]:

@@ -18,6 +18,7 @@ from vipo_device.kit.log_ids import bound_ids
 
 pytestmark = pytest.mark.django_db(transaction=True)
 NOW = "2026-01-01T00:00Z"
+ODD_ZONE = {"id": ["no", "id"], "name": "Odd", "rule": "", "points": [], "speed_m_s": None}
 
 
 @pytest.fixture(autouse=True)
@@ -125,6 +126,36 @@ def test_a_run_that_is_cancelled_when_it_is_found_unreadable_is_over():
     assert (row(run).status, [letter.event for letter in services.list_dead_letters(site=SITE)]) == (
         "cancelled", [{"type": "plan"}],
     )  # fmt: skip
+
+
+def test_what_a_run_is_told_whose_machine_raises_at_everything_is_handed_over_once_that_is_mended():
+    run = start(heating(1))
+    drive.advance_site(SITE)
+    plan = row(run).plan
+    Run.objects.filter(id=run).update(plan={**plan, "zones": [ODD_ZONE]})
+    drive.forget_all()
+    services.pause_run(run_id=run, by="Ada")
+    drive.advance_site(SITE)
+    answer_open(run)
+    drive.advance_site(SITE)
+    letters = services.list_dead_letters(site=SITE)[::-1]
+    types = [letter.event["type"] for letter in letters]
+    assert types == ["step", "answer", "step", "mission_over", "step"]
+    assert {letter.error for letter in letters} == {"TypeError: unhashable type: 'list'"}
+    Run.objects.filter(id=run).update(plan=plan)
+    drive.forget_all()
+    services.retry_dead_letter(letter_id=letters[3].id, by="Ada")
+    drive.advance_site(SITE)
+    assert (row(run).status, len(told(run))) == ("finished", 1)
+
+
+def test_what_a_run_is_told_that_cannot_begin_is_set_aside_beside_its_start():
+    run = start(heating(1))
+    Run.objects.filter(id=run).update(parameters=5)
+    put(f"run:{run}", {"type": "deadline"})
+    drive.advance_site(SITE)
+    letters = services.list_dead_letters(site=SITE)[::-1]
+    assert [letter.event for letter in letters] == [{"type": "deadline"}, {"type": "start"}]
 
 
 def test_a_run_that_is_cancelled_past_its_machine_asks_nothing_more_and_waits_for_nothing():
