@@ -171,6 +171,18 @@ test.each([4403, 4404])("who is no member any more (%s) is told so, and nothing 
   ]);
 });
 
+test.each(["me", "sites", "library"])("a site called %s takes no cache along that has its name", async (slug) => {
+  await show(slug);
+  for (const key of [keys.site(slug), keys.programs(slug), [slug], [slug, "carry", "", false]])
+    queries.setQueryData(key, []);
+  lineOf(slug).onclose?.({ code: 4403 });
+  expect([[slug], [slug, "carry", "", false], keys.programs(slug)].map((key) => queries.getQueryData(key))).toEqual([
+    [],
+    [],
+    undefined,
+  ]);
+});
+
 test("who is a member again is let in by the next page of the site", async () => {
   const change = await show("a");
   queries.setQueryData(keys.site("a"), { slug: "a", stop: null });

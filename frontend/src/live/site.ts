@@ -128,10 +128,10 @@ function begin(slug: string, queries: QueryClient): Session {
 /** What an open program stands on: whoever has drawn in it takes their version along from there. */
 const STANDS_ON = ["site", "devices", "map"];
 
-/** Remove what is known of a site; what is on the screen goes with it. */
+/** Remove what is known of a site; what is on the screen goes with it. A key begins with the name of its cache. */
 function forgetSite(slug: string, queries: QueryClient): void {
   queries.removeQueries({
-    predicate: ({ queryKey }) => queryKey.includes(slug) && !STANDS_ON.includes(String(queryKey[0])),
+    predicate: ({ queryKey }) => queryKey.indexOf(slug) > 0 && !STANDS_ON.includes(String(queryKey[0])),
   });
   void queries.invalidateQueries({ queryKey: keys.sites });
 }

@@ -27,16 +27,19 @@ beforeEach(async () => {
   await startI18n();
 });
 afterEach(() => {
+  vi.useRealTimers();
   cleanup();
   forgetLive(false);
 });
+
+const siteOf = (slug: string) => ({ slug, name: "Hall", role: "admin", stop: { active: false } });
 
 /** A page of a site with all that its bars ask for, while its line is live. */
 async function openPage(slug: string) {
   const { PageShell } = await import("./PageShell"); // the theme asks for the window's when it is loaded
   const queries = makeQueryClient();
   queries.setQueryData(keys.me, { csrf: "", demo_accounts: [], user: { id: 1, name: "Anna", initials: "A" } });
-  queries.setQueryData(keys.site(slug), { slug, name: "Hall", role: "admin", stop: { active: false } });
+  queries.setQueryData(keys.site(slug), siteOf(slug));
   const element = <PageShell title="People">Carla</PageShell>;
   const router = createMemoryRouter([{ path: "/sites/:slug", element }], { initialEntries: [`/sites/${slug}`] });
   render(
@@ -55,6 +58,22 @@ test("the page of a site closes when its member is removed, and says why", async
   act(() => Line.all[0]?.onclose?.({ code: 4403 }));
   expect(screen.getByRole("main").textContent).toContain("You are no member of this site any more");
   expect(screen.getByRole("main").textContent).not.toContain("Carla");
+});
+
+test("after that the page asks nothing more about the site", async () => {
+  vi.useFakeTimers({ toFake: ["setInterval", "setTimeout", "clearInterval", "clearTimeout", "Date"] });
+  const asked: string[] = [];
+  vi.stubGlobal("fetch", (path: string) => {
+    asked.push(path);
+    return Promise.resolve(Response.json(path === "/api/sites/barn" ? siteOf("barn") : []));
+  });
+  await openPage("barn");
+  await act(() => vi.advanceTimersByTimeAsync(12_000));
+  expect(asked.filter((path) => path === "/api/sites/barn/findings")).toHaveLength(3);
+  asked.length = 0;
+  act(() => Line.all[0]?.onclose?.({ code: 4403 }));
+  await act(() => vi.advanceTimersByTimeAsync(60_000));
+  expect(asked).toEqual(["/api/sites"]);
 });
 
 test("a page of which too many are open stays, and says that it is told nothing new", async () => {

@@ -1,8 +1,6 @@
 /** The frame of the management pages: side bar, title bar with Stop all, page, and a pane for details. */
 import { useEffect, type ReactNode } from "react";
-import { useParams } from "react-router-dom";
 import { useSiteLive } from "@/live/site";
-import { useLiveStore } from "@/live/store";
 import { LateBell } from "./admissions/LateBell";
 import { AlertsBell } from "./alerts/AlertsBell";
 import { ConnectionStrip } from "./ConnectionStrip";
@@ -27,9 +25,8 @@ interface PageShellProps {
 }
 
 export function PageShell({ title, chips, actions, detail, children }: PageShellProps) {
-  const { slug } = useCurrentSite();
-  const { slug: named } = useParams();
-  const isClosed = useLiveStore((state) => state.connection === "refused" && state.site === named);
+  const { slug, open } = useCurrentSite();
+  const isClosed = open !== slug;
   useSiteLive(slug);
   useEffect(() => {
     document.title = `${title} · VIPO`;
@@ -43,15 +40,15 @@ export function PageShell({ title, chips, actions, detail, children }: PageShell
           <div className={styles.chips}>{isClosed ? null : chips}</div>
           <div className={styles.spring} />
           <div className={styles.actions}>{isClosed ? null : actions}</div>
-          {slug ? <QuestionsBell slug={slug} /> : null}
-          {slug ? <LateBell slug={slug} /> : null}
-          {slug ? <ReviewsBell slug={slug} /> : null}
-          {slug ? <AlertsBell slug={slug} /> : null}
-          {slug ? <StopAllButton slug={slug} /> : null}
+          {open ? <QuestionsBell slug={open} /> : null}
+          {open ? <LateBell slug={open} /> : null}
+          {open ? <ReviewsBell slug={open} /> : null}
+          {open ? <AlertsBell slug={open} /> : null}
+          {open ? <StopAllButton slug={open} /> : null}
         </div>
-        {slug && !isClosed ? <ConnectionStrip slug={slug} /> : null}
-        {slug ? <FindingsStrip slug={slug} /> : null}
-        {slug ? <FactorStrip slug={slug} /> : null}
+        {open ? <ConnectionStrip slug={open} /> : null}
+        {open ? <FindingsStrip slug={open} /> : null}
+        {open ? <FactorStrip slug={open} /> : null}
       </header>
       <main className={styles.page}>{isClosed ? <NoMember /> : children}</main>
       {detail && !isClosed ? <div className={styles.detail}>{detail}</div> : null}

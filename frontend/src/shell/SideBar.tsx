@@ -35,9 +35,17 @@ function Entry({ to, icon: Icon, label, count, news, end }: EntryProps) {
   );
 }
 
-function SiteEntries({ slug, pending, role }: { slug: string; pending: number; role: Role | undefined }) {
+interface SiteEntriesProps {
+  slug: string;
+  /** The site, if it may be asked. */
+  open: string | undefined;
+  pending: number;
+  role: Role | undefined;
+}
+
+function SiteEntries({ slug, open, pending, role }: SiteEntriesProps) {
   const { t } = useTranslation();
-  const programs = usePrograms(slug).data?.length;
+  const programs = usePrograms(open).data?.length;
   const at = (page: string) => `/sites/${slug}/${page}`;
   return (
     <>
@@ -58,7 +66,7 @@ function SiteEntries({ slug, pending, role }: { slug: string; pending: number; r
 
 export function SideBar() {
   const { t } = useTranslation();
-  const { slug, site, sites } = useCurrentSite();
+  const { slug, open, site, sites } = useCurrentSite();
   return (
     <aside className={styles.side}>
       <Link to="/" className={styles.brand} aria-label={t("shell.brandHome")}>
@@ -66,11 +74,11 @@ export function SideBar() {
         <span className={styles.word}>VIPO</span>
       </Link>
       <SiteSwitch site={site} sites={sites} />
-      <PaletteButton slug={slug} />
+      <PaletteButton slug={open} />
       <nav aria-label={t("shell.nav.pages")}>
         <ul className={styles.entries}>
           <Entry to="/" end icon={LayoutGrid} label={t("shell.nav.home")} />
-          {slug ? <SiteEntries slug={slug} pending={site?.pending ?? 0} role={site?.role} /> : null}
+          {slug ? <SiteEntries slug={slug} open={open} pending={site?.pending ?? 0} role={site?.role} /> : null}
         </ul>
       </nav>
       {slug ? (

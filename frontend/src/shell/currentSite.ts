@@ -3,6 +3,7 @@ import { useEffect } from "react";
 import { useParams } from "react-router-dom";
 import { useSite, useSites } from "@/api/queries";
 import type { Site } from "@/api/types";
+import { useLiveStore } from "@/live/store";
 
 const KEPT_AS = "vipo.site";
 
@@ -11,14 +12,23 @@ export function keepSite(slug: string): void {
   localStorage.setItem(KEPT_AS, slug);
 }
 
-export function useCurrentSite(): { slug: string | undefined; site: Site | undefined; sites: Site[] } {
+interface CurrentSite {
+  slug: string | undefined;
+  /** The same, for what asks about the site: undefined once this person was told that they are no member any more. */
+  open: string | undefined;
+  site: Site | undefined;
+  sites: Site[];
+}
+
+export function useCurrentSite(): CurrentSite {
   const named = useParams().slug;
   const sites = useSites().data ?? [];
   const kept = localStorage.getItem(KEPT_AS);
   const slug = named ?? (sites.find((each) => each.slug === kept) ?? sites[0])?.slug;
   const site = useSite(slug).data ?? sites.find((each) => each.slug === slug);
+  const isClosed = useLiveStore((state) => state.connection === "refused" && state.site === named);
   useEffect(() => {
     if (slug) keepSite(slug);
   }, [slug]);
-  return { slug, site, sites };
+  return { slug, open: isClosed ? undefined : slug, site, sites };
 }
