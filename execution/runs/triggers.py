@@ -8,7 +8,7 @@ from dataclasses import asdict
 from datetime import UTC, datetime
 from uuid import UUID
 
-from django.db import DatabaseError, InterfaceError, transaction
+from django.db import transaction
 
 from editor import services as editor
 from editor.language import plan_from_json
@@ -99,30 +99,30 @@ def start_armed(*, now: datetime) -> int:
     """
     rows = list(ArmedProgram.objects.select_related("site"))
     there = editor.keep_existing(program_ids=[row.program for row in rows]) if rows else frozenset()
-    for row in rows:
-        if row.program not in there:
-            _disarm(row)
-    return sum(_look_apart(row, now) for row in rows if row.program in there)
+    return sum(_look_apart(row, now, is_there=row.program in there) for row in rows)
 
 
-def _look_apart(row: ArmedProgram, now: datetime) -> bool:
-    """Look at one armed program; what that raises keeps no other from its turn."""
+def _look_apart(row: ArmedProgram, now: datetime, *, is_there: bool) -> bool:
+    """Look at one armed program, or disarm it; what that raises keeps no other from its turn."""
     with database.kept_apart(f"The armed program {row.program}"):
-        return _look_at(row, now)
+        if is_there:
+            return _look_at(row, now)
+        _disarm(row)
     return False
 
 
 def _look_at(row: ArmedProgram, now: datetime) -> bool:
-    """Start a run if a condition has become true; of several processes that see it one does."""
+    """Start a run if a condition has become true; of several processes that see it one does.
+
+    One that cannot be read is disarmed; what looking at the site raises may pass, so it stays armed.
+    """
     try:
         plan, prepared = _plan(row), Prepared(**{**row.prepared, "program": row.program})
-        truths = _look(plan, _facts(plan, row.site.slug, now))
-    except (DatabaseError, InterfaceError):
-        raise
     except Exception:  # it was armed by another version of VIPO, say: it would never start, and nobody would know
         log.exception("The armed program %s cannot be read and is disarmed.", row.program)
         _disarm(row, "armed_run_unreadable")
         return False
+    truths = _look(plan, _facts(plan, row.site.slug, now))
     if truths == row.truths:
         return False
     due = next((e for number, e in _starters(plan) if truths[str(number)] and not row.truths.get(str(number))), None)

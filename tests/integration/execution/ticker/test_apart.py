@@ -59,6 +59,36 @@ def test_an_armed_program_that_cannot_be_read_is_disarmed_alone_and_the_record_s
     assert line.facts == {"program": "Odd", "by": "Ada"}
 
 
+def test_an_armed_program_stays_armed_while_what_it_looks_at_cannot_be_read(factory: Any) -> None:
+    heat_oven(20)
+    program = arm("Good")
+    Device.objects.filter(id=OVEN).update(properties=["no", "object"])
+    Ticker("a").tick(database.now())
+    assert [armed.program for armed in services.list_armed(site=SITE)] == [program]
+    assert not AuditLine.objects.filter(code="armed_run_unreadable").exists()
+    heat_oven(90)
+    Ticker("a").tick(database.now())
+    assert [run.program for run in Run.objects.all()] == [program]
+
+
+def test_a_deleted_program_that_cannot_be_disarmed_keeps_no_other_from_starting(factory: Any) -> None:
+    heat_oven(20)
+    gone, good = arm("Gone"), arm("Good")
+    editor.delete_program(program_id=gone)
+    heat_oven(90)
+    key = ArmedProgram._meta.get_field("program")
+    with connection.cursor() as cursor:  # stands for what nobody foresees
+        cursor.execute(f"CREATE TABLE holds (armed {key.db_type(connection)} REFERENCES execution_armedprogram)")
+        cursor.execute("INSERT INTO holds VALUES (%s)", [key.get_db_prep_value(gone, connection)])
+    try:
+        assert Ticker("a").tick(database.now())
+    finally:
+        with connection.cursor() as cursor:
+            cursor.execute("DROP TABLE holds")
+    assert [run.program for run in Run.objects.all()] == [good]
+    assert ArmedProgram.objects.count() == 2
+
+
 def test_a_step_of_the_ticker_that_fails_keeps_no_other_from_its_turn(factory: Any) -> None:
     silence()
     with connection.cursor() as cursor:  # stands for what nobody foresees
