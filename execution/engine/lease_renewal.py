@@ -84,7 +84,7 @@ class LeaseRenewal:
         owned = SiteLease.objects.filter(leases.holds()).values("site__slug")
         before = database.now() - timedelta(seconds=WAITS_S)
         left = InboxEvent.objects.filter(taken_at=None, created_at__lt=before).exclude(site="")
-        begin = due_runs(before).exclude(site__slug__in=owned)
+        begin = due_runs(created_before=before, due_by=before).exclude(site__slug__in=owned)
         return left.exclude(site__in=owned).exists() or begin.exists()
 
 

@@ -28,10 +28,13 @@ def may_begin(run: Run, now: datetime) -> bool:
     return run.status == Run.Status.PENDING and (run.not_before is None or run.not_before <= now)
 
 
-def due_runs(before: datetime) -> QuerySet[Run]:
-    """Return the runs that could have begun since before then and have not, since nobody carries out their site."""
-    waiting = Run.objects.filter(status=Run.Status.PENDING, created_at__lt=before)
-    return waiting.filter(Q(not_before=None) | Q(not_before__lte=before))
+def due_runs(*, created_before: datetime, due_by: datetime) -> QuerySet[Run]:
+    """Return the runs of all sites that have not begun though they might.
+
+    They were created before the one time, and what was planned for later was to begin at the other at the latest.
+    """
+    waiting = Run.objects.filter(status=Run.Status.PENDING, created_at__lt=created_before)
+    return waiting.filter(Q(not_before=None) | Q(not_before__lte=due_by))
 
 
 def is_admitted(run: Run) -> bool:

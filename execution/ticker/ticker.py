@@ -12,7 +12,6 @@ from datetime import datetime, timedelta
 from functools import partial
 
 from django.db import DatabaseError, connection, transaction
-from django.db.models import Q
 
 from editor import services as editor
 from execution import database, mailbox
@@ -23,9 +22,10 @@ from execution.floor_protocol import ToFloor, ToRun
 from execution.frozen_sessions import end_frozen_sessions
 from execution.job_lease import JobLease
 from execution.machine.messages import TimerFired
-from execution.models import Run, Timer
+from execution.models import Timer
 from execution.rehearsals.worker import sweep_rehearsals
 from execution.retention.upkeep import ask_for_archiving
+from execution.runs.before_start import due_runs
 from execution.runs.terms import call_late
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
@@ -164,8 +164,8 @@ def _ask_for_tests() -> None:
 
 
 def _hint_pending(now: datetime) -> None:
-    pending = Run.objects.filter(status=Run.Status.PENDING, created_at__lt=now - LOST_AFTER)
-    pending = pending.filter(Q(not_before=None) | Q(not_before__lte=now))
+    """Call the owners of sites for runs whose call was lost, and for those whose time has come."""
+    pending = due_runs(created_before=now - LOST_AFTER, due_by=now)
     for site in pending.values_list("site__slug", flat=True).distinct():
         mailbox.hint_now(site)
 
