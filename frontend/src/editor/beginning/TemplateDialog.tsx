@@ -6,7 +6,6 @@ import { VipoIcon } from "@/design/VipoIcon";
 import { drawPasted } from "../script/pastedScript";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
-import { sayDone } from "../state/undoing";
 import classes from "./beginning.module.css";
 import { TemplatePreview } from "./TemplatePreview";
 import { type Bound, type Chosen, filled, lacking, type Slot, type Template, TEMPLATES } from "./templates";
@@ -125,11 +124,9 @@ function Take({ bound }: { bound: Bound }) {
   const [busy, setBusy] = useState(false);
   const take = async () => {
     setBusy(true);
-    const before = open.shared.getDocument();
-    await drawPasted(open, bound.script, new Map());
+    await drawPasted(open, bound.script, new Map(), t("first.templates.taken"));
     setBusy(false);
     close();
-    if (open.shared.getDocument() !== before) sayDone(open, t("first.templates.taken"));
   };
   return (
     <Button loading={busy} disabled={!open.compiled} onClick={() => void take()} className={classes.take}>

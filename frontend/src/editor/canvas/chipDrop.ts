@@ -11,7 +11,7 @@ import { boxAt, gap, nearestOn } from "@/program/scene/geometry";
 import { START_ID } from "@/program/canvas/buildNodes";
 import type { OpenProgram } from "../state/context";
 import { say } from "../state/ui";
-import { sayDone } from "../state/undoing";
+import { doAndSay } from "../state/undoing";
 
 const ON_LINK = 14;
 const OUTSIDE = 24;
@@ -25,8 +25,10 @@ export function moveChips(open: OpenProgram, moved: readonly MovedNode[]): void 
   edits.push(...carried(open, steps));
   const [only] = steps;
   const dropped = steps.length === 1 && only ? joined(open, only.id, only.pointed) : STAYS;
-  apply([...edits, ...dropped.edits]);
-  if (dropped.done !== undefined) sayDone(open, dropped.done);
+  const drop = () => apply([...edits, ...dropped.edits]);
+  const { done } = dropped;
+  if (done === undefined) drop();
+  else doAndSay(open, drop, () => done);
 }
 
 interface Dropped {

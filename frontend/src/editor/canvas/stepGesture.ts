@@ -17,7 +17,7 @@ import { openEnds } from "../state/freeSpot";
 import { type Landing, useLanding } from "./landing";
 import { askOf, suggestedLoads, suits, withDevice, type Gesture } from "../state/tool";
 import { say, useUi } from "../state/ui";
-import { sayDone } from "../state/undoing";
+import { doAndSay } from "../state/undoing";
 
 export interface Drawing {
   readonly takeDevice: (device: string) => void;
@@ -127,16 +127,18 @@ function useTakeLoad(open: OpenProgram, gesture: Gesture, path: DrawnPath) {
   return (load: Load) => {
     const common = { role: "robot", ...presentOnly(load) };
     const taken = chipBoxes(open);
-    if (path.ends) createTask(open, path.ends, load, path.routes, land);
     const at = gesture.tool === "pick" ? gesture.source : gesture.tool === "drop" ? gesture.target : null;
     const place = at === null ? undefined : surroundings.devices.get(at);
-    if (place && (gesture.tool === "pick" || gesture.tool === "drop"))
-      createStep(document, apply, {
-        kind: gesture.tool,
-        pos: spotOnMachine(deviceBox(place), taken),
-        params: { ...common, at: { device: place.id } },
-      });
-    sayDone(open, t("made"));
+    const make = () => {
+      if (path.ends) createTask(open, path.ends, load, path.routes, land);
+      if (place && (gesture.tool === "pick" || gesture.tool === "drop"))
+        createStep(document, apply, {
+          kind: gesture.tool,
+          pos: spotOnMachine(deviceBox(place), taken),
+          params: { ...common, at: { device: place.id } },
+        });
+    };
+    doAndSay(open, make, () => t("made"));
   };
 }
 

@@ -6,7 +6,7 @@ import { duplicateSelected, nudgeSelected, removeSelected } from "../state/actio
 import type { OpenProgram } from "../state/context";
 import { useGestures } from "../state/gestures";
 import { useUi } from "../state/ui";
-import { goBack, sayDone } from "../state/undoing";
+import { doAndSay, goBack } from "../state/undoing";
 import { removeZone } from "../zones/zoneTool";
 import { command, needsRight, needsSteps, type Command, type On } from "./command";
 
@@ -32,8 +32,11 @@ function nudge(open: OpenProgram, { keys }: On, metres: number): void {
 }
 
 function remove(open: OpenProgram): void {
-  const count = removeSelected(open.document, open.apply);
-  if (count > 0) sayDone(open, open.t("removed", { count }));
+  doAndSay(
+    open,
+    () => removeSelected(open.document, open.apply),
+    (count) => open.t("removed", { count }),
+  );
 }
 
 const EDIT = { group: "edit" } as const;

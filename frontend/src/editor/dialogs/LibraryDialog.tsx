@@ -14,7 +14,7 @@ import { branchNow, makeId } from "../state/actions";
 import { freeSpot } from "../state/freeSpot";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
-import { sayDone } from "../state/undoing";
+import { doAndSay } from "../state/undoing";
 import { useAskedFunction } from "./askedFunction";
 import { useScreenTexts } from "./screenTexts";
 import classes from "./dialogs.module.css";
@@ -114,7 +114,10 @@ function bringIn(open: ReturnType<typeof useOpenProgram>, entry: LibraryFunction
   const after = applyEdits(document, before);
   const params = { function: functionId, args: {} };
   const call = addStep(after, branchNow(document), { id: callId, kind: "call", pos: freeSpot(open), params });
-  apply([...before, ...call]);
+  doAndSay(
+    open,
+    () => apply([...before, ...call]),
+    () => t("library.imported", { name: entry.name }),
+  );
   select([callId]);
-  sayDone(open, t("library.imported", { name: entry.name }));
 }

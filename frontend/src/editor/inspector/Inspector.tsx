@@ -11,7 +11,7 @@ import { kindOf } from "@/program/kinds";
 import { duplicateSelected, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
-import { sayDone } from "../state/undoing";
+import { doAndSay } from "../state/undoing";
 import { FormBody } from "../canvas/FormBody";
 import classes from "../panel.module.css";
 import { StepEditorContext, useStepEditor, type StepEditor } from "./fields/stepEditor";
@@ -166,7 +166,13 @@ function Footer() {
           <IconButton
             label={t("delete")}
             className={classes.delete}
-            onClick={() => sayDone(open, t("removed", { count: removeSelected(document, apply) }))}
+            onClick={() =>
+              doAndSay(
+                open,
+                () => removeSelected(document, apply),
+                (count) => t("removed", { count }),
+              )
+            }
           >
             <Trash2 size={16} aria-hidden="true" />
           </IconButton>

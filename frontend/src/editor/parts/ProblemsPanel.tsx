@@ -12,7 +12,7 @@ import type { Diagnostic, Fix } from "@/program/document/document";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
-import { sayDone } from "../state/undoing";
+import { doAndSay } from "../state/undoing";
 import classes from "./drawer.module.css";
 
 export function ProblemsPanel({ titled = false }: { titled?: boolean }) {
@@ -134,8 +134,12 @@ function useBringVersion() {
       const found = await api.get<LibraryFunction>(`/library/${library}/versions/${version}`);
       if (!found.definition) return;
       const cut = found.definition as unknown as CutOut;
-      apply(replaceFunction(shared.getDocument(), wanted.function, cut, { library, version }, makeId));
-      sayDone({ shared }, t("problems.brought", { version }));
+      const edits = replaceFunction(shared.getDocument(), wanted.function, cut, { library, version }, makeId);
+      doAndSay(
+        { shared },
+        () => apply(edits),
+        () => t("problems.brought", { version }),
+      );
     } catch (problem) {
       say(problem instanceof Error ? problem.message : String(problem));
     }

@@ -3,6 +3,7 @@ import { api, ApiProblem } from "@/api/client";
 import { makeId } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { putWith } from "../state/putting";
+import { doAndSay } from "../state/undoing";
 import { say, select, useUi } from "../state/ui";
 import type { NamedDevice } from "./completion";
 import { pythonName } from "./names";
@@ -97,8 +98,8 @@ export function pasteScript(open: OpenProgram, pasted: string): void {
   );
 }
 
-/** Draw the lines, or say why that cannot be; `chosen` stands in for devices that are not here. */
-export async function drawPasted(open: OpenProgram, pasted: string, chosen: Chosen): Promise<void> {
+/** Draw the lines and say `done`, or why that cannot be; `chosen` stands in for devices that are not here. */
+export async function drawPasted(open: OpenProgram, pasted: string, chosen: Chosen, done?: string): Promise<void> {
   const { compiled, shared, program, devices, t } = open;
   if (!compiled) return;
   const behind = useUi.getState().selected.at(-1) ?? null;
@@ -114,7 +115,9 @@ export async function drawPasted(open: OpenProgram, pasted: string, chosen: Chos
     }
     const { document } = withFreshIds({ document: drawn.document, lines: drawn.lines }, base, makeId);
     const added = Object.keys(document.steps).filter((id) => !base.steps[id]);
-    shared.apply(withChosen(differenceOf(base, document), chosen));
+    const draw = () => shared.apply(withChosen(differenceOf(base, document), chosen));
+    if (done === undefined) draw();
+    else doAndSay(open, draw, () => done);
     select(added);
   } catch (error) {
     if (!(error instanceof ApiProblem)) throw error;

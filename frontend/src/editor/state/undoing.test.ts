@@ -5,7 +5,7 @@ import type { Edit } from "../edits/edits";
 import { applyEditsToDoc, SharedProgram } from "../shared/sharedProgram";
 import type { OpenProgram } from "./context";
 import { resetUi, useUi } from "./ui";
-import { goBack, sayDone, takeOffer, undoDownTo } from "./undoing";
+import { doAndSay, goBack, takeOffer, undoDownTo } from "./undoing";
 
 const STEP = { kind: "wait", place: ["program", "body", "A"], pos: [1, -1], params: { duration: 1 } } as const;
 let shared: SharedProgram;
@@ -16,6 +16,12 @@ const mine = (...edits: Edit[]) => shared.apply(edits);
 const others = (...edits: Edit[]) => applyEditsToDoc(shared.doc, edits, "somebody else");
 const durationOf = (id: string) => shared.getDocument().steps[id]?.params.duration;
 const said = () => useUi.getState().toast?.text ?? null;
+const doIt = (text: string, ...edits: Edit[]) =>
+  doAndSay(
+    open,
+    () => mine(...edits),
+    () => text,
+  );
 const pressInToast = () => {
   const offer = useUi.getState().toast?.offer;
   if (offer) takeOffer(open, offer);
@@ -98,13 +104,24 @@ test("a field that is left by Esc asks before it overwrites what somebody has se
 });
 
 test("what a toast offers is done to what it names, asked about like any Undo, and only while that comes next", () => {
-  mine({ do: "remove_step", id: "b" });
-  sayDone(open, "removed");
+  doIt("removed", { do: "remove_step", id: "b" });
   mine(lasts("a", 2));
   pressInToast();
   expect([durationOf("a"), durationOf("b")]).toEqual([2, undefined]);
-  sayDone(open, "set");
+  doIt("set", lasts("a", 3));
   others(lasts("a", 5));
   pressInToast();
   expect([durationOf("a"), said()]).toEqual([5, "gesture.overwritten"]);
+});
+
+test("nothing is said of what did nothing, so that no toast takes back an older gesture", () => {
+  mine(lasts("a", 2));
+  doIt("removed");
+  expect([said(), useUi.getState().toast]).toEqual([null, null]);
+  doIt("removed", { do: "remove_step", id: "gone" });
+  expect(said()).toBeNull();
+  doIt("removed", { do: "remove_step", id: "b" });
+  expect(said()).toBe("removed");
+  pressInToast();
+  expect([durationOf("a"), durationOf("b")]).toEqual([2, 1]);
 });

@@ -17,10 +17,19 @@ export function undoDownTo(open: Open, length: number): void {
   while (undo.length > length) if (settle(open, "undo") === "asked") return;
 }
 
-/** Say what the last gesture did; for as long as it is the last, it can be undone there. */
-export function sayDone({ shared }: Pick<OpenProgram, "shared">, text: string): void {
+/**
+ * Do a gesture and say what it did; for as long as it is the last, it can be undone there. Nothing is said of one that
+ * changed nothing, or that is part of an older entry: its Undo would take back something else.
+ */
+export function doAndSay<Done>(
+  { shared }: Pick<OpenProgram, "shared">,
+  act: () => Done,
+  text: (done: Done) => string,
+): void {
+  const before = shared.undo.next("undo");
+  const done = act();
   const entry = shared.undo.next("undo");
-  say(text, entry && { way: "undo", entry, asked: false });
+  if (entry && entry !== before) say(text(done), { way: "undo", entry, asked: false });
 }
 
 /** What a toast offers is done once; nothing happens where something else would be undone or redone by now. */

@@ -6,7 +6,7 @@ import type { OpenProgram } from "../state/context";
 import { freeSpot } from "../state/freeSpot";
 import { finish, RESTING } from "../state/tool";
 import { useUi } from "../state/ui";
-import { sayDone } from "../state/undoing";
+import { doAndSay } from "../state/undoing";
 import { selectZone, useGestures } from "../state/gestures";
 import { closes, freshNumber, freshZone, squareAround, withNextCorner } from "./shape";
 
@@ -35,9 +35,12 @@ export function changeZone(open: OpenProgram, id: string, change: Partial<Zone>)
 }
 
 export function removeZone(open: OpenProgram, id: string): void {
-  open.apply([{ do: "set_zone", id, value: null }]);
+  doAndSay(
+    open,
+    () => open.apply([{ do: "set_zone", id, value: null }]),
+    () => open.t("gesture.zone.removed"),
+  );
   selectZone(null);
-  sayDone(open, open.t("gesture.zone.removed"));
 }
 
 /** Enter: what is drawn so far is the zone; without a corner a square is set down. False while corners are missing. */
