@@ -131,7 +131,7 @@ function NewThread({ draft, comments }: { draft: string; comments: Comments }) {
       label={t("comments.on", { what })}
       send={t("comments.begin")}
       onSend={(words) => comments.begin({ ...words, ...writing })}
-      onDone={() => comments.setWriting(null)}
+      onDone={() => comments.setWriting((now) => (now?.t_s === writing.t_s ? null : now))}
     />
   );
 }

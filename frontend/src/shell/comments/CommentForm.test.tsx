@@ -116,6 +116,35 @@ test("what is sent is gone, also when its form has left the screen before; what 
   expect(field().value).toBe("And this? And that?");
 });
 
+test("what is being sent is sent once, also from the form about another thing that has its text meanwhile", async () => {
+  const answers: (() => void)[] = [];
+  const onSend = vi.fn(() => new Promise<void>((resolve) => answers.push(resolve)));
+  const { rerender } = render(<Form about="On 1 Wait" onSend={onSend} />);
+  write("Why so slow?", "On 1 Wait");
+  fireEvent.click(screen.getByText("Send"));
+  rerender(<Form about="On 2 Move" onSend={onSend} />);
+  fireEvent.submit(field("On 2 Move").form as HTMLFormElement);
+  expect(screen.getByRole<HTMLButtonElement>("button", { name: "Send" }).disabled).toBe(true);
+  expect(onSend).toHaveBeenCalledOnce();
+  for (const answer of answers) act(answer);
+  await waitFor(() => expect(field("On 2 Move").value).toBe(""));
+  write("And here?", "On 2 Move");
+  fireEvent.click(screen.getByText("Send"));
+  expect(onSend).toHaveBeenCalledTimes(2);
+});
+
+test("what was refused can be sent again, and says why it was", async () => {
+  const onSend = vi.fn(() => Promise.reject(new Error("no")));
+  render(<Form onSend={onSend} />);
+  write("Why so slow?");
+  for (const times of [1, 2]) {
+    fireEvent.click(screen.getByText("Send"));
+    await waitFor(() => expect(screen.getByRole<HTMLButtonElement>("button", { name: "Send" }).disabled).toBe(false));
+    expect(onSend).toHaveBeenCalledTimes(times);
+  }
+  expect([field().value, screen.getByRole("alert").textContent]).toEqual(["Why so slow?", expect.stringMatching(/./)]);
+});
+
 const THREAD = {
   ...{ id: "t", unread: 0, resolved_at: null },
   comments: [

@@ -28,8 +28,7 @@ interface CommentFormProps {
 export function CommentForm({ draft, label, send, first, quiet = false, onSend, onDone }: CommentFormProps) {
   const { t } = useTranslation();
   const people = usePeopleToMention(useTalk().program).data ?? [];
-  const { text, write, end } = useDraft(draft, first);
-  const [busy, setBusy] = useState(false);
+  const { text, write, isSending, send: sendDraft, giveUp } = useDraft(draft, first);
   const [refused, setRefused] = useState<string | null>(null);
   const field = useRef<HTMLTextAreaElement>(null);
   const form = useRef<HTMLFormElement>(null);
@@ -40,19 +39,15 @@ export function CommentForm({ draft, label, send, first, quiet = false, onSend, 
   }, [quiet]);
   const empty = text.trim() === "";
   const submit = async () => {
-    if (empty || busy) return;
-    setBusy(true);
+    if (empty) return;
     try {
-      await onSend({ text: text.trim(), mentions: mentionedIn(text, people) });
-      end(text);
-      onDone();
+      if (await sendDraft(() => onSend({ text: text.trim(), mentions: mentionedIn(text, people) }))) onDone();
     } catch (problem) {
       setRefused(problemText(problem, t("shell.problem.screen")));
-      setBusy(false);
     }
   };
   const leave = () => {
-    end();
+    giveUp();
     onDone();
   };
   return (
@@ -75,7 +70,7 @@ export function CommentForm({ draft, label, send, first, quiet = false, onSend, 
       />
       {refused === null ? null : <p role="alert">{refused}</p>}
       <div className={classes.acts}>
-        <Button type="submit" size="xs" disabled={empty || busy}>
+        <Button type="submit" size="xs" disabled={empty || isSending}>
           {send}
         </Button>
         <Button size="xs" variant="default" onClick={leave}>
