@@ -31,15 +31,15 @@ export class LiveCaches {
   }
 
   /**
-   * Fetch anew all that is in use and whose key begins so.
+   * Fetch anew all that is in use and whose key begins so, or those of them that are meant.
    *
    * The library leaves a first fetch alone when its query is invalidated; here it is followed by a second one.
    */
-  refresh(queryKey: QueryKey): void {
+  refresh(queryKey: QueryKey, predicate: (query: Query) => boolean = () => true): void {
     const isFirst = (query: Query) => query.state.data === undefined && query.state.fetchStatus !== "idle";
-    for (const query of this.queries.getQueryCache().findAll({ queryKey }))
+    for (const query of this.queries.getQueryCache().findAll({ queryKey, predicate }))
       if (isFirst(query)) this.#lateOf(query.queryHash).again = true;
-    void this.queries.invalidateQueries({ queryKey });
+    void this.queries.invalidateQueries({ queryKey, predicate });
   }
 
   #isUnderWay(key: QueryKey): boolean {

@@ -1,6 +1,6 @@
 /** Writes what a site's socket says into the query caches and the live store. */
 import { notifications } from "@mantine/notifications";
-import type { QueryClient, QueryKey } from "@tanstack/react-query";
+import type { Query, QueryClient, QueryKey } from "@tanstack/react-query";
 import i18next from "i18next";
 import { keys } from "@/api/queries";
 import { mapKeys, staleWithSiteMap } from "@/api/robotMaps";
@@ -46,6 +46,7 @@ export class SiteFeed {
   #timer: ReturnType<typeof setTimeout> | undefined;
   #dueAt = Infinity;
   #isGreeted = false;
+  readonly #since = Date.now();
   readonly #caches: LiveCaches;
 
   constructor(
@@ -149,14 +150,19 @@ export class SiteFeed {
       "map-versions",
     ].map((name) => [name]);
     this.#refreshAll([...stale, ...open]);
-    if (this.#isGreeted) this.#refreshMore();
+    this.#refreshMore();
     this.#isGreeted = true;
   }
 
-  /** What else the news are about; a page that has just opened has it fresh. */
+  /**
+   * What else the news are about. What was fetched since this feed began, or just is, is left alone at the first
+   * greeting: a page that has just opened has it fresh.
+   */
   #refreshMore(): void {
+    const isOld = ({ state }: Query) => state.fetchStatus === "idle" && state.dataUpdatedAt < this.#since;
     const ofSite = [keys.overAlerts(this.slug), keys.rehearsals(this.slug), keys.setting(this.slug, "review-rule")];
-    this.#refreshAll([...ofSite, ["paces", this.slug], ["measurements"], ["comparison"], keys.reviews, keys.sites]);
+    const all = [...ofSite, ["paces", this.slug], ["measurements"], ["comparison"], keys.reviews, keys.sites];
+    for (const key of all) this.#caches.refresh(key, this.#isGreeted ? undefined : isOld);
   }
 
   #device(change: DeviceChange): void {

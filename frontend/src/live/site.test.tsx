@@ -146,6 +146,30 @@ test("all that news are about is fetched anew after a line that was lost, and on
   expect(asked.slice(names.length).toSorted()).toEqual(names.toSorted());
 });
 
+test.each([
+  [20_000, "after the greeting"],
+  [40_000, "with the page"],
+])("all that news are about is fetched once by who comes back to a site after %d ms, %s", async (away) => {
+  const asked: string[] = [];
+  const here = () =>
+    render(
+      <QueryClientProvider client={queries}>
+        <Screen asked={asked} />
+      </QueryClientProvider>,
+    );
+  const first = here();
+  await pass(10);
+  lineOf("a").say({ type: "hello", site: "a" });
+  first.unmount();
+  await pass(away);
+  asked.length = 0;
+  here();
+  lineOf("a").say({ type: "hello", site: "a" });
+  await pass(1000);
+  expect(Line.all).toHaveLength(2);
+  expect(asked.toSorted()).toEqual(OF_NEWS.map(([name]) => String(name)).toSorted());
+});
+
 test("copies that went while the line was lost are on the map no more", async () => {
   await show("a");
   lineOf("a").say({ type: "copies", copies: [{ device: "robot of a", x: 1, y: 1, theta: 0 }] });
