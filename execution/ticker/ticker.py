@@ -11,7 +11,7 @@ from collections.abc import Callable
 from datetime import datetime, timedelta
 from functools import partial
 
-from django.db import DatabaseError, connection, transaction
+from django.db import DatabaseError, InterfaceError, connection, transaction
 
 from editor import services as editor
 from execution import database, mailbox
@@ -69,17 +69,17 @@ class Ticker:
         self._leads_since = min(self._leads_since or now, now)
         if self._is_due("frozen", SWEEP_S, now):
             _do_each(end_frozen_sessions)
-        _do_each(lambda: fire_timers(now))
+        _do_each(partial(fire_timers, now))
         if self._is_due("sites", TICK_SITES_S, now):
-            _do_each(mailbox.hint_watching, lambda: start_armed(now=now))
+            _do_each(mailbox.hint_watching, partial(start_armed, now=now))
         if self._is_due("sweep", SWEEP_S, now):
             sweep(now)
             alerts = partial(watch_alerts, now=now, since=self._leads_since)
-            _do_each(lambda: _mark_stale(now), registry.flush_samples, alerts)
+            _do_each(partial(_mark_stale, now), registry.flush_samples, alerts)
         if self._is_due("mail", MAIL_S, now):
-            _do_each(lambda: _ask_for_mail(now))
+            _do_each(partial(_ask_for_mail, now))
         if self._is_due("samples", SWEEP_S if self._has_old_samples else PRUNE_S, now):
-            _do_each(lambda: self._prune_samples(now))
+            _do_each(partial(self._prune_samples, now))
         if self._is_due("prune", PRUNE_S, now):
             _prune(now)
         return True
@@ -96,9 +96,13 @@ class Ticker:
 
 
 def _do_each(*steps: Callable[[], object]) -> None:
-    """Do one thing after the other; one that fails is written into the log and keeps no other from its turn."""
+    """Do one thing after the other; one that fails is written into the log and keeps no other from its turn.
+
+    A step is a function, or a `partial` of one. Raises what it does where the database is away.
+    """
     for step in steps:
-        with database.kept_apart(f"A step of the ticker ({getattr(step, '__qualname__', step)})"):
+        function = step.func if isinstance(step, partial) else step
+        with database.kept_apart(f"A step of the ticker ({function.__qualname__})"):
             step()
 
 
@@ -113,7 +117,7 @@ def _ask_for_mail(now: datetime) -> None:
 
 
 def _prune(now: datetime) -> None:
-    _do_each(lambda: mailbox.forget_taken(now - KEPT_FOR), ask_for_archiving, registry.prune_processes)
+    _do_each(partial(mailbox.forget_taken, now - KEPT_FOR), ask_for_archiving, registry.prune_processes)
     _do_each(*(partial(prune, now=now) for prune in PRUNES))
 
 
@@ -145,14 +149,14 @@ def _is_timer_due(now: datetime) -> bool:
 def sweep(now: datetime) -> None:
     """Find what was left lying because a message was lost or a worker died."""
     _do_each(
-        lambda: mailbox.hint_left(now - LOST_AFTER),
-        lambda: _hint_pending(now),
-        lambda: call_late(now),
+        partial(mailbox.hint_left, now - LOST_AFTER),
+        partial(_hint_pending, now),
+        partial(call_late, now),
         follow_stops,
-        lambda: drop_stale_controls(now),
-        lambda: end_commands_of_those_out(now),
-        lambda: end_commands_of_runs_over(now),
-        lambda: expire_calls(now=now),
+        partial(drop_stale_controls, now),
+        partial(end_commands_of_those_out, now),
+        partial(end_commands_of_runs_over, now),
+        partial(expire_calls, now=now),
         sweep_rehearsals,
         _ask_for_tests,
     )
@@ -191,7 +195,7 @@ def run_ticker(*, stopping: threading.Event, heartbeat: registry.HeartbeatWriter
             heartbeat.beat("leads" if leads else "stands_by")
         try:
             leads = tick(database.now())
-        except DatabaseError as error:
+        except (DatabaseError, InterfaceError) as error:
             log.warning("The ticker's database does not answer: %s", error)
             connection.close()
             leads = False

@@ -89,13 +89,23 @@ def test_a_deleted_program_that_cannot_be_disarmed_keeps_no_other_from_starting(
     assert ArmedProgram.objects.count() == 2
 
 
-def test_a_step_of_the_ticker_that_fails_keeps_no_other_from_its_turn(factory: Any) -> None:
+def test_a_step_of_the_ticker_that_fails_keeps_no_other_from_its_turn_and_is_named_in_the_log(
+    factory: Any, caplog: pytest.LogCaptureFixture
+) -> None:
     silence()
+    hidden = ("execution_timer", "execution_stopfollowed", "registry_sample")
     with connection.cursor() as cursor:  # stands for what nobody foresees
-        cursor.execute("ALTER TABLE execution_stopfollowed RENAME TO hidden_away")
+        for table in hidden:
+            cursor.execute(f"ALTER TABLE {table} RENAME TO {table}_hidden")
     try:
         assert Ticker("a").tick(database.now())
     finally:
         with connection.cursor() as cursor:
-            cursor.execute("ALTER TABLE hidden_away RENAME TO execution_stopfollowed")
+            for table in hidden:
+                cursor.execute(f"ALTER TABLE {table}_hidden RENAME TO {table}")
     assert is_swept()
+    said = [line.getMessage() for line in caplog.records if line.name == "execution.database"]
+    assert said == [
+        f"A step of the ticker ({name}) failed; what comes after it goes on."
+        for name in ("fire_timers", "follow_stops", "Ticker._prune_samples")
+    ]
