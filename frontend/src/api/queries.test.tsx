@@ -57,7 +57,7 @@ test("so is one that is saved while a newer one than the known is fetched", asyn
   await shown.current.refetch();
   await waitFor(() => expect(shown.current.data?.version).toBe(2));
   expect(shown.current.data?.cells).toEqual(new Uint8Array([2]));
-  expect(asked).toEqual(["/map", "/map/cells", "/map/versions/2/cells"]);
+  expect(asked).toEqual(["/map", "/map/versions/2/cells"]);
 });
 
 function after(ask: typeof fetch, address: string, then: () => void): typeof fetch {

@@ -110,13 +110,15 @@ async function getMe(): Promise<Me> {
 async function getMap(slug: string, known: SiteMap | undefined): Promise<SiteMap> {
   const path = `/sites/${slug}/map`;
   const getInfo = () => api.get<SiteMapInfo>(path);
-  const getNewest = () => api.tagged(`${path}/cells`);
-  const [info, newest] = known ? [await getInfo(), null] : await Promise.all([getInfo(), getNewest()]);
-  if (info.version === known?.version) return { ...info, cells: known.cells };
-  const { tag, bytes } = newest ?? (await getNewest());
+  const getCells = (version: number) => api.bytes(`${path}/versions/${version}/cells`);
+  if (known) {
+    const info = await getInfo();
+    return { ...info, cells: info.version === known.version ? known.cells : await getCells(info.version) };
+  }
+  const [info, { tag, bytes }] = await Promise.all([getInfo(), api.tagged(`${path}/cells`)]);
   // A proxy may have made the tag a weak one: `W/` before it.
   const fits = tag.endsWith(`"${slug}-${info.version}"`);
-  return { ...info, cells: fits ? bytes : await api.bytes(`${path}/versions/${info.version}/cells`) };
+  return { ...info, cells: fits ? bytes : await getCells(info.version) };
 }
 
 /** The whole journal of a run; the server gives a thousand lines at once. */
