@@ -15,6 +15,7 @@ import { useCommandKeys } from "./commands/keys";
 import { usePaletteOffer } from "./commands/offer";
 import { EditorMap } from "./EditorMap";
 import { useClipboard } from "./gestures/clipboard";
+import { loadPasting, pasteIfScript } from "./gestures/pasting";
 import { Inspector, loadPanels } from "./inspector/Inspector";
 import { Dialogs } from "./dialogs/Dialogs";
 import { Drawer } from "./parts/Drawer";
@@ -25,8 +26,7 @@ import { HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
 import { QuickAdd } from "./parts/QuickAdd";
 import { ToolRail } from "./parts/ToolRail";
 import { ROW_PX, useToolRows } from "./parts/toolRows";
-import { looksLikeScript } from "./script/scriptLines";
-import { type OpenProgram, useOpenProgram } from "./state/context";
+import { useOpenProgram } from "./state/context";
 import { resetGestures, useGestures } from "./state/gestures";
 import { useUi } from "./state/ui";
 import { useRunning } from "./state/useRunning";
@@ -38,7 +38,6 @@ const EmptyProgram = lazy(async () => ({ default: (await loadEmptyProgram()).Emp
 const NextSteps = lazy(async () => ({ default: (await loadNextSteps()).NextSteps }));
 const Tour = lazy(async () => ({ default: (await import("./beginning/Tour")).Tour }));
 const loadComments = () => import("./comments/CommentsPanel");
-const loadPasting = () => import("./script/pastedScript");
 const ZoneForm = lazy(async () => ({ default: (await loadZoneForm()).ZoneForm }));
 /** Fetched once the program has come, so that the first form opens and the first script is pasted at once. */
 const LATER = [loadPanels, loadZoneForm, loadComments, loadCorners, loadPasting];
@@ -129,11 +128,4 @@ function useGestureInput(): void {
   usePaletteOffer(open);
   useClipboard(open, pasteIfScript);
   useEffect(() => resetGestures, [open.program.id]);
-}
-
-/** Take a pasted text for script, if it looks like it. */
-function pasteIfScript(open: OpenProgram, text: string): boolean {
-  const isScript = looksLikeScript(text);
-  if (isScript) void loadPasting().then(({ pasteScript }) => pasteScript(open, text));
-  return isScript;
 }
