@@ -15,7 +15,12 @@ from execution.models import DeadLetter, Run, RunEvent
 
 
 def set_row_aside(row: Row, lease: Lease, now: datetime, error: Exception) -> None:
-    """Set one message aside and pause its run, in a transaction of its own; raises LeaseLost."""
+    """Set one message aside and pause its run, in a transaction of its own; raises LeaseLost.
+
+    The run's row alone keeps it paused whatever it is told next: its machine follows the row before it hears anything.
+    Where nobody tells it anything its robots would drive on, so a pause is posted for its machine and the floor to
+    take in at once. None follows a pause that was set aside, since it might be set aside like that, and so for ever.
+    """
     kind, _, name = row.target.partition(":")
     words = words_of(error).replace("\x00", "")
     event = row.payload if isinstance(row.payload, dict) else {"type": "unreadable"}
@@ -27,9 +32,7 @@ def set_row_aside(row: Row, lease: Lease, now: datetime, error: Exception) -> No
         if run is not None and journal is not None:
             RunEvent.objects.bulk_create(journal.close())
             run.save(update_fields=["status", "reason", "next_seq", "steps", "roles"])
-            if (
-                event.get("type") != "pause"
-            ):  # its machine and the floor hear it, too; of that one nothing more is tried
+            if event.get("type") != "pause":
                 mailbox.post_to_run(run.site.slug, run.id, [(f"aside:{row.id}", pause_for(words))])
         with database.sent_together() as batch:
             mark_taken(batch, [row.id], now)

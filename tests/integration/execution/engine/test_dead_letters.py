@@ -210,20 +210,38 @@ def test_a_task_in_the_floor_that_raises_at_every_look_is_taken_out_with_its_run
     assert (str(letter.run), letter.event["type"]) == (bad, "several")
 
 
-def test_a_message_that_the_database_does_not_take_keeps_its_run_paused_whatever_comes_next():
-    run = start(heating(3))
-    drive.advance_site(SITE)
+def put_hard(run):
+    """Put something into a run's inbox that the database does not take as a line of its journal; return what."""
     hard = {"device": "d" * 100} if connection.vendor == "postgresql" else {"why": "\ud800"}
     said = {"type": "answer", "device": "machine000", "method": "heat", "step": "s0", "status": "DONE", "why": ""}
     put(f"run:{run}", {**said, **hard})
+    return {**said, **hard}
+
+
+def test_a_message_that_the_database_does_not_take_keeps_its_run_paused_whatever_comes_next():
+    run = start(heating(3))
+    drive.advance_site(SITE)
+    hard = put_hard(run)
     drive.advance_site(SITE)
     (letter,) = services.list_dead_letters(site=SITE)
-    assert (row(run).status, letter.event) == ("paused", {**said, **hard})
+    assert (row(run).status, letter.event) == ("paused", hard)
+    assert row(run).state["status"] == "paused"  # its machine and the floor have heard it, though nobody said more
     answer_open(run)
     drive.advance_site(SITE)
     assert (row(run).status, row(run).state["status"], len(told(run))) == ("paused", "paused", 1)
     services.resume_run(run_id=run, by="Ada")
     assert finish(run, 2) == "finished"
+
+
+def test_a_run_is_paused_before_it_hears_what_waits_behind_a_message_that_the_database_does_not_take():
+    run = start(heating(3))
+    drive.advance_site(SITE)
+    put_hard(run)
+    put(f"run:{run}", {"type": "mission_over", "mission": 1, "kind": "", "why": "", "result": {}}, key="behind")
+    drive.advance_site(SITE)
+    said = row(run)
+    assert (said.status, said.state["status"], len(told(run))) == ("paused", "paused", 1)
+    assert [thread["at"] for thread in said.state["threads"]] == [0]
 
 
 def test_what_was_set_aside_is_dropped_and_its_run_stays_as_it_is():
