@@ -2,7 +2,7 @@
 import { toPixels, type Point } from "@/map/plane/projection";
 import type { PixelPoint } from "@/map/plane/paths";
 import type { MovedNode } from "@/program/canvas/useMovingNodes";
-import { takenAlong } from "../edits/arranging";
+import { movedBy, takenAlong } from "../edits/arranging";
 import type { Edit } from "../edits/edits";
 import { liftOut } from "../edits/branches";
 import { moveStep } from "../edits/joints";
@@ -46,13 +46,8 @@ function carried(open: OpenProgram, moved: readonly { id: string; at: Point }[])
   return moved.flatMap(({ id, at }) => {
     const before = document.steps[id]?.pos;
     if (!before) return [];
-    const [dx, dy] = [at[0] - before[0], at[1] - before[1]];
-    return [...takenAlong(open, id)].flatMap((inner): Edit[] => {
-      const pos = document.steps[inner]?.pos;
-      if (!pos || own.has(inner)) return [];
-      const rounded = (value: number) => Math.round(value * 100) / 100;
-      return [{ do: "set_pos", id: inner, pos: [rounded(pos[0] + dx), rounded(pos[1] + dy)] }];
-    });
+    const inner = [...takenAlong(open, id)].filter((each) => !own.has(each));
+    return movedBy(document, new Set(inner), [at[0] - before[0], at[1] - before[1]]);
   });
 }
 

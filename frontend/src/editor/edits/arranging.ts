@@ -104,7 +104,8 @@ export function moveTogether(drawn: Drawn, ids: readonly string[], by: Point): r
   return movedBy(drawn.document, new Set(all), by);
 }
 
-function movedBy(document: ProgramDocument, ids: ReadonlySet<string>, [dx, dy]: Point): readonly Edit[] {
+/** Those of the steps that stand somewhere, moved by so many metres. */
+export function movedBy(document: ProgramDocument, ids: ReadonlySet<string>, [dx, dy]: Point): readonly Edit[] {
   const round = (value: number) => Math.round(value * 100) / 100 + 0;
   return [...ids].flatMap((id): Edit[] => {
     const pos = document.steps[id]?.pos;

@@ -18,6 +18,12 @@ export function loopNames(step: Step | undefined): string[] {
   return step?.kind === "for_each" ? [step.params.variable, step.params.index].map((name) => textOf(name)) : [];
 }
 
+/** All names that a step gives a value to: what it sets, and those of its loop. */
+export function namesGivenBy(step: Step): string[] {
+  const set = settingFields(step).map((field) => textOf(step.params[field]));
+  return [...loopNames(step), ...set].filter(Boolean);
+}
+
 /** The names of all loops around a step: in it they mean what these loops give. */
 export function namesOfLoops(document: ProgramDocument, id: string): ReadonlySet<string> {
   return new Set(ancestors(document, id).flatMap((above) => loopNames(document.steps[above])));
@@ -59,10 +65,7 @@ export function namesBeside(document: ProgramDocument, functionId: string | null
   const steps = Object.entries(document.steps).filter(
     ([id]) => functionId === null || ancestors(document, id).at(-1) !== functionId,
   );
-  const named = steps.flatMap(([, step]) => [
-    ...loopNames(step),
-    ...settingFields(step).map((field) => textOf(step.params[field])),
-  ]);
+  const named = steps.flatMap(([, step]) => namesGivenBy(step));
   return new Set([...parameters.map(({ name }) => name), ...named]);
 }
 

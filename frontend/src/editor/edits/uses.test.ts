@@ -41,3 +41,11 @@ test("a variable is used where it is set and where it is read, and all names are
   expect(usesOf(document, { kind: "variable", id: "problem" })).toEqual(["why"]);
   expect(variablesOf(document)).toEqual(["boxes", "count", "problem", "shade"]);
 });
+
+test("the item and the round of a For-each are used by it, and a parameter of another step that is called so is no name", () => {
+  const each = step("for_each", { variable: "box", index: "round" });
+  const odd = step("wait", { variable: "not", duration: 1 });
+  const looping = { ...EMPTY_DOCUMENT, steps: { each, odd } };
+  expect(variablesOf(looping)).toEqual(["box", "round"]);
+  for (const id of ["box", "round"]) expect(usesOf(looping, { kind: "variable", id })).toEqual(["each"]);
+});

@@ -1,6 +1,7 @@
 /** Where a program uses a device, a place, a variable or a function: the steps that name it. */
-import { textOf, type ProgramDocument, type Step } from "@/program/document/document";
+import { type ProgramDocument, type Step } from "@/program/document/document";
 import { operatedRole, roleOfStep } from "@/program/operation";
+import { namesGivenBy } from "./scopes";
 
 export type UsedKind = "device" | "place" | "zone" | "variable" | "function";
 
@@ -21,7 +22,7 @@ export function usesOf(document: ProgramDocument, used: Used): string[] {
 export function variablesOf(document: ProgramDocument): string[] {
   const found = new Set(Object.values(document.parameters).map(({ name }) => name));
   for (const step of Object.values(document.steps)) {
-    for (const key of SETS) if (textOf(step.params[key])) found.add(textOf(step.params[key]));
+    for (const name of namesGivenBy(step)) found.add(name);
     look(step.params, (key, value) => {
       if (key === "param" && typeof value === "string") found.add(value.split(".")[0] ?? value);
       return false;
@@ -42,13 +43,10 @@ export function idsNamedBy(step: Step, key: "role" | "zone"): ReadonlySet<string
   return found;
 }
 
-/** The parameters by which steps give a value to a name. */
-const SETS = ["variable", "result", "index"];
-
 function names(document: ProgramDocument, step: Step, { kind, id }: Used): boolean {
   if (kind === "function") return step.kind === "call" && step.params.function === id;
   if (kind === "zone") return idsNamedBy(step, kind).has(id);
-  if (kind === "variable") return SETS.some((key) => step.params[key] === id) || reads(step.params, id);
+  if (kind === "variable") return namesGivenBy(step).includes(id) || reads(step.params, id);
   if (kind === "device" && boundTo(document, step, id)) return true;
   return look(step.params, (key, value) => (key === kind && value === id) || isReadingOf(key, value, id));
 }

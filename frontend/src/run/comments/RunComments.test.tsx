@@ -26,8 +26,10 @@ afterEach(() => {
 
 const RUN = { id: "r", program: { id: "p", name: "Tour" }, started_at: "2026-11-30T08:00:00Z" } as Run;
 
+const SITE = { slug: "hall", role: "author" } as Site;
+
 function Page() {
-  const comments = useRunComments(RUN, { slug: "hall", role: "author" } as Site);
+  const comments = useRunComments(RUN, SITE);
   return (
     <>
       <button type="button" onClick={() => comments.setWriting({ t_s: 20, label: "" })}>
@@ -35,7 +37,7 @@ function Page() {
       </button>
       <RunComments
         run={RUN}
-        role="author"
+        role={SITE.role}
         comments={comments}
         about={{ t_s: 10, label: "" }}
         tell={() => undefined}
