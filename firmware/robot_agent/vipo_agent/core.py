@@ -356,8 +356,9 @@ class Core:
             self._end(task, "CANCELED", why)
 
     def _end(self, task: Task, status: str, why: str = "") -> None:
+        if task is self._tasks[0]:
+            self._failures = 0  # they are of the move under way, which takes them along: the next is tried twice, too
         self._tasks.remove(task)
-        self._failures = 0  # what ends takes its failures along: the next move is tried twice, too
         self._say(task.command, status, why)
 
     def _say(self, command: str, status: str, why: str = "") -> None:

@@ -96,6 +96,17 @@ def test_a_goal_after_a_move_that_was_cancelled_is_tried_twice_too() -> None:
     assert [type(each) for each in bench.out()] == [Go]
 
 
+def test_a_later_move_that_is_cancelled_gives_the_one_under_way_no_third_try() -> None:
+    bench = Bench()
+    bench.tell("move", "a", path=[[1, 0]])
+    bench.tell("move", "b", path=[[2, 0]])
+    bench.core.failed(1, "a person", 0.0)
+    bench.tell("cancel", "c", command="b")
+    bench.out()
+    bench.core.failed(2, "a person", 0.0)
+    assert bench.out() == ["a FAILED a person"]
+
+
 def test_a_pause_halts_and_ends_with_its_command() -> None:
     bench = Bench()
     bench.tell("move", "a", path=[[1, 0]])
