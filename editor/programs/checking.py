@@ -30,7 +30,6 @@ from registry.floorplan.plan import FloorPlan, machine_beside
 from vipo_device.protocol.description import Description, Pose
 
 MOST_NUMBER = 1_000_000_000
-_CHANGES_THAT_MATTER = ("lifecycle", "name", "kind", "methods", "gives", "takes", "capacity", "radius_m", "size")
 
 
 def build_surroundings(*, site: str) -> Surroundings:
@@ -192,34 +191,7 @@ def _versions_by_id(sources: Iterable[tuple[str, int]]) -> dict[str, list[int]]:
     return {name: sorted(numbers) for name, numbers in found.items()}
 
 
-class DeviceWatch:
-    """Remembers what programs depend on in each device, to tell which live messages call for a new check."""
-
-    def __init__(self) -> None:
-        self._known: dict[str, dict[str, Any]] = {}
-
-    def changes_programs(self, message: Mapping[str, Any]) -> bool:
-        """Tell whether programs may read differently after this message."""
-        if message.get("type") in {"device_removed", "hello", "library", "map"}:
-            return True
-        if message.get("type") != "device":
-            return False
-        device = message["device"]
-        known = self._known.setdefault(device["id"], {})
-        before = dict(known)
-        known.update(_told_of(device))
-        return known != before
-
-
-def _told_of(device: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what a live message tells of a device that programs depend on: no readings, nor where a robot is."""
-    told = {name: device[name] for name in _CHANGES_THAT_MATTER if name in device}
-    if "status" in device:
-        told["reachable"] = device["status"] not in {"offline", "pending"}
-    if "properties" in device:
-        told["properties"] = [
-            {key: said for key, said in each.items() if key != "value"} for each in device["properties"]
-        ]
-    if "location" in device and device.get("kind") == "machine":
-        told["location"] = device["location"]
-    return told
+def changes_programs(message: Mapping[str, Any]) -> bool:
+    """Tell whether programs may read differently after a live message of their site."""
+    kind = message.get("type")
+    return kind in {"device_removed", "hello", "library", "map"} or (kind == "device" and "redescribed" in message)

@@ -8,7 +8,6 @@ import math
 import time
 import uuid
 import weakref
-from collections import defaultdict
 from collections.abc import Callable, Coroutine
 from contextlib import suppress
 from dataclasses import dataclass
@@ -25,7 +24,7 @@ from editor.documents.store import flush_before_reading, last_rows
 from editor.documents.work import DocumentTask, have_done_by
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import Program
-from editor.programs.checking import DeviceWatch
+from editor.programs.checking import changes_programs
 from editor.rooms.hold_off import HoldOffs, make_hold_offs
 from editor.rooms.inbox import Inbox
 from editor.rooms.member import Allowance, Close, Member, Person
@@ -63,7 +62,6 @@ class Hub:
         """One for each program whose room is being opened or closed, as long as anybody holds or awaits it."""
         self._background: set[asyncio.Task[None]] = set()
         self._looking: asyncio.Task[None] | None = None
-        self._watches: defaultdict[str, DeviceWatch] = defaultdict(DeviceWatch)
         self._stop_listening: Callable[[], None] | None = None
         self._is_closed = False
         self._allowances: dict[int, Allowance] = {}
@@ -226,7 +224,7 @@ class Hub:
         if message["type"] in {"programs", "hello"}:
             for opened in rooms:
                 self._start(self._review, opened.room)
-        if self._watches[site].changes_programs(message):
+        if changes_programs(message):
             for opened in rooms:
                 opened.checks.take_in_surroundings()
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from django.db import transaction
 
 from registry.devices.things import record_things
-from registry.devices.views import DeviceView, changed_fields
+from registry.devices.views import DeviceView, changed_fields, device_news
 from registry.errors import RegistryError
 from registry.live.fanout import publish_all
 from registry.models import Device, RobotMapDraft
@@ -65,6 +65,6 @@ def announce(before: DeviceView | None, after: DeviceView) -> None:
 def announce_all(changes: Sequence[tuple[DeviceView | None, DeviceView]]) -> None:
     """Tell browsers and directories what is new of several devices, once the transaction holds."""
     record_things(changes)
-    told = [(after.site, changed_fields(before, after)) for before, after in changes]
-    news = [(slug, {"type": "device", "device": fields}) for slug, fields in told if len(fields) > 1]
+    told = [(after.site, device_news(before, after, changed_fields(before, after))) for before, after in changes]
+    news = [(slug, message) for slug, message in told if len(message["device"]) > 1 or "redescribed" in message]
     transaction.on_commit(lambda: publish_all(news))

@@ -10,7 +10,6 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from datetime import datetime
-from typing import Any
 
 from django.db import connection, transaction
 
@@ -18,7 +17,7 @@ from registry.devices.history import history_text, write_event
 from registry.devices.rows import BadDevice
 from registry.devices.samples import note_samples
 from registry.devices.stand_ins import keep_aside, real_of
-from registry.devices.views import DeviceView, changed_state, view_of
+from registry.devices.views import DeviceView, changed_state, device_news, view_of
 from registry.live.fanout import publish_all
 from registry.models import Device
 from vipo_device.protocol.description import DeviceState
@@ -109,8 +108,8 @@ def _take_all(
             _tell_trouble(device, before, after, message.at)
             changes.append((before, after))
     _write(written)
-    news: list[tuple[str, dict[str, Any]]] = [(after.site, changed_state(before, after)) for before, after in changes]
-    transaction.on_commit(lambda: publish_all([(slug, {"type": "device", "device": told}) for slug, told in news]))
+    news = [(after.site, device_news(before, after, changed_state(before, after))) for before, after in changes]
+    transaction.on_commit(lambda: publish_all(news))
     return views, changes
 
 

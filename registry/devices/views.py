@@ -240,22 +240,37 @@ def _method_to_json(method: MethodSpec) -> dict[str, Any]:
 
 
 def changed_fields(before: DeviceView | None, after: DeviceView) -> dict[str, Any]:
-    """Return the id and what a browser does not know yet; beside where it is its kind, by which listeners go."""
+    """Return the id and what a browser does not know yet."""
     new = device_to_json(after)
     old = device_to_json(before) if before else {}
-    told = {"id": after.id, **{k: v for k, v in new.items() if k not in old or old[k] != v}}
-    return {**told, "kind": after.kind} if "location" in told else told
+    return {"id": after.id, **{k: v for k, v in new.items() if k not in old or old[k] != v}}
 
 
 def changed_state(before: DeviceView, after: DeviceView) -> dict[str, Any]:
     """Return the id and what a browser does not know yet, where only the device's state can have changed."""
     new, old = _state_to_json(after), _state_to_json(before)
     told = {"id": after.id, **{k: v for k, v in new.items() if old[k] != v}}
-    if "location" in told:
-        told["kind"] = after.kind
     if any(before.readings.get(p.name) != after.readings.get(p.name) for p in after.canonical.properties):
         told["properties"] = [_property_to_json(p, after.readings.get(p.name)) for p in after.canonical.properties]
     return told
+
+
+def device_news(before: DeviceView | None, after: DeviceView, fields: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the live message with these new fields of a device.
+
+    `redescribed` stands in it where something other than readings, and where a robot is, has changed: what the device
+    is by its description and by what people decided, a machine's place, whether it is there. Programs are checked
+    against that; browsers are not told it.
+    """
+    message = {"type": "device", "device": fields}
+    return {**message, "redescribed": True} if before is None or _is_redescribed(before, after) else message
+
+
+def _is_redescribed(before: DeviceView, after: DeviceView) -> bool:
+    if (before.lifecycle, before.online) != (after.lifecycle, after.online):
+        return True
+    old = replace(before.canonical, pose=after.pose) if before.kind == after.kind == "robot" else before.canonical
+    return old != after.canonical
 
 
 def _state_to_json(view: DeviceView) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from editor.language.signatures.signature import signature_of
 from editor.language.site.signature import Port, Signature, signature_to_json
 from editor.language.site.surroundings import LibraryFacts
 from editor.models import LibraryFunction, LibraryUse, LibraryVersion
-from editor.programs.checking import DeviceWatch, build_surroundings, fingerprint_of
+from editor.programs.checking import build_surroundings, changes_programs, fingerprint_of
 from editor.services import create_program, get_compiled
 from registry import services as registry
 from registry.models import Site
@@ -88,5 +88,5 @@ def test_a_source_that_is_no_id_is_no_use(function: LibraryFunction) -> None:
 
 
 def test_open_programs_are_looked_at_again_when_the_library_changes() -> None:
-    assert DeviceWatch().changes_programs({"type": "library"})
-    assert not DeviceWatch().changes_programs({"type": "programs"})
+    assert changes_programs({"type": "library"})
+    assert not changes_programs({"type": "programs"})

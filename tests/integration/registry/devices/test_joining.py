@@ -158,7 +158,6 @@ def test_only_what_changed_goes_to_the_browsers(heard: list[Any], django_capture
                 "device": {
                     "id": "robot1",
                     "location": {"x": 1.0, "y": 2.0, "z": 0.0, "theta": 0.5},
-                    "kind": "robot",
                     "carrying": {"box": 2},
                     "doing": "Carrying 2 boxes",
                     "activity": {"code": "carrying", "args": {"box": 2}},

@@ -49,7 +49,7 @@ def test_states_of_several_devices_are_kept_and_told(
     assert told["robot2"] == {
         "id": "robot2", "doing": "Carrying 2 boxes", "carrying": {"box": 2},
         "activity": {"code": "carrying", "args": {"box": 2}},
-        "location": {"x": 1.0, "y": 2.0, "z": 0.0, "theta": 0.5}, "kind": "robot",
+        "location": {"x": 1.0, "y": 2.0, "z": 0.0, "theta": 0.5},
     }  # fmt: skip
     assert (told["mixer1"]["status"], told["mixer1"]["properties"][0]["value"]) == ("busy", 40)
     assert len(heard) == 2
