@@ -34,6 +34,14 @@ ASKED_AFTER_S = (5.0, 10.0, LAST_RETRY_S)
 gateway was to take waits with the broker until that gateway is back."""
 
 
+def again_after_s(tries: int, *, is_answered: bool) -> float:
+    """Return how long after its last sending or answer a command is sent again that has been sent `tries` times."""
+    sent = max(tries, 1)
+    if is_answered:
+        return ASKED_AFTER_S[min(sent, len(ASKED_AFTER_S)) - 1]
+    return min(LAST_RETRY_S, FIRST_RETRY_S * 2.0 ** min(sent - 1, 8))
+
+
 @dataclass(frozen=True, slots=True)
 class TaskEnded:
     """A task of the floor is done (`kind` is empty) or has failed, with the kind of failure and the reason."""

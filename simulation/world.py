@@ -82,7 +82,8 @@ class Scene:
     machines are not in anybody's way. `remembered` are the final answers that devices would give again, oldest first.
     `kinds` say how devices behave (none: those that VIPO comes with); the seed 0 leaves nothing to chance, each
     other one is a course of its own. `paces` say, by device and method, how many times as long as that something takes:
-    what was measured at the real ones.
+    what was measured at the real ones. `idless` devices describe themselves by the paper's message: the real ones know
+    no command by its id, so nobody sends them one twice.
     """
 
     grid: Grid
@@ -98,6 +99,7 @@ class Scene:
     remembered: Mapping[str, Sequence[Ack]] = field(default_factory=dict)
     kinds: Sequence[Kind] | None = None
     paces: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    idless: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from execution import database
 from execution.clock import steady_s
 from execution.database import preparing_cursor
 from execution.fault_points import fault_point
-from execution.floor_protocol import ASKED_AFTER_S, FIRST_RETRY_S, LAST_RETRY_S
+from execution.floor_protocol import again_after_s
 from execution.models import Command, Run
 from execution.traffic.messages import CONTROLS
 from registry import services as registry
@@ -174,11 +174,11 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
 def _parameters(now: datetime, limit: int) -> dict[str, Any]:
     waits_s = {
         "now": 0.0,
-        "first": FIRST_RETRY_S,
-        "second": FIRST_RETRY_S * 2,
-        "third": FIRST_RETRY_S * 4,
-        "last": LAST_RETRY_S,
-        "asked": ASKED_AFTER_S[1],
+        "first": again_after_s(1, is_answered=False),
+        "second": again_after_s(2, is_answered=False),
+        "third": again_after_s(3, is_answered=False),
+        "last": again_after_s(4, is_answered=False),
+        "asked": again_after_s(2, is_answered=True),
         "never": NEVER_AGAIN_S,
     }
     when = connection.ops.adapt_datetimefield_value

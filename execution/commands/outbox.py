@@ -22,7 +22,7 @@ from django.utils.dateparse import parse_datetime
 from execution import database, mailbox
 from execution.commands.claim import NEVER_AGAIN_S, UNANSWERED
 from execution.fault_points import fault_point
-from execution.floor_protocol import ASKED_AFTER_S, FIRST_RETRY_S, CommandEnded, ToFloor, ToRun
+from execution.floor_protocol import FIRST_RETRY_S, CommandEnded, ToFloor, ToRun, again_after_s
 from execution.models import Command, Run
 from execution.reasons import SENTENCES
 from execution.traffic.messages import CONTROLS, CommandAnswered
@@ -184,7 +184,7 @@ def _write(heard: Sequence[tuple[_Open, Answer]], at: datetime) -> None:
 
 def _columns(row: _Open, answer: Answer, at: datetime) -> tuple[Any, ...]:
     is_final, when = answer.status in FINAL, connection.ops.adapt_datetimefield_value
-    again_s = ASKED_AFTER_S[min(max(row.tries, 1), len(ASKED_AFTER_S)) - 1]
+    again_s = again_after_s(row.tries, is_answered=True)
     return (
         STATUS[answer.status].value,
         answer.why[:500],

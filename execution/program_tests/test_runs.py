@@ -127,7 +127,8 @@ def _scene(site: str) -> dict[str, Any]:
     devices = registry.list_devices(site=site, lifecycle="approved")
     places = [place_facts(place) for place in registry.list_places(site=site)]
     grid, paces = registry.get_map(site=site).grid, find_paces(site=site)
-    scene = Scene(grid=grid, devices=[device.at_home for device in devices], paces=paces)
+    idless = frozenset(device.id for device in devices if device.only_done_flag)
+    scene = Scene(grid=grid, devices=[device.at_home for device in devices], paces=paces, idless=idless)
     return scene_to_json(scene, places, editor.find_zones(site=site))
 
 

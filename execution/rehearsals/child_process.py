@@ -52,6 +52,7 @@ def scene_to_json(scene: Scene, places: Sequence[PlaceFacts], zones: Sequence[Zo
         "readings": {device: dict(values) for device, values in scene.readings.items()},
         "faults": faults_to_json(scene.faults),
         "paces": {device: dict(paces) for device, paces in scene.paces.items()},
+        "idless": sorted(scene.idless),
     }
 
 
@@ -69,6 +70,7 @@ def scene_from_json(data: Mapping[str, Any]) -> tuple[Scene, tuple[PlaceFacts, .
         readings=data["readings"],
         faults=read_faults(data["faults"]) if "faults" in data else (),
         paces=data.get("paces", {}),
+        idless=frozenset(data.get("idless", ())),
     )
     zones = tuple(zone_from_json(zone) for zone in data.get("zones", ()))
     return scene, tuple(PlaceFacts(**place) for place in data["places"]), zones

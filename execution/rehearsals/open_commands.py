@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
-from execution.floor_protocol import ASKED_AFTER_S, FIRST_RETRY_S, LAST_RETRY_S
+from execution.floor_protocol import again_after_s
 from execution.traffic.messages import CONTROLS, SendCommand
 from simulation.world import Ack, Fault, World
 
@@ -22,16 +22,20 @@ class _Open:
 
 
 class OpenCommands:
-    """Sends commands in order, and again until they are over; without faults that lose messages each goes out once."""
+    """Sends commands in order, and again until they are over; without faults that lose messages each goes out once.
 
-    def __init__(self, world: World, faults: Iterable[Fault]) -> None:
+    So it does to `idless` devices, by id, which would carry a command out anew each time that they hear it.
+    """
+
+    def __init__(self, world: World, faults: Iterable[Fault], idless: Collection[str] = ()) -> None:
         self.world = world
+        self._idless = idless
         self._may_lose = any(fault.kind in LOSING for fault in faults)
         self._open: dict[str, _Open] = {}
 
     def send(self, command: SendCommand) -> None:
         """Send a command now, or when the device has answered the one before."""
-        if not self._may_lose:
+        if not self._may_lose or command.device in self._idless:
             self._tell(command)
             return
         self._open[command.id] = _Open(command, self.world.time_s)
@@ -46,7 +50,7 @@ class OpenCommands:
             del self._open[ack.command]
             return
         kept.is_answered = True
-        kept.due_s = self.world.time_s + ASKED_AFTER_S[min(kept.tries, len(ASKED_AFTER_S)) - 1]
+        kept.due_s = self.world.time_s + again_after_s(kept.tries, is_answered=True)
 
     def send_due(self) -> None:
         """Send what is due; a device gets no command before it has answered those that come before."""
@@ -56,8 +60,7 @@ class OpenCommands:
             is_control = command.method in CONTROLS
             if kept.due_s <= self.world.time_s + 1e-9 and (is_control or command.device not in waiting):
                 kept.tries += 1
-                wait_s = ASKED_AFTER_S[-1] if kept.is_answered else FIRST_RETRY_S * 2 ** (kept.tries - 1)
-                kept.due_s = self.world.time_s + min(LAST_RETRY_S, wait_s)
+                kept.due_s = self.world.time_s + again_after_s(kept.tries, is_answered=kept.is_answered)
                 self._tell(command)
             if not kept.is_answered and not is_control:
                 waiting.add(command.device)

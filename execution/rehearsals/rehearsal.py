@@ -93,7 +93,7 @@ def rehearse(
     try:
         standing = [replace(d, pose=scene.poses.get(d.id, d.pose)) for d in scene.devices]
         layout = make_layout(scene.grid, standing, places, m.site_zones(zones))
-        commands = OpenCommands(world, scene.faults)
+        commands = OpenCommands(world, scene.faults, scene.idless)
         return _Rehearsal(plan, layout, commands, conditions, follow).run()
     finally:
         world.close()

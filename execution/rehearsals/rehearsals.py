@@ -131,6 +131,7 @@ def _scene(prepared: Prepared, seed: int, faults: Mapping[str, Any] | None) -> d
         carrying={name: robot.carrying for name, robot in robots.items()},
         readings={d.id: {"battery": d.readings["battery"]} for d in robots.values() if "battery" in d.readings},
         paces=find_paces(site=site),
+        idless=frozenset(d.id for d in devices if d.only_done_flag),
     )
     check_faults(scene.faults, scene.devices, _steps(prepared.plan))
     return scene_to_json(scene, places, editor.find_zones(site=site))

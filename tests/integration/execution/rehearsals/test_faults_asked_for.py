@@ -6,8 +6,11 @@ import pytest
 
 from editor import services as editor
 from execution.models import Rehearsal, Run
+from execution.program_tests.site_digests import digests_of, what_changed
+from registry.models import Device
 from tests.kit.programs import SITE, TASK
 from tests.kit.sign_in import join_and_sign_in, post_json
+from vipo_device.descriptions.forms import CONTENT_TYPES
 
 pytestmark = pytest.mark.django_db(transaction=True)
 DEAD = {"version": 1, "faults": [{"fault": "dead", "device": "robot01", "at_s": 5.0}]}
@@ -24,6 +27,21 @@ def test_faults_reach_the_rehearsal_that_they_were_asked_for(program):
     assert post_json(client, f"/api/programs/{program}/rehearsals", {}).status_code == 202
     jobs = Rehearsal.objects.order_by("created_at").values_list("job", flat=True)
     assert [job["scene"]["faults"] for job in jobs] == [DEAD, {"version": 1, "faults": []}]
+
+
+def test_devices_that_know_no_command_by_its_id_are_named_in_rehearsals_and_tests(program):
+    Device.objects.filter(pk="paintMixer02").update(source_type=CONTENT_TYPES["paper"])
+    client = join_and_sign_in("operator", SITE)
+    assert post_json(client, f"/api/programs/{program}/rehearsals", {}).status_code == 202
+    author = join_and_sign_in("author", SITE)
+    text = "name: It ends\nthen:\n  - ends: well\n"
+    assert post_json(author, f"/api/programs/{program}/tests", {"text": text}).status_code == 201
+    assert post_json(author, f"/api/programs/{program}/test-runs", {}).status_code == 202
+    jobs = Rehearsal.objects.values_list("job", flat=True)
+    assert [job["scene"]["idless"] for job in jobs] == [["paintMixer02"]] * 2
+    with_it = digests_of(SITE)
+    Device.objects.filter(pk="paintMixer02").update(source_type=CONTENT_TYPES["turtle"])
+    assert what_changed(with_it, digests_of(SITE)) == {"what": "devices", "devices": ["paintMixer02"]}
 
 
 def test_how_a_rehearsal_was_asked_for_is_told_with_it(program):

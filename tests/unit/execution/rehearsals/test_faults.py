@@ -23,8 +23,11 @@ from editor.language.plan.instructions import (
     Wait,
 )
 from execution.rehearsals.child_process import scene_from_json, scene_to_json
+from execution.rehearsals.open_commands import OpenCommands
 from execution.rehearsals.rehearsal import Conditions, rehearse
-from simulation.world import Fault
+from execution.traffic.messages import SendCommand
+from simulation.services import make_world
+from simulation.world import Ack, Fault
 from tests.kit import demo_floor
 from vipo_device.protocol.description import PropertySpec
 
@@ -83,6 +86,36 @@ def test_a_command_or_an_answer_that_is_lost_is_asked_for_again_as_by_gateways()
         assert (result["ok"], result["duration_s"] - mixed(times=2)["duration_s"]) == (True, pytest.approx(6, abs=1))
     driven = carried(Fault("robot01", "deaf", for_s=5.0))
     assert (driven["ok"], driven["duration_s"] - carried()["duration_s"]) == (True, pytest.approx(6, abs=1.5))
+
+
+def told_at(monkeypatch, *faults, **scene):
+    """Return when a mixer is told a command that it takes 60 s for, in the first 50 s."""
+    world = make_world(scene=demo_floor.scene(faults=faults, **scene), driver="kinematic")
+    commands, times, tell = OpenCommands(world, faults, scene.get("idless", ())), [], world.command
+    monkeypatch.setattr(world, "command", lambda *said: (times.append(round(world.time_s, 2)), tell(*said)))
+    commands.send(SendCommand("c1", "paintMixer02", "mixPaint", {"time": 1}))
+    for step_s in (0.0, *[0.25] * 200):  # it answers at once
+        for event in world.advance(step_s):
+            if isinstance(event, Ack):
+                commands.answered(event)
+        commands.send_due()
+    return times
+
+
+def test_a_device_is_asked_at_the_seconds_at_which_gateways_ask(monkeypatch):
+    deaf_later = Fault("paintMixer02", "deaf", at_s=1.0)
+    assert told_at(monkeypatch, deaf_later) == [0, 5, 15, 30, 45], "it had accepted the command"
+    assert told_at(monkeypatch, Fault("paintMixer02", "deaf")) == [0, 2, 6, 14, 29, 44]
+
+
+def test_a_device_that_knows_no_command_by_its_id_is_told_each_once(monkeypatch):
+    for fault in (Fault("paintMixer02", "deaf"), Fault("paintMixer02", "deaf", at_s=1.0)):
+        assert told_at(monkeypatch, fault, idless=frozenset({"paintMixer02"})) == [0]
+        assert len(told_at(monkeypatch, fault, idless=frozenset({"paintMixer01"}))) > 1
+    plan = Plan((Instruction(TryBegin(3)), MIX, Instruction(TryEnd()), MIX, Instruction(End())))
+    scene = demo_floor.scene(faults=(Fault("paintMixer02", "deaf", for_s=5.0),), idless=frozenset({"paintMixer02"}))
+    result = rehearse(plan, scene, conditions=KINEMATIC)
+    assert (result["ok"], [error["kind"] for error in result["errors"]]) == (True, ["timed_out"])
 
 
 def test_a_command_that_is_asked_for_again_is_one_for_chance():
@@ -190,6 +223,12 @@ def test_faults_come_to_the_process_that_rehearses():
     faults = (Fault("robot01", "late", step="s1", nth=2, after_s=3.0, for_s=9.0), Fault("", "obstacle", x=1.0, y=2.0))
     scene, _, _ = scene_from_json(json.loads(json.dumps(scene_to_json(demo_floor.scene(faults=faults), ()))))
     assert scene.faults == faults
+
+
+def test_who_knows_no_command_by_its_id_comes_to_the_process_that_rehearses():
+    idless = frozenset({"robot01", "paintMixer02"})
+    job = json.loads(json.dumps(scene_to_json(demo_floor.scene(idless=idless), ())))
+    assert scene_from_json(job)[0].idless == idless
 
 
 def test_the_process_that_rehearses_with_faults_cannot_speak_to_a_broker():
