@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from datetime import datetime
-from typing import Any, Literal
+from functools import cached_property
+from typing import Any, Literal, NamedTuple
 from uuid import UUID
 
 from django.db import transaction
-from django.db.models import Max
+from django.db.models import Max, QuerySet, Subquery
+from django.db.models.functions import Coalesce
 
 from editor.documents.store import get_document
 from editor.errors import BadRequest, MayNotReview
@@ -76,19 +78,21 @@ def list_asked(*, site: str, user: Any) -> list[AskedReview]:
     asked = ReviewEntry.objects.filter(program__site__slug=site, kind=ReviewEntry.Kind.ASKED)
     newest = asked.values("program_id").annotate(newest=Max("pk")).order_by("-newest")[:MOST_SHOWN]
     rows = ReviewEntry.objects.filter(pk__in=[row["newest"] for row in newest]).select_related("program")
-    return [_asked(row, site, rule) for row in rows.order_by("-pk") if _waits_for(row, site, rule, user)]
+    lines = ((row, _Line(row.program_id, site, rule, row.number)) for row in rows.order_by("-pk"))
+    return [_asked(row, line) for row, line in lines if _waits_for(row, line, user)]
 
 
-def _waits_for(row: ReviewEntry, site: str, rule: Rule, user: Any) -> bool:
-    standing = read_standing(site=site, program_id=row.program_id, digest=row.digest, rule=rule)
+def _waits_for(row: ReviewEntry, line: _Line, user: Any) -> bool:
+    rule = line.rule
+    standing = read_standing(site=line.site, program_id=row.program_id, digest=row.digest, rule=rule)
     enough = len(standing.approved) >= max(1, rule.approvals)
     if enough or standing.objecting or any(word.person == user.pk for word in standing.approved):
         return False
-    return not _Line(row.program_id, site, rule, row.number).why_not(user)
+    return not line.why_not(user)
 
 
-def _asked(row: ReviewEntry, site: str, rule: Rule) -> AskedReview:
-    before = _Line(row.program_id, site, rule, row.number).approved_before()
+def _asked(row: ReviewEntry, line: _Line) -> AskedReview:
+    before = line.approved_before()
     return AskedReview(row.program_id, row.program.name, row.number, before, row.name, row.note, row.at)
 
 
@@ -151,9 +155,18 @@ def find_makers(*, program_id: UUID, number: int, site: str) -> frozenset[int]:
     return _Line(program_id, site, get_rule(site=site), number).makers()
 
 
-@dataclass(frozen=True, slots=True)
+class _Drawn(NamedTuple):
+    """A version: its content, who has drawn since the one before, and who pinned it."""
+
+    number: int
+    digest: str
+    authors: list[int]
+    author: int | None
+
+
+@dataclass(frozen=True)
 class _Line:
-    """The versions of a program up to one of them, or to what is drawn now."""
+    """The versions of a program up to one of them, or to what is drawn now; what is approved is asked for once."""
 
     program: UUID
     site: str
@@ -162,12 +175,16 @@ class _Line:
 
     def approved_before(self) -> int | None:
         """Return the last version before it whose content is approved."""
-        rows = Version.objects.filter(program_id=self.program, digest__in=self._approved())
+        rows = self._versions.filter(digest__in=self._approved)
         if self.number is not None:
             rows = rows.filter(number__lt=self.number)
-        last = rows.order_by("-number").only("number").first()
-        return last.number if last else None
+        return rows.order_by("-number").values_list("number", flat=True).first()
 
+    @property
+    def _versions(self) -> QuerySet[Version]:
+        return Version.objects.filter(program_id=self.program)
+
+    @cached_property
     def _approved(self) -> frozenset[str]:
         return list_approved_digests(site=self.site, program_id=self.program, rule=self.rule)
 
@@ -177,22 +194,27 @@ class _Line:
         An approval is of a content: who had drawn for an earlier version with the same one has drawn this, too, for
         it may have come back by an undo, or have been restored by somebody else.
         """
-        rows = Version.objects.filter(program_id=self.program)
-        this = rows.filter(number=self.number).defer("content").first() if self.number is not None else None
-        if this is None:
+        later = [] if self.number is None else self._since_approved(self.number)
+        if not later or later[-1].number != self.number:
             return frozenset()
-        approved, since = self._approved(), set[int]()
-        made = set() if this.author_id is None else {this.author_id}
-        first = rows.filter(digest=this.digest).order_by("number").values_list("number", flat=True)[0]
-        before = replace(self, number=first).approved_before() or 0
-        later = rows.filter(number__gt=before, number__lte=this.number).order_by("number")
-        for digest, authors in later.values_list("digest", "authors"):
-            since.update(authors)
-            if digest == this.digest:
+        this, since = later[-1], set[int]()
+        made = set() if this.author is None else {this.author}
+        for version in later:
+            since.update(version.authors)
+            if version.digest == this.digest:
                 made |= since
-            if digest in approved:
+            if version.digest in self._approved:
                 since.clear()
         return frozenset(made)
+
+    def _since_approved(self, number: int) -> list[_Drawn]:
+        """Return the versions up to this one, behind the last approved one before its content first came up."""
+        content = self._versions.filter(number=number).values("digest")
+        first = self._versions.filter(digest=Subquery(content)).order_by("number").values("number")[:1]
+        before = self._versions.filter(digest__in=self._approved, number__lt=Subquery(first))
+        last = Coalesce(Subquery(before.order_by("-number").values("number")[:1]), 0)
+        rows = self._versions.filter(number__gt=last, number__lte=number).order_by("number")
+        return [_Drawn(*row) for row in rows.values_list("number", "digest", "authors", "author")]
 
     def why_not(self, user: Any) -> WhyNot:
         """Say why somebody cannot approve it; empty if they can."""

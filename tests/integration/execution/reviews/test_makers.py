@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from django.db import connection
+from django.test.utils import CaptureQueriesContext
 
+from editor.reviews.reviews import show_review
 from tests.integration.execution.reviews.conftest import Team
-from tests.kit.sign_in import signed_in
+from tests.kit.sign_in import find_person, signed_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -65,3 +68,22 @@ def test_what_one_has_drawn_stays_ones_own_when_somebody_else_brings_it_back(tea
     team.draw("bob", 9)
     number = team.pin("olga")
     assert [team.look(who, number)["why_not"] for who in ("ann", "bob", "root")] == ["own", "own", ""]
+
+
+def test_a_review_is_asked_of_the_database_in_as_many_statements_however_long_its_history_is(team: Team) -> None:
+    team.demand(1)
+    numbers = []
+    for seconds in range(8, 12):
+        team.draw("ann", seconds)
+        numbers.append(team.pin("ann"))
+        assert team.say("bob", "approved", numbers[-1]).status_code == 200
+
+    def asked(number: int | None) -> list[int]:
+        """Return how many statements ask for versions and for what was said of them."""
+        with CaptureQueriesContext(connection) as captured:
+            show_review(program_id=team.program, user=find_person("vera"), number=number)
+            show_review(program_id=team.program, user=find_person("bob"), number=number)
+        said = [each["sql"] for each in captured.captured_queries]
+        return [sum(f'FROM "{table}"' in sql for sql in said) for table in ("editor_version", "editor_reviewentry")]
+
+    assert [asked(number) for number in (numbers[0], numbers[-1])] == [[5, 4]] * 2
