@@ -35,7 +35,10 @@ class TwinMemory:
         return self.boots.get(device, self.first_boot - 1) + 1
 
     def over(self, older: TwinMemory) -> TwinMemory:
-        """Return this with what an older one knows of devices that are not in the world now: they may come back."""
+        """Return this with what an older one knows of devices that are not in the world now: they may come back.
+
+        Nothing is forgotten, for the registry deletes no device that has described itself: those not here are retired.
+        """
         return replace(
             self,
             poses={**older.poses, **self.poses},
