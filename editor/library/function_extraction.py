@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Iterable, Mapping
 from typing import Any
 
 from editor.errors import BadRequest
@@ -24,19 +24,8 @@ def cut_out_function(document: Mapping[str, Any], function: str) -> dict[str, An
     functions = document["functions"]
     if function not in functions:
         raise BadRequest("The program has no such function. It may have been deleted; reload the page.")
-    wanted, steps, left = [function], {}, [function]
-    while left:
-        parent = left.pop()
-        for step, body in document["steps"].items():
-            if _parent_of(body) != parent or step in steps:
-                continue
-            steps[step] = body
-            left.append(step)
-            called = body["params"].get("function") if body["kind"] == "call" else None
-            if isinstance(called, str) and called in functions and called not in wanted:
-                wanted.append(called)
-                left.append(called)
-    others = {other: functions[other] for other in wanted[1:]}
+    wanted, steps = Bodies(document["steps"]).reach([function], functions)
+    others = {other: functions[other] for other in wanted if other != function}
     named = {root: _named(steps, key, document[root]) for root, key in _NAMED.items()}
     named["roles"].pop(DEFAULT_ROLE, None)  # every program has one of its own
     return {
@@ -49,9 +38,41 @@ def cut_out_function(document: Mapping[str, Any], function: str) -> dict[str, An
     }
 
 
-def _parent_of(step: Mapping[str, Any]) -> str | None:
-    place = step.get("place")
-    return place[0] if place else None
+class Bodies:
+    """What stands in the functions of a well-formed document, by its steps."""
+
+    def __init__(self, steps: Mapping[str, Any]) -> None:
+        self._steps = steps
+        self._children: dict[str, list[str]] = {}
+        for step, body in steps.items():
+            if place := body.get("place"):
+                self._children.setdefault(place[0], []).append(step)
+
+    def reach(self, functions: Iterable[str], into: Container[str] = ()) -> tuple[list[str], dict[str, Any]]:
+        """Return these functions, with those that they call, one by another, as far as they are in `into`; all steps.
+
+        The functions are in the order in which they are found, the steps are by id.
+        """
+        found = list(functions)
+        left, known, steps = list(found), set(found), dict[str, Any]()
+        while left:
+            for step in self._children.get(left.pop(), ()):
+                if step in steps:
+                    continue
+                body = steps[step] = self._steps[step]
+                left.append(step)
+                called = called_by(body)
+                if called is not None and called in into and called not in known:
+                    known.add(called)
+                    found.append(called)
+                    left.append(called)
+        return found, steps
+
+
+def called_by(step: Mapping[str, Any]) -> str | None:
+    """Return the function that a step calls, if it is a call of one."""
+    called = step["params"].get("function") if step["kind"] == "call" else None
+    return called if isinstance(called, str) else None
 
 
 def _named(steps: Mapping[str, Any], key: str, known: Mapping[str, Any]) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Any
@@ -123,6 +123,15 @@ def get_function(*, function_id: UUID | str, user: Any, version: int | None = No
     view = _Reader(user, find_devices(site=fits) if fits else None, [row]).view(row, found)
     before = row.versions.filter(number=found.number - 1).first()
     return replace(view, reasons=None if before is None else _reasons(before, found))
+
+
+def get_definitions(*, function_id: UUID | str, user: Any, versions: Collection[int]) -> dict[int, Mapping[str, Any]]:
+    """Return what these versions of a function have, by number; those that there are not are left out.
+
+    Raises NoSuchProgram.
+    """
+    found = _row(function_id, user).versions.filter(number__in=versions)
+    return {number: migrate_document(definition) for number, definition in found.values_list("number", "definition")}
 
 
 def list_function_versions(*, function_id: UUID | str, user: Any) -> tuple[VersionLine, ...]:

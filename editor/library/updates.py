@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Set
+from collections.abc import Callable, Mapping, Set
 from dataclasses import replace
 from typing import Any
 from uuid import UUID, uuid4
@@ -10,10 +10,12 @@ from uuid import UUID, uuid4
 from editor.documents.shared_document import digest_of
 from editor.errors import BadRequest
 from editor.language.reading.well_formed import well_formed
-from editor.library.queries import get_function
+from editor.library.function_extraction import Bodies, called_by, held_by
+from editor.library.queries import get_definitions, get_function
 from editor.programs.contents import ContentView, get_content
 
 MakeId = Callable[[], str]
+Former = Mapping[int, Mapping[str, Any]]
 _NAMING = ("function", "role", "zone")
 BODY = ("program", "body")
 _ABOVE_M = 1.2
@@ -29,24 +31,30 @@ def get_updated_content(*, program_id: UUID, library: UUID, version: int, user: 
     """
     content = get_content(program_id=program_id)
     wanted = get_function(function_id=library, user=user, version=version)
-    document = with_version(content.document, wanted.definition, (str(library), version), lambda: uuid4().hex)
+    held = {number for function, number in held_by(content.document) if function == str(library)}
+    former = get_definitions(function_id=library, user=user, versions=held)
+    source = (str(library), version)
+    document = with_version(content.document, wanted.definition, source, lambda: uuid4().hex, former)
     return replace(content, document=document, digest=digest_of(document))
 
 
 def with_version(
-    document: Mapping[str, Any], cut: Mapping[str, Any], source: tuple[str, int], make_id: MakeId
+    document: Mapping[str, Any], cut: Mapping[str, Any], source: tuple[str, int], make_id: MakeId, former: Former
 ) -> dict[str, Any]:
     """Return a document with all functions of a library's function as `cut` has it; calls of them stay.
 
-    Raises BadRequest if there are none.
+    The functions go that came with the version that the document holds, by their names there, and that nothing else
+    calls. `former` are such versions by number; of one that is not among them the names in `cut` count.
+
+    Raises BadRequest if the document holds none.
     """
     document = well_formed(document)
     held = [name for name, each in document["functions"].items() if _library_of(each) == source[0]]
     if not held:
         raise BadRequest("The program does not hold this function of the library. It may have been deleted from it.")
     for function in held:
-        if function in document["functions"]:  # it may have gone with another that alone called it
-            _replace(document, function, cut, source, make_id)
+        if each := document["functions"].get(function):  # it may have gone with another that alone called it
+            _replace(document, function, cut, source, _former(each, cut, former), make_id)
     return document
 
 
@@ -55,13 +63,28 @@ def _library_of(function: Mapping[str, Any]) -> object:
     return source.get("library") if isinstance(source, Mapping) else None
 
 
+def _former(held: Mapping[str, Any], cut: Mapping[str, Any], former: Former) -> Mapping[str, Any]:
+    """Return the version that a program holds, or the new one where nobody knows that."""
+    number = held["source"].get("version")
+    return former.get(number, cut) if isinstance(number, int) else cut
+
+
+def _names_in(version: Mapping[str, Any]) -> set[object]:
+    return {each.get("name") for each in version["functions"].values()}
+
+
 def _replace(
-    document: dict[str, Any], function: str, cut: Mapping[str, Any], source: tuple[str, int], make_id: MakeId
+    document: dict[str, Any],
+    function: str,
+    cut: Mapping[str, Any],
+    source: tuple[str, int],
+    former: Mapping[str, Any],
+    make_id: MakeId,
 ) -> None:
-    old = _parts_of_only(document, function, {each.get("name") for each in cut["functions"].values()})
-    for emptied in (function, *old):
-        for step in list(_steps_below(document["steps"], emptied)):
-            del document["steps"][step]
+    bodies = Bodies(document["steps"])
+    old = _parts_of_only(document, bodies, function, _names_in(former))
+    for step in bodies.reach([function, *old])[1]:
+        del document["steps"][step]
     for part in old:
         del document["functions"][part]
     fresh = {str(cut["id"]): function} | {each: make_id() for each in (*cut["functions"], *cut["steps"])}
@@ -75,53 +98,15 @@ def _replace(
     document["steps"] |= {fresh[name]: _renamed_step(step, fresh) for name, step in cut["steps"].items()}
 
 
-def _parts_of_only(document: Mapping[str, Any], function: str, names: Set[object]) -> set[str]:
+def _parts_of_only(document: Mapping[str, Any], bodies: Bodies, function: str, names: Set[object]) -> set[str]:
     """Return the functions of these names that a function calls, itself or by others, and that nothing else calls."""
-    functions, calls = document["functions"], _calls_of(document["steps"])
-    called = _reached(calls, {function}) - {function}
-    parts = {each for each in called if each in functions and functions[each].get("name") in names}
-    others = {each for owner in calls.keys() - {function, *parts} for each in calls[owner]}
-    return parts - _reached({part: calls.get(part, set()) & parts for part in parts}, others & parts)
-
-
-def _calls_of(steps: Mapping[str, Any]) -> dict[str, set[str]]:
-    """Return which functions are called below each function, the program and each draft."""
-    calls: dict[str, set[str]] = {}
-    for name, step in steps.items():
-        called = step["params"].get("function") if step["kind"] == "call" else None
-        if isinstance(called, str):
-            calls.setdefault(_top_of(steps, name), set()).add(called)
-    return calls
-
-
-def _top_of(steps: Mapping[str, Any], name: str) -> str:
-    seen: set[str] = set()
-    while name in steps and name not in seen and (place := steps[name].get("place")):
-        seen.add(name)
-        name = place[0]
-    return name
-
-
-def _reached(calls: Mapping[str, Set[str]], start: Set[str]) -> set[str]:
-    """Return these and all that they call, one by another."""
-    found, left = set(start), list(start)
-    while left:
-        more = calls.get(left.pop(), frozenset()) - found
-        found |= more
-        left += more
-    return found
-
-
-def _steps_below(steps: Mapping[str, Any], parent: str) -> Iterator[str]:
-    children: dict[str, list[str]] = {}
-    for name, step in steps.items():
-        if step.get("place"):
-            children.setdefault(step["place"][0], []).append(name)
-    left = [parent]
-    while left:
-        found = children.pop(left.pop(), [])
-        left += found
-        yield from found
+    functions, steps = document["functions"], document["steps"]
+    called, _ = bodies.reach([function], functions)
+    parts = {each for each in called if each != function and functions[each].get("name") in names}
+    _, inside = bodies.reach([function, *parts])
+    elsewhere = {called_by(steps[step]) for step in steps.keys() - inside.keys()}
+    kept, _ = bodies.reach([each for each in parts if each in elsewhere], parts)
+    return parts.difference(kept)
 
 
 def _renamed_step(step: Mapping[str, Any], fresh: Mapping[str, str]) -> dict[str, Any]:

@@ -175,3 +175,41 @@ test("functions that came with the former version go with it, but for those that
   const again = { ...call("deep", "old"), place: ["deep", "body", "C"] as const };
   expect(namesIn(take({ ...document, steps: { ...document.steps, again } })).sort()).toEqual(namesIn(after).sort());
 });
+
+test("functions that the new version renamed or dropped go, and one's own of a new name stays", () => {
+  const call = (parent: string, called: string, order: string) => ({
+    kind: "call",
+    place: [parent, "body", order] as const,
+    params: { function: called, args: {} },
+  });
+  const wait = (parent: string) => ({ kind: "wait", place: [parent, "body", "A"] as const, params: { duration: 1 } });
+  const named = (name: string) => ({ name, parameters: [] });
+  const document: ProgramDocument = {
+    ...EMPTY_DOCUMENT,
+    functions: { mix: named("mixPaint"), r: named("soak"), d: named("drain"), o: named("rinse") },
+    steps: {
+      main: call("program", "mix", "A"),
+      a: call("mix", "r", "A"),
+      b: call("mix", "d", "B"),
+      c: call("mix", "o", "C"),
+      soaks: wait("r"),
+      drains: wait("d"),
+      mine: wait("o"),
+    },
+  };
+  const former: CutOut = { ...cut, functions: { r: named("soak"), d: named("drain") } };
+  let count = 0;
+  const source = { library: "lib", version: 3 };
+  const makeId = () => `n${(count += 1)}`;
+  const after = applyEdits(document, replaceFunction(document, "mix", cut, source, makeId, former));
+  expect(
+    Object.values(after.functions)
+      .map(({ name }) => name)
+      .sort(),
+  ).toEqual(["mixPaint", "rinse", "rinse"]);
+  expect([after.steps.soaks, after.steps.drains, after.steps.mine]).toEqual([
+    undefined,
+    undefined,
+    document.steps.mine,
+  ]);
+});

@@ -75,8 +75,9 @@ export function importFunction(
 }
 
 /**
- * The function's definition and body as another version of the library has them; its calls stay. Of the functions that
- * came with it, those go that nothing else calls and that come anew under the same name.
+ * The function's definition and body as another version of the library has them; its calls stay. The functions go that
+ * came with the version that is held, by their names there, and that nothing else calls. Where nobody knows that
+ * version any more, the names in the new one count.
  */
 export function replaceFunction(
   document: ProgramDocument,
@@ -84,9 +85,10 @@ export function replaceFunction(
   cut: CutOut,
   source: Source,
   makeId: MakeId,
+  former: CutOut = cut,
 ): readonly Edit[] {
   if (!document.functions[functionId]) return [];
-  const names = new Set(Object.values(cut.functions).map(({ name }) => name));
+  const names = new Set(Object.values(former.functions).map(({ name }) => name));
   const old = partsOfOnly(document, functionId, names);
   const emptied = new Set([functionId, ...old]);
   const bodies = Object.keys(document.steps).filter((id) => emptied.has(document.steps[id]?.place?.[0] ?? ""));

@@ -122,6 +122,12 @@ function FixButton({ fix }: { fix: Fix }) {
   );
 }
 
+/** What a version of a library function holds, or nothing where it cannot be had. */
+async function fetchCut(library: string, version: number): Promise<CutOut | undefined> {
+  const found = await api.get<LibraryFunction>(`/library/${library}/versions/${version}`);
+  return found.definition ?? undefined;
+}
+
 /** Fetch the version of a library function that a remedy names, and put it in the place of the one here. */
 function useBringVersion() {
   const { shared, apply } = useOpenProgram();
@@ -129,12 +135,17 @@ function useBringVersion() {
   return async (fix: Fix) => {
     const wanted = versionOf(fix);
     if (!wanted) return;
-    const { library, version } = wanted;
+    const { library, version, function: id } = wanted;
+    const heldNow = () => shared.getDocument().functions[id]?.source?.version;
+    const held = heldNow();
     try {
-      const found = await api.get<LibraryFunction>(`/library/${library}/versions/${version}`);
-      if (!found.definition) return;
-      const cut = found.definition as unknown as CutOut;
-      const edits = replaceFunction(shared.getDocument(), wanted.function, cut, { library, version }, makeId);
+      const [cut, former] = await Promise.all([
+        fetchCut(library, version),
+        held === undefined ? undefined : fetchCut(library, held).catch(() => undefined),
+      ]);
+      if (!cut) return;
+      const known = heldNow() === held ? former : undefined; // somebody may have brought another one meanwhile
+      const edits = replaceFunction(shared.getDocument(), id, cut, { library, version }, makeId, known);
       doAndSay(
         { shared },
         () => apply(edits),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from typing import Any
-from uuid import uuid4
+from uuid import UUID, uuid4
 
 import pytest
 
@@ -13,7 +13,7 @@ from execution.rehearsals import test_results, worker
 from registry import services as registry
 from tests.integration.execution.program_tests.conftest import add
 from tests.kit.programs import SITE, document, step
-from tests.kit.sign_in import add_person, join_and_sign_in, post_json, signed_in
+from tests.kit.sign_in import add_person, find_person, join_and_sign_in, post_json, signed_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 F = ("f", "body")
@@ -161,3 +161,19 @@ def test_updates_that_were_tried_often_push_no_result_of_the_program_away(
         worker.carry_out_waiting()
     assert TrialResult.objects.filter(run__update__isnull=False).count() == 2
     assert client.get(f"/api/programs/{program}/tests").json()["tests"][0]["result"]["status"] == "passed"
+
+
+def test_a_helper_that_the_new_version_renamed_goes_with_the_version_that_is_held(client) -> None:
+    def using(helper: str, **source: Any) -> dict[str, Any]:
+        steps = {"go": step("call", F, function="h", args={}), "in": step("wait", ("h", "body"), duration=5)}
+        functions = {"f": {"name": "pause", "parameters": [], **source}, "h": {"name": helper, "parameters": []}}
+        return document(steps, functions=functions)
+
+    library = save(using("rinse"))["id"]
+    assert save(using("flush"))["version"] == 2
+    drawn = using("rinse", source={"library": library, "version": 1})
+    program = editor.create_program(site=SITE, name="Holds it", document=drawn).id
+    updated = editor.get_updated_content(
+        program_id=program, library=UUID(library), version=2, user=find_person("author")
+    )
+    assert sorted(each["name"] for each in updated.document["functions"].values()) == ["flush", "pause"]

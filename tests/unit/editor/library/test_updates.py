@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import count
+from types import MappingProxyType
 from typing import Any
 
 from editor.language import compile_document
+from editor.library.function_extraction import cut_out_function
 from editor.library.updates import with_version
 from tests.kit.demo_site import factory
 from tests.kit.programs import document, step
+from tests.kit.work import count_work
 
 F = ("f", "body")
 NOW = ("l", 2)
@@ -24,9 +28,11 @@ def cut(steps: dict[str, Any], **more: Any) -> dict[str, Any]:
     return {"id": "f", "function": {"name": "fetch", "parameters": []}, "functions": {}, "steps": steps, **more}
 
 
-def update(drawn: dict[str, Any], version: dict[str, Any]) -> dict[str, Any]:
+def update(
+    drawn: dict[str, Any], version: dict[str, Any], former: Mapping[int, Mapping[str, Any]] = MappingProxyType({})
+) -> dict[str, Any]:
     numbers = count()
-    return with_version(drawn, version, NOW, lambda: f"n{next(numbers)}")
+    return with_version(drawn, version, NOW, lambda: f"n{next(numbers)}", former)
 
 
 def errors(drawn: dict[str, Any]) -> list[str]:
@@ -95,3 +101,31 @@ def test_a_function_that_is_held_as_a_part_of_itself_is_updated_once() -> None:
     version = cut({"go": step("call", F, function="g", args={})}, functions={"g": {"name": "fetch", "parameters": []}})
     after = update(document(steps, functions=functions), version)
     assert [each.get("source") for each in after["functions"].values()] == [{"library": "l", "version": 2}, None]
+
+
+def test_functions_that_the_new_version_renamed_or_dropped_go_and_ones_own_of_a_new_name_stays() -> None:
+    def calls(parent: str, called: str, order: str = "V") -> dict[str, Any]:
+        return {**step("call", function=called, args={}), "place": [parent, "body", order]}
+
+    named = {name: {"name": name, "parameters": []} for name in ("rinse", "drain", "flush")}
+    steps = {"main": calls("program", "f"), "a": calls("f", "r"), "b": calls("f", "d", "W"), "c": calls("f", "o", "X")}
+    waits = {f"in_{name}": step("wait", (name, "body"), duration=1) for name in "rdo"}
+    functions = {"f": held(), "r": named["rinse"], "d": named["drain"], "o": named["flush"]}
+    first = cut({}, functions={"r": named["rinse"], "d": named["drain"]})
+    version = cut({"go": calls("f", "g")}, functions={"g": named["flush"]})
+    after = update(document({**steps, **waits}, functions=functions), version, {1: first, 2: version})
+    assert sorted(each["name"] for each in after["functions"].values()) == ["fetch", "flush", "flush"]
+    assert (after["functions"]["o"], after["steps"].keys() & waits.keys()) == (named["flush"], {"in_o"})
+
+
+def test_a_long_program_is_gone_through_a_few_times_whatever_stands_in_it() -> None:
+    def work(length: int) -> int:
+        steps = {f"s{number}": step("wait", ("w", "body"), duration=1) for number in range(length)}
+        nested = {f"n{number}": step("loop", (f"n{number - 1}" if number else "w", "body")) for number in range(20)}
+        drawn = document({**steps, **nested}, functions={"w": {"name": "wait", "parameters": []}})
+        with count_work() as counted:
+            assert len(cut_out_function(drawn, "w")["steps"]) == length + 20
+        return counted.lines
+
+    short, long = work(100), work(1000)
+    assert long < 12 * short
