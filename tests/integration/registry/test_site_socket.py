@@ -164,7 +164,9 @@ async def test_who_signs_out_is_closed_out_everywhere_and_others_stay(person: Ca
         assert answer.status_code == 200
         assert await close_code(leaving) == 4401
         fanout.publish("hall", {"type": "programs"})
-        assert await staying.receive_json_from(PATIENCE_S) == {"type": "programs"}
+        while (news := await staying.receive_json_from(PATIENCE_S)) == {"type": "beat"}:
+            pass
+        assert news == {"type": "programs"}
 
 
 async def test_a_browser_that_reads_too_slowly_is_closed(
