@@ -18,7 +18,7 @@ from execution.database import preparing_cursor
 from execution.fault_points import fault_point
 from execution.floor_protocol import again_after_s
 from execution.models import Command, Run
-from execution.traffic.messages import CONTROLS
+from execution.traffic.messages import CONTROLS, HALTING_CONTROLS
 from registry import services as registry
 from vipo_device.protocol import messages
 
@@ -56,7 +56,8 @@ WITH ready AS MATERIALIZED (
     WINDOW lane AS (PARTITION BY site_id, device)
 ), chosen AS MATERIALIZED (
     SELECT id FROM waiting
-    WHERE send_after <= %(now)s AND (method IN ('pause', 'cancel') OR (run IN (SELECT id FROM held)) IS NOT TRUE)
+    WHERE send_after <= %(now)s
+    AND (method IN ({_words(HALTING_CONTROLS)}) OR (run IN (SELECT id FROM held)) IS NOT TRUE)
     AND (method IN ({_words(CONTROLS)}) OR (
         site_id NOT IN (SELECT site_id FROM execution_sitestop WHERE active)
         AND NOT EXISTS (

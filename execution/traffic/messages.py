@@ -13,6 +13,8 @@ from vipo_device.protocol.description import Scalar
 
 CONTROLS = ("pause", "resume", "cancel")
 """Methods about a command that a device has already; every device knows them."""
+HALTING_CONTROLS = ("pause", "cancel")
+"""Those after which less moves than before: they go out, whatever was stopped since."""
 
 
 @dataclass(frozen=True, slots=True)
