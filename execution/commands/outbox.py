@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from uuid import UUID
 
 from django.db import connection, transaction
-from django.db.models import Q
+from django.db.models import F, Q
 from django.utils.dateparse import parse_datetime
 
 from execution import database, mailbox
@@ -279,14 +279,18 @@ def end_commands_of_runs_over(now: datetime) -> None:
     """End as cancelled what no device has been told of a run that is over: it is told no more, so none will answer.
 
     A device was told nothing by a command that never went out, or if it has done its cancel without a word of it.
+    Pieces of path still go out, so that the robot settles, unless everything was stopped since: as `claim` has it.
     """
-    rows = Command.objects.filter(status__in=UNANSWERED, piece=False).exclude(run=None).exclude(method__in=CONTROLS)
+    rows = Command.objects.filter(status__in=UNANSWERED).exclude(run=None).exclude(method__in=CONTROLS)
     runs = {run for run in rows.values_list("run", flat=True) if run is not None}
-    over = set(Run.objects.filter(id__in=runs).exclude(status__in=Run.OPEN).values_list("id", flat=True))
+    ended = Run.objects.filter(id__in=runs).exclude(status__in=Run.OPEN)
+    over = set(ended.values_list("id", flat=True))
+    stopped = set(ended.filter(fence__lt=F("site__stop_latch__pressed")).values_list("id", flat=True))
+    rows = rows.filter(Q(piece=False) | Q(run__in=stopped), run__in=over)
     called_off = Command.objects.filter(run__in=over, method="cancel", status=Command.Status.DONE)
     names = called_off.values_list("arguments__command", flat=True)
-    ended = [number for named in names if (number := _uuid(str(named))) is not None]
-    unheard = rows.filter(Q(status=Command.Status.PENDING, tries=0) | Q(id__in=ended), run__in=over)
+    cancelled = [number for named in names if (number := _uuid(str(named))) is not None]
+    unheard = rows.filter(Q(status=Command.Status.PENDING, tries=0) | Q(id__in=cancelled))
     for number in list(unheard.order_by("position").values_list("id", flat=True)) if over else ():
         with transaction.atomic():
             row = unheard.select_for_update(of=("self",)).select_related("site").filter(id=number).first()

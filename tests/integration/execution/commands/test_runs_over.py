@@ -1,6 +1,7 @@
 """What a run has told devices before it is over: nobody begins it later, and nobody waits for it."""
 
 from datetime import UTC, datetime
+from uuid import uuid4
 
 import pytest
 
@@ -8,7 +9,8 @@ from editor.language.expressions.nodes import Constant, PlaceRef
 from editor.language.plan.instructions import Call, End, Instruction, Plan
 from execution import services
 from execution.commands.outbox import end_commands_of_runs_over, resend_commands
-from execution.models import Command, Run
+from execution.models import Command, FloorState, Run
+from execution.traffic.floor_state import from_json
 from registry.models import Device
 from tests.kit.programs import CARRY, SITE
 
@@ -90,16 +92,54 @@ def test_what_a_run_under_way_has_told_stays_as_it_is(factory):
     assert command(run).status == "pending"
 
 
-@pytest.mark.parametrize("stopped", [False, True])
-def test_a_robot_settles_on_its_pieces_of_path_unless_all_was_stopped_since(factory, stopped):
+def settling(factory, *, stopped):
+    """The robot of a run that is over while a piece of its path has not gone out yet."""
     run = factory.start(CARRY)
-    factory.go(lambda: Command.objects.filter(piece=True, status="pending").exists() or factory.pass_time(0.1))
-    robot = Command.objects.filter(piece=True, status="pending").first().device
+    factory.go(lambda: Command.objects.filter(piece=True, tries=0).exists() or factory.pass_time(0.1))
+    piece = Command.objects.filter(piece=True, tries=0).first()
+    assert str(piece.run) == run
     Run.objects.filter(id=run).update(status="cancelled")
     if stopped:
         services.press_stop(site=SITE, by="Otto")
         services.reset_stop(site=SITE, by="Otto")
-    assert set(told(robot)) == (set() if stopped else {"move"})
+    return piece
+
+
+@pytest.mark.parametrize("stopped", [False, True])
+def test_a_robot_settles_on_its_pieces_of_path_unless_all_was_stopped_since(factory, stopped):
+    piece = settling(factory, stopped=stopped)
+    end_commands_of_runs_over(datetime.now(UTC))
+    assert set(told(piece.device)) == (set() if stopped else {"move"})
+
+
+def test_a_robot_whose_last_piece_of_path_a_stop_has_kept_back_drives_no_more_in_the_eyes_of_the_floor(factory):
+    piece = settling(factory, stopped=True)
+    factory.work()
+    assert str(piece.id) in floor_state().sent
+    end_commands_of_runs_over(datetime.now(UTC))
+    factory.work()
+    piece.refresh_from_db()
+    assert piece.status == "cancelled"
+    assert not [sent for sent in floor_state().sent.values() if sent.device == piece.device]
+
+
+def floor_state():
+    return from_json(FloorState.objects.get(site__slug=SITE).state)
+
+
+def test_a_piece_of_path_that_went_out_once_is_ended_when_its_robot_has_done_the_cancel(factory):
+    piece = settling(factory, stopped=True)
+    Command.objects.filter(id=piece.id).update(tries=1)
+    end_commands_of_runs_over(datetime.now(UTC))
+    piece.refresh_from_db()
+    assert piece.status == "pending"
+    control = Command.objects.get(id=piece.id)
+    control.pk, control.method, control.piece, control.position = uuid4(), "cancel", False, 1000
+    control.arguments, control.status = {"command": str(piece.id)}, "done"
+    control.save(force_insert=True)
+    end_commands_of_runs_over(datetime.now(UTC))
+    piece.refresh_from_db()
+    assert piece.status == "cancelled"
 
 
 def test_the_resume_of_a_run_goes_out_when_a_person_has_resumed_it(factory):
