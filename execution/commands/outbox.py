@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from uuid import UUID
 
 from django.db import connection, transaction
-from django.db.models import F, Q
+from django.db.models import Exists, F, OuterRef, Q
 from django.utils.dateparse import parse_datetime
 
 from execution import database, mailbox
@@ -281,17 +281,17 @@ def end_commands_of_runs_over(now: datetime) -> None:
     A device was told nothing by a command that never went out, or if it has done its cancel without a word of it.
     Pieces of path still go out, so that the robot settles, unless everything was stopped since: as `claim` has it.
     """
-    rows = Command.objects.filter(status__in=UNANSWERED).exclude(run=None).exclude(method__in=CONTROLS)
-    runs = {run for run in rows.values_list("run", flat=True) if run is not None}
-    ended = Run.objects.filter(id__in=runs).exclude(status__in=Run.OPEN)
-    over = set(ended.values_list("id", flat=True))
-    stopped = set(ended.filter(fence__lt=F("site__stop_latch__pressed")).values_list("id", flat=True))
-    rows = rows.filter(Q(piece=False) | Q(run__in=stopped), run__in=over)
-    called_off = Command.objects.filter(run__in=over, method="cancel", status=Command.Status.DONE)
+    over = Run.objects.filter(id=OuterRef("run")).exclude(status__in=Run.OPEN)
+    stopped_since = over.filter(fence__lt=F("site__stop_latch__pressed"))
+    rows = Command.objects.filter(status__in=UNANSWERED).exclude(method__in=CONTROLS)
+    kept_back = dict(rows.filter(Q(Exists(over), piece=False) | Exists(stopped_since)).values_list("id", "run"))
+    if not kept_back:
+        return
+    called_off = Command.objects.filter(run__in=set(kept_back.values()), method="cancel", status=Command.Status.DONE)
     names = called_off.values_list("arguments__command", flat=True)
-    cancelled = [number for named in names if (number := _uuid(str(named))) is not None]
+    cancelled = kept_back.keys() & {_uuid(str(named)) for named in names}
     unheard = rows.filter(Q(status=Command.Status.PENDING, tries=0) | Q(id__in=cancelled))
-    for number in list(unheard.order_by("position").values_list("id", flat=True)) if over else ():
+    for number in list(unheard.filter(id__in=kept_back).order_by("position").values_list("id", flat=True)):
         with transaction.atomic():
             row = unheard.select_for_update(of=("self",)).select_related("site").filter(id=number).first()
             if row is not None:

@@ -4,6 +4,8 @@ from datetime import UTC, datetime
 from uuid import uuid4
 
 import pytest
+from django.db import connection
+from django.test.utils import CaptureQueriesContext
 
 from editor.language.expressions.nodes import Constant, PlaceRef
 from editor.language.plan.instructions import Call, End, Instruction, Plan
@@ -140,6 +142,16 @@ def test_a_piece_of_path_that_went_out_once_is_ended_when_its_robot_has_done_the
     end_commands_of_runs_over(datetime.now(UTC))
     piece.refresh_from_db()
     assert piece.status == "cancelled"
+
+
+def test_looking_for_what_runs_over_have_told_is_one_statement_where_there_is_nothing(factory):
+    factory.start(CURE)
+    factory.start(CARRY)
+    factory.work()
+    assert Command.objects.filter(status="pending").values("run").distinct().count() == 2
+    with CaptureQueriesContext(connection) as asked:
+        end_commands_of_runs_over(datetime.now(UTC))
+    assert len(asked) == 1
 
 
 def test_the_resume_of_a_run_goes_out_when_a_person_has_resumed_it(factory):
