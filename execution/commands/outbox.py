@@ -115,6 +115,8 @@ def record_acks(*, answers: Sequence[Answer], at: datetime, durable: bool = Fals
         for row, said in heard:
             _follow(row, said, at)
     fault_point("after_answer")
+    if any(row.method == "cancel" and said.status == "DONE" for row, said in heard):
+        end_commands_of_runs_over(at)  # in transactions of its own: answers lock their commands in one order
     taken = {id(said) for _, said in heard}
     return [id(answer) in taken for answer in answers]
 

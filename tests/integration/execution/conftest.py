@@ -9,7 +9,6 @@ import pytest
 
 from editor.language import plan_to_json
 from execution import database, services
-from execution.commands.outbox import end_commands_of_runs_over
 from execution.engine.drive import advance_site
 from execution.models import Command, FloorState, InboxEvent, Run, Timer
 from execution.ticker.ticker import fire_timers
@@ -102,7 +101,6 @@ class Shop:
             Device.objects.filter(id=name).update(pose=pose)
         Timer.objects.update(due_at=_earlier(seconds))
         fire_timers(datetime.now(UTC))
-        end_commands_of_runs_over(datetime.now(UTC))
 
     def go(self, until, limit_s=600.0, dt_s=0.5):
         """Go on until a condition holds."""

@@ -75,6 +75,19 @@ def test_a_device_that_has_done_the_cancel_of_what_it_never_heard_is_free_at_onc
     begins_at_once(factory)
 
 
+def test_the_answer_to_a_cancel_frees_a_device_that_never_heard_what_it_cancels(factory):
+    run = factory.start(CURE)
+    factory.work()
+    assert told() == ["curePaint"]
+    cancel_while_stopped(factory, run)
+    cancel = str(Command.objects.get(method="cancel").id)
+    now = datetime.now(UTC)
+    assert services.record_ack(device=OVEN, command_id=cancel, status="RUNNING", why="", result={}, at=now)
+    assert command(run).status == "pending"
+    assert services.record_ack(device=OVEN, command_id=cancel, status="DONE", why="", result={}, at=now)
+    assert command(run).status == "cancelled"
+
+
 def test_what_never_went_out_is_ended_with_its_run_and_its_device_is_free_at_once(factory):
     run = factory.start(CURE)
     factory.work()
