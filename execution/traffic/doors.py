@@ -37,10 +37,18 @@ def learn_passages(turn: Turn, run: str, zones: tuple[FloorZone, ...]) -> None:
     What another open run tells of stays: its program may be another version of the same, and its robots are under way.
     """
     programs = {_program(zone) for zone in zones}
-    told = {zone for other, theirs in turn.zones.items() if other != run for zone in theirs}
     new = [zone for zone in zones if zone.rule == "door" and zone.door]
-    kept = [zone for zone in turn.passages if zone not in new and (_program(zone) not in programs or zone in told)]
+    kept = [
+        zone
+        for zone in turn.passages
+        if zone not in new and (_program(zone) not in programs or _is_told(turn, zone, but_by=run))
+    ]
     turn.passages = (*kept, *new)
+
+
+def _is_told(turn: Turn, zone: FloorZone, but_by: str) -> bool:
+    """Tell whether another open run tells of a zone."""
+    return any(zone in zones for run, zones in turn.zones.items() if run != but_by)
 
 
 def _program(zone: FloorZone) -> str:
@@ -75,11 +83,11 @@ def methods_of(turn: Turn, device: str) -> DoorMethods | None:
 
 def _forget_passages(turn: Turn) -> None:
     """Forget the passages of runs that are over, once the floor rests and their doors are as they were."""
-    told = {zone.key for zones in turn.zones.values() for zone in zones}
     rests = not turn.tasks and all(
         turn.is_idle(robot) and turn.now - robot.idle_since > REST_S for robot in turn.robots.values() if robot.path
     )
     if rests:
+        told = {zone.key for zones in turn.zones.values() for zone in zones}
         held = {door.id for door in turn.doors.values() if door.ours or door.command}
         turn.passages = tuple(zone for zone in turn.passages if zone.key in told or zone.door in held)
     named = {zone.door for zone in turn.passages}

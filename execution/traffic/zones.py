@@ -252,13 +252,14 @@ def keep_zones(turn: Turn) -> None:
 
     Runs of two versions of a program may tell of a zone at two places: it is left by who is at neither.
     """
-    known: dict[str, list[FloorZone]] = {}
-    for zone in dict.fromkeys(chain(turn.layout.zones, *turn.zones.values())):
-        for seat in _seats(zone) if zone.rule == "one_at_a_time" else ():
-            known.setdefault(seat, []).append(zone)
+    known: dict[str, list[FloorZone]] = {seat: [] for seat in turn.locks}
+    for zone in chain(turn.layout.zones, *turn.zones.values()) if known else ():
+        for seat in known.keys() & _seats(zone) if zone.rule == "one_at_a_time" else ():
+            if zone not in known[seat]:
+                known[seat].append(zone)
     for seat, holder in list(turn.locks.items()):
         robot = turn.robots.get(holder)
-        if robot is None or not any(_stays_in(turn, robot, zone) for zone in known.get(seat, ())):
+        if robot is None or not any(_stays_in(turn, robot, zone) for zone in known[seat]):
             del turn.locks[seat]
     for robot in turn.robots.values():
         for zone in _zones(turn, robot, "one_at_a_time"):
