@@ -217,11 +217,12 @@ def leave_gone(turn: Turn) -> None:
     """
     for machine in [machine for machine in turn.stations if machine not in turn.layout.stations]:
         del turn.stations[machine]
+    told = {sent.device for sent in turn.sent.values()}
     for robot in list(turn.robots.values()):
         if robot.id not in turn.layout.devices:
             turn.offline.setdefault(robot.id, turn.now)
-            robot = turn.put(robot, online=False)
-            if not any(sent.device == robot.id for sent in turn.sent.values()):
+            robot = turn.put(robot, online=False) if robot.online else robot
+            if robot.id not in told:
                 _forget_place(turn, robot)
                 continue
         if not all(turn.layout.has_node(node) for node in robot.path) or _is_misled(turn, robot):
@@ -229,10 +230,14 @@ def leave_gone(turn: Turn) -> None:
 
 
 def _forget_place(turn: Turn, robot: Robot) -> None:
-    """Give back all that a robot keeps from others: its cells, its machines, its seats in zones."""
+    """Give back all that a robot keeps from others: its cells and its machines; `keep_zones` then sees to its seats.
+
+    Whoever is nowhere has given them back before: only a robot with a path keeps anything.
+    """
+    if not robot.path:
+        return
     turn.put(robot, path=(), passed=0, released=0, held=(), evading="", yields_to="", blocked_since=None)
     turn.stations = {machine: holder for machine, holder in turn.stations.items() if holder != robot.id}
-    turn.locks = {seat: holder for seat, holder in turn.locks.items() if holder != robot.id}
 
 
 def _is_misled(turn: Turn, robot: Robot) -> bool:

@@ -5,8 +5,11 @@ from dataclasses import replace
 import pytest
 
 from execution.machine.floor_task import Target, TaskOrder
+from execution.traffic import floor
 from execution.traffic import messages as m
+from execution.traffic.floor_state import Sent
 from tests.kit import demo_floor
+from tests.kit.work import count_work
 from tests.unit.execution.traffic.floor_with_door import EAST, WEST, WithDoor, over
 from tests.unit.execution.traffic.floor_with_door import go as go_through
 from tests.unit.execution.traffic.simulated_floor import PretendFloor
@@ -140,3 +143,23 @@ def test_a_robot_that_is_let_come_back_is_on_the_floor_where_it_says_to_be(at_sh
     at_shelf.tell(ask("b", SHELF, "robot01"))
     at_shelf.at["robot01"] = (3.0, -8.0)
     at_shelf.run_until(lambda: at_shelf.over.get(("b", 1)) == ("", ""), 120)
+
+
+def work_among(at_shelf, gone, commands):
+    """Return the lines of Python of a step with so many robots that were taken out long ago, and commands to others."""
+    before = at_shelf.state
+    robots = {f"gone{n}": replace(before.robots["robot01"], id=f"gone{n}", held=()) for n in range(gone)}
+    sent = {f"c{n}": Sent(f"c{n}", f"machine{n}", limit_s=3600.0) for n in range(commands)}
+    state = replace(before, robots={**before.robots, **robots}, sent=sent)
+    state, _ = floor.step(at_shelf.layout, state, [m.Tick()], at_shelf.now)
+    assert all(state.robots[each].path == () for each in robots)
+    with count_work() as work:
+        floor.step(at_shelf.layout, state, [m.Tick()], at_shelf.now)
+    return work.lines
+
+
+def test_a_robot_that_was_taken_out_long_ago_costs_a_step_the_same_however_much_is_under_way(at_shelf):
+    def each(commands):
+        return work_among(at_shelf, 20, commands) - work_among(at_shelf, 10, commands)
+
+    assert each(commands=200) == each(commands=0)
