@@ -10,7 +10,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Final
 
-from vipo_device.protocol.units import UNITS, conversion, is_measure, same_dimension
+from vipo_device.protocol.units import UNITS, conversion, convert, is_measure, same_dimension, tidy
 
 _DIFFERENCE: Final = "Δ"
 _EITHER: Final = "~"
@@ -57,6 +57,17 @@ def conversion_of(source: str, target: str) -> tuple[float, float]:
     """
     factor, offset = conversion(base_unit(source), base_unit(target))
     return factor, 0 if is_difference(source) or is_difference(target) else offset
+
+
+def number_in(value: float, source: str, target: str) -> float:
+    """Return a number that is in one unit in another one; a difference by the factor alone.
+
+    Raises:
+        DifferentDimensions: the units do not measure the same.
+    """
+    if is_difference(source) or is_difference(target):
+        return tidy(value * conversion_of(source, target)[0])
+    return convert(value, base_unit(source), base_unit(target))
 
 
 def joined_unit(unit: str, units: Collection[str]) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading
 from editor.language.expressions.products import product_of
-from editor.language.expressions.temperatures import conversion_of, go_together
+from editor.language.expressions.temperatures import conversion_of, go_together, number_in
 from editor.language.expressions.value_types import TypeChecker, ValueType, common_unit, sum_of_types
 from editor.language.expressions.values import ARITHMETIC, COMPARISONS, is_number, operation
 from editor.language.site.surroundings import Surroundings
@@ -133,12 +133,11 @@ def into_unit(expression: Expression, source: str, target: str) -> Expression:
     """Return an expression that is in one unit in another one, or as it is where neither goes over into the other."""
     if source == target or not is_measure(source) or not go_together(source, target):
         return expression
-    factor, offset = conversion_of(source, target)
     if isinstance(expression, Operation) and expression.operator == "list":
         return operation("list", tuple(into_unit(item, source, target) for item in expression.arguments))
     if isinstance(expression, Constant) and is_number(expression.value):
-        value = expression.value * factor
-        return Constant(tidy(round(value + offset, 9) if offset else value))
+        return Constant(number_in(expression.value, source, target))
+    factor, offset = conversion_of(source, target)
     scaled = _scaled(expression, factor)
     return scaled if not offset else Operation("+", (scaled, Constant(offset)))
 

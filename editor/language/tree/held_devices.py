@@ -13,8 +13,8 @@ from editor.language.expressions.nodes import OF_PROBLEM, Constant, Expression, 
 from editor.language.expressions.values import parts_of
 from editor.language.site.surroundings import HeldDevice
 from editor.language.tree import nodes as n
-from editor.language.tree.nodes import blocks_of
 from editor.language.tree.program import Function, Tree
+from editor.language.tree.traversal import Loops, with_loops
 from editor.language.tree.variables import local_variables
 
 Key = tuple[object, str]
@@ -28,15 +28,6 @@ _RESULT = ""
 def held_devices(tree: Tree) -> Mapping[Key, Held]:
     """Return the devices that the variables of a program may hold; of one that is not there nothing is known."""
     return tree.derived(_held_devices)
-
-
-def with_loops(block: n.Block, loops: tuple[n.ForEach, ...] = ()) -> Iterator[tuple[n.Node, tuple[n.ForEach, ...]]]:
-    """Yield the steps of a block in reading order, each with the loops over values around it."""
-    for node in block:
-        yield node, loops
-        inside = (*loops, node) if isinstance(node, n.ForEach) else loops
-        for inner in blocks_of(node):
-            yield from with_loops(inner, inside)
 
 
 def _held_devices(tree: Tree) -> Mapping[Key, Held]:
@@ -142,7 +133,7 @@ class _Gathering:
 class _Scope:
     """Where a step stands: it tells whose a name is there."""
 
-    loops: tuple[n.ForEach, ...]
+    loops: Loops
     function: Function | None
     own: Mapping[str, frozenset[str]]
 

@@ -7,8 +7,26 @@ from dataclasses import replace
 from typing import Final
 
 from editor.language.expressions.names import ROBOT_METHODS
-from editor.language.tree.nodes import OF_ROBOTS, Block, Call, Cover, Node, Perform, Release
+from editor.language.tree.nodes import OF_ROBOTS, Block, Call, Cover, ForEach, Node, Perform, Release, blocks_of
 from editor.language.tree.program import Function, Role, Tree
+
+Loops = tuple[ForEach, ...]
+"""The loops over values around a step, the outermost first."""
+
+
+def with_loops(block: Block) -> list[tuple[Node, Loops]]:
+    """Return the steps of a block and of everything in it, in reading order, each with the loops over values around."""
+    found: list[tuple[Node, Loops]] = []
+    _gather_with_loops(block, (), found)
+    return found
+
+
+def _gather_with_loops(block: Block, loops: Loops, found: list[tuple[Node, Loops]]) -> None:
+    for node in block:
+        found.append((node, loops))
+        inside = (*loops, node) if isinstance(node, ForEach) else loops
+        for inner in blocks_of(node):
+            _gather_with_loops(inner, inside, found)
 
 
 def reading_order(tree: Tree) -> tuple[Function, ...]:

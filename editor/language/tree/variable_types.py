@@ -16,15 +16,15 @@ from editor.language.expressions.value_types import NUMBER, TEXT, UNKNOWN_TYPE, 
 from editor.language.expressions.values import parts_of
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
-from editor.language.tree.held_devices import NOT_KNOWN, Held, Key, held_devices, with_loops
+from editor.language.tree.held_devices import NOT_KNOWN, Held, Key, held_devices
 from editor.language.tree.program import Function, Parameter, Tree
+from editor.language.tree.traversal import Loops, with_loops
 from editor.language.tree.variables import read_by, set_by
 from vipo_device.protocol.units import PLAIN, UNSAID, is_measure
 
 Types = Mapping[str, ValueType]
 MOST_CHANGES = 8
 """So often a type may become another one: variables in a circle through an empty list would change theirs for ever."""
-_Loops = tuple[n.ForEach, ...]
 
 
 def types_of_parameters(parameters: Iterable[Parameter]) -> dict[str, ValueType]:
@@ -75,7 +75,7 @@ def _given_to(loop: n.ForEach) -> tuple[Expression, ...]:
 def types_in_loops(block: n.Block, types: Types, surroundings: Surroundings, tree: Tree) -> dict[int, Types]:
     """Return what can be seen where loops over values hide other names, by the identity of the steps there."""
     found: dict[int, Types] = {}
-    inside: dict[_Loops, Types] = {(): types}
+    inside: dict[Loops, Types] = {(): types}
     for node, loops in with_loops(block):
         if loops not in inside:
             around, loop = inside[loops[:-1]], loops[-1]
@@ -91,7 +91,7 @@ class _Setter:
     """A step that sets a variable, with the loops over values that it stands in."""
 
     node: n.Node
-    loops: _Loops
+    loops: Loops
 
     def reads(self) -> Iterator[str]:
         """Yield the names of variables on whose types the type that it sets depends."""
@@ -158,7 +158,7 @@ class _Inference:
                 return declared_type(self.functions[method].result_type, self.functions[method].result_unit)
         return UNKNOWN_TYPE
 
-    def _types_at(self, loops: _Loops) -> Types:
+    def _types_at(self, loops: Loops) -> Types:
         types: Types = self.types
         for loop in loops:
             checker = TypeChecker(self.surroundings, types, [])
