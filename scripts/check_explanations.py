@@ -78,7 +78,8 @@ _VALUES: Final = {
     "difference_needs_kelvins": "What a function takes or gives in °C or °F is a temperature to whoever meets it "
     "there; in K temperatures and differences are counted alike.",
     "units_differ": "A variable may hold devices that count the same thing in different units. Which devices those are "
-    "is what any step puts into it, or any call gives a parameter; if nothing says so, every device of the site.",
+    "is what any step puts into it, or any call gives a parameter; if nothing says so, every device of the site that "
+    "has the method, or, for a parameter of the program, reports this and has all else that the program uses of it.",
     "plain_number": "A number without a unit takes that of what it meets only where it is written out, as in "
     "`wait(30)`; a variable, a parameter and what is worked out say their unit.",
     "unit_not_taken": "How often, how many, and what a device takes without a unit are plain numbers; minutes "

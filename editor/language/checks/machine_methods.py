@@ -8,11 +8,10 @@ from editor.language.checks.possible import check_held_device
 from editor.language.checks.values import check_given
 from editor.language.expressions.nodes import Expression
 from editor.language.expressions.temperatures import go_together, is_temperature
-from editor.language.expressions.value_types import TypeChecker, unit_word, units_that_differ
+from editor.language.expressions.value_types import UNITS_DIFFER, TypeChecker, unit_word, units_that_differ
 from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.tree import nodes as n
-from editor.language.tree.robots import units_taken
 from vipo_device.protocol.description import Description
 from vipo_device.protocol.units import UNSAID, is_measure
 
@@ -46,19 +45,29 @@ def _operate_at(context: Context, node: n.Operate, device: Description) -> None:
 
 
 def _check_units(context: Context, node: n.Operate, device: Expression) -> None:
-    """Check what is measured against the unit in which each device counts that may be meant; all must count alike."""
+    """Check what is measured against the unit in which each device counts that may be meant; all must count alike.
+
+    Nothing is said where the variable holds no device, as in a function that nobody calls. Of a device that is known
+    to have no such parameter it is told otherwise.
+    """
     checker = TypeChecker(context.surroundings, context.variables, [])
-    taken = units_taken(context.surroundings.crew.held(checker.type_of(device).held), node.method)
+    held = checker.type_of(device).held
+    crew = context.surroundings.crew
+    if not crew.held(held):
+        return
+    taken = crew.units_taken(held, node.method)
+    chosen = held is None or any(each.is_chosen for each in held)
     for name, value in node.arguments:
-        given, units = checker.type_of(value).unit, taken.get(name, [])
-        if not is_measure(given):
+        field, given = f"args.{name}", checker.type_of(value).unit
+        if not is_measure(given) or (name not in taken and not chosen):
             continue
-        field, wanted = f"args.{name}", units[0][1] if units else UNSAID
-        other = next((each for each in units if each[1] != wanted), None)
-        if other is not None:
-            context.report(node, "units_differ", field, units_that_differ(name, units[0], other))
-        elif not go_together(given, wanted):
+        first, other = taken.get(name, (None, None))
+        units = [UNSAID if each is None else each[1] for each in (first, other or first)]
+        wanted = next((unit for unit in units if not go_together(given, unit)), None)
+        if wanted is not None:
             alike = is_temperature(given) and is_temperature(wanted)
             code = "temperature_or_difference" if alike else "wrong_unit" if is_measure(wanted) else "unit_not_taken"
             words = {"subject": name.capitalize(), "wanted": unit_word(wanted), "given": unit_word(given)}
             context.report(node, code, field, words)
+        elif first is not None and other is not None:
+            context.report(node, UNITS_DIFFER, field, units_that_differ(name, first, other))

@@ -6,12 +6,12 @@ from itertools import islice
 
 from editor.language.checks.context import Context
 from editor.language.expressions.nodes import Located, Reading
-from editor.language.expressions.value_types import joined_spec, property_spec
+from editor.language.expressions.value_types import property_spec
 from editor.language.messages.diagnostics import TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.tree import nodes as n
 from editor.language.tree.choice import surely_read
-from editor.language.tree.robots import Robots, readings_told
+from editor.language.tree.robots import Robots, joined_spec, readings_told
 from vipo_device.protocol.description import Description, PropertySpec
 
 Told = list[tuple[Description, PropertySpec | None]]

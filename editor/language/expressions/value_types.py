@@ -47,6 +47,8 @@ LIST_WORDS: Mapping[str, str] = {
 }  # fmt: skip
 _NUMBERS = (int, float)
 _COMPARISONS = frozenset(COMPARISONS)
+UNITS_DIFFER = "units_differ"
+_UNARY = frozenset({"abs", "round", "-"})
 _TEXT_LIKE = frozenset({"object", "device", "place", "location"})
 
 
@@ -64,8 +66,8 @@ class ValueType:
     """The type of the items, where it is a list; then the unit is theirs."""
     measured: bool = False
     """It is known to be a temperature and no difference: a device reports it, or what it is worked out from."""
-    held: frozenset[HeldDevice] = frozenset()
-    """The devices that a variable may hold; empty: not known."""
+    held: frozenset[HeldDevice] | None = None
+    """The devices that a variable may hold; None: not known."""
 
     @property
     def item(self) -> ValueType:
@@ -117,23 +119,6 @@ def _counted_in(unit: str) -> str:
     return {PLAIN: "plain numbers", UNSAID: "a unit that it does not say"}.get(unit) or unit_word(unit)
 
 
-def joined_spec(specs: Sequence[PropertySpec]) -> PropertySpec | None:
-    """Return what several devices say together of one property; None where they differ in kind or unit."""
-    first = specs[0] if specs else None
-    if first is None or all(spec == first for spec in specs):
-        return first
-    if len({(plain_type(spec.type), declared_unit(spec.unit)) for spec in specs}) > 1:
-        return None
-    least = [spec.minimum for spec in specs if spec.minimum is not None]
-    most = [spec.maximum for spec in specs if spec.maximum is not None]
-    return replace(
-        first,
-        minimum=min(least) if len(least) == len(specs) else None,
-        maximum=max(most) if len(most) == len(specs) else None,
-        options=tuple(dict.fromkeys(o for s in specs for o in s.options)) if all(s.options for s in specs) else (),
-    )
-
-
 def type_of_scalar(value: Scalar) -> ValueType:
     """Return the type of a value that is written out; UNKNOWN_TYPE of one that is still to be entered (None)."""
     if isinstance(value, bool):
@@ -175,18 +160,24 @@ class TypeChecker:
         spec = property_spec(expression, self.surroundings)
         return UNKNOWN_TYPE if spec is None else _reported(declared_type(spec.type, declared_unit(spec.unit)))
 
-    def _read_of_held(self, held: frozenset[HeldDevice], name: str) -> ValueType:
+    def _read_of_held(self, held: frozenset[HeldDevice] | None, name: str) -> ValueType:
         """Return the type of a property of a device that a variable holds; numbers must be in one unit, whichever."""
-        told = self.surroundings.crew.told_by_held(held, name)
-        kinds = {plain_type(spec.type) for _, spec in told}
-        numbers = [(device, declared_unit(spec.unit)) for device, spec in told if spec.type == "number"]
-        unit = numbers[0][1] if numbers else ""
-        other = next((each for each in numbers if each[1] != unit), None)
-        if other is not None:
-            words = units_that_differ(name, numbers[0], other)
-            self.mismatches.append(Mismatch("units_differ", words))
+        kind, counting = self.surroundings.crew.told_by_held(held, name)
+        if counting is None:
+            return ValueType(kind)
+        if counting.other is not None:
+            words = units_that_differ(name, counting.first, counting.other)
+            self.mismatches.append(Mismatch(UNITS_DIFFER, words))
             return UNKNOWN_TYPE
-        return _reported(ValueType(kinds.pop() if len(kinds) == 1 else "", unit))
+        return _reported(ValueType(kind, counting.first[1]))
+
+    def _shown(self, expression: Expression) -> ValueType:
+        """Return the type of what is put into a text; a number needs no unit there."""
+        before = len(self.mismatches)
+        found = self.type_of(expression)
+        if _is_as_read(expression):
+            self.mismatches[before:] = [each for each in self.mismatches[before:] if each.code != UNITS_DIFFER]
+        return found
 
     def quantity(self, expression: Quantity) -> ValueType:
         """Return the type of a number with a unit."""
@@ -206,7 +197,8 @@ class TypeChecker:
         if name in {"in", "not in"} and isinstance(arguments[1], Constant) and isinstance(arguments[1].value, tuple):
             self.type_of(arguments[0])
             return BOOLEAN
-        types = [self.type_of(argument) for argument in arguments]
+        type_of = self._shown if name == "text" else self.type_of
+        types = [type_of(argument) for argument in arguments]
         if name in {"and", "or", "not", "count"}:
             for value_type in types:
                 self._need(value_type, "boolean", f"“{name}”")
@@ -369,6 +361,13 @@ def sum_of_types(name: str, arguments: Sequence[Expression], types: Sequence[Val
 
 def _reported(found: ValueType) -> ValueType:
     return replace(found, measured=True) if is_temperature(found.unit) and not is_difference(found.unit) else found
+
+
+def _is_as_read(expression: Expression) -> bool:
+    """Tell whether a number is in the unit in which a device reports it, whichever that is."""
+    if isinstance(expression, Operation):
+        return expression.operator in _UNARY and len(expression.arguments) == 1 and _is_as_read(expression.arguments[0])
+    return isinstance(expression, Reading)
 
 
 def _either_way(unit: str, types: Sequence[ValueType]) -> Mismatch:

@@ -85,7 +85,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     ),
     "units_differ": (
         "{first} zählt {name} in {wanted}, {second} in {given}. "
-        "Nennen Sie ein Gerät, oder geben Sie jeder Art einen Schritt."
+        "Nennen Sie ein Gerät, geben Sie jeder Art einen Schritt, oder lassen Sie beide in einer Einheit beschreiben."
     ),
     "plain_number": "{subject} ist in {wanted}, und das ist eine bloße Zahl. Geben Sie ihre Einheit an.",
     "unit_not_taken": "{subject} ist eine bloße Zahl, und dieser Wert ist in {given}. Geben Sie an, worin er zählt.",

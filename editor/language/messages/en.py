@@ -92,7 +92,8 @@ TEXTS: Final[Mapping[str, Text]] = {
     ),
     "units_differ": (
         "error",
-        "{first} counts {name} in {wanted}, {second} in {given}. Name one device, or give each sort a step of its own.",
+        "{first} counts {name} in {wanted}, {second} in {given}. Name one device, give each sort a "
+        "step of its own, or have both described in one unit.",
     ),
     "plain_number": ("error", "{subject} is in {wanted}, and this is a plain number. Say its unit."),
     "unit_not_taken": ("error", "{subject} is a plain number, and this value is in {given}. Say what it counts in."),

@@ -10,9 +10,10 @@ from editor.language.expressions import nodes as e
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker, ValueType
 from editor.language.plan import instructions as p
-from editor.language.site.surroundings import Surroundings
+from editor.language.site.surroundings import Counting, HeldDevice, Surroundings
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Function, Tree
+from editor.language.tree.robots import units_taken
 from vipo_device.protocol.description import Description
 
 Leaves = tuple[str, ...]
@@ -120,10 +121,20 @@ class Builder:
     def devices(self, place: e.PlaceRef) -> tuple[Description, ...]:
         """Return the devices that may stand for a place: the one that it names, or those that its variable may hold."""
         if place.value is not None:
-            checker = TypeChecker(self.surroundings, self.types, [])
-            return self.surroundings.crew.held(checker.type_of(place.value).held)
+            return self.surroundings.crew.held(self._held_at(place.value))
         facts = self.surroundings.devices.get(place.device or "")
         return () if facts is None else (facts.description,)
+
+    def units_taken(self, place: e.PlaceRef, method: str) -> dict[str, str]:
+        """Return in which units the numbers of a method are taken by all that may stand for a place."""
+        if place.value is None:
+            taken: Mapping[str, Counting] = units_taken(self.devices(place), method)
+        else:
+            taken = self.surroundings.crew.units_taken(self._held_at(place.value), method)
+        return {name: counting.first[1] for name, counting in taken.items()}
+
+    def _held_at(self, value: e.Expression) -> frozenset[HeldDevice] | None:
+        return TypeChecker(self.surroundings, self.types, []).type_of(value).held
 
     def can(self, device: Description, method: str) -> bool:
         """Tell whether a device has a method."""

@@ -16,7 +16,7 @@ from editor.language.plan.choices import binding_of
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Function, Tree
-from editor.language.tree.robots import described_alike, robots_for, units_taken
+from editor.language.tree.robots import described_alike, robots_for
 from editor.language.tree.variable_types import types_in_function, types_in_program
 from editor.language.tree.variables import local_variables, program_variables
 from vipo_device.protocol.description import Description
@@ -64,8 +64,7 @@ def _handles(device: Description, node: n.Pick | n.Drop, *, gives: bool) -> bool
 
 
 def _operate(builder: Builder, node: n.Operate, leaves: Leaves) -> None:
-    taken = units_taken(builder.devices(node.device), node.method)
-    units = {name: units[0][1] for name, units in taken.items()}
+    units = builder.units_taken(node.device, node.method)
     arguments = {name: builder.value(value, units.get(name, "")) for name, value in node.arguments}
     builder.add(p.Call(builder.place(node.device), node.method, arguments), node, leaves=leaves)
 

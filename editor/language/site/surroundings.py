@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Final, Literal, Protocol
+from typing import Final, Literal, NamedTuple, Protocol
 
 from editor.language.site.signature import Signature
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
@@ -81,10 +81,36 @@ class FloorFacts(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class HeldDevice:
-    """A device that a variable may hold: by its id, or as the robot of a role, by its name in the script."""
+    """A device that a variable may hold: by its id, or as the robot of a role, by its name in the script.
+
+    Without either it is one that people choose for a parameter: any approved one, of which these methods and readings
+    are used.
+    """
 
     device: str | None = None
     role: str | None = None
+    methods: frozenset[str] = frozenset()
+    readings: frozenset[str] = frozenset()
+
+    @property
+    def is_chosen(self) -> bool:
+        """Tell whether people choose it when the program starts."""
+        return self.device is None and self.role is None
+
+
+class Counting(NamedTuple):
+    """In which unit devices count one thing: the first of them, and the first that counts it in another, if any."""
+
+    first: tuple[Description, str]
+    other: tuple[Description, str] | None = None
+
+
+class Told(NamedTuple):
+    """What devices report together under one name: its type, empty where they differ, and how its numbers count."""
+
+    type: str = ""
+    counting: Counting | None = None
+    """None: none of them reports a number."""
 
 
 class CrewFacts(Protocol):
@@ -99,11 +125,14 @@ class CrewFacts(Protocol):
     def reading(self, role: str, name: str) -> PropertySpec | None:
         """Return what they say together of a property; None where they do not say the same, or nothing."""
 
-    def held(self, held: frozenset[HeldDevice]) -> tuple[Description, ...]:
-        """Return the devices that a variable may hold, sorted by id; where that is not known, all of the site."""
+    def held(self, held: frozenset[HeldDevice] | None) -> tuple[Description, ...]:
+        """Return the devices that a variable may hold, sorted by id; None, not known: all approved ones of the site."""
 
-    def told_by_held(self, held: frozenset[HeldDevice], name: str) -> tuple[tuple[Description, PropertySpec], ...]:
-        """Return which of these report a property, and what they say of it."""
+    def units_taken(self, held: frozenset[HeldDevice] | None, method: str) -> Mapping[str, Counting]:
+        """Return in which units these take the numbers of a method, by the names of its parameters."""
+
+    def told_by_held(self, held: frozenset[HeldDevice] | None, name: str) -> Told:
+        """Return what these report under a name; one that says no unit counts as the others do."""
 
 
 class _Nobody:
@@ -116,11 +145,14 @@ class _Nobody:
     def reading(self, role: str, name: str) -> PropertySpec | None:
         return None
 
-    def held(self, held: frozenset[HeldDevice]) -> tuple[Description, ...]:
+    def held(self, held: frozenset[HeldDevice] | None) -> tuple[Description, ...]:
         return ()
 
-    def told_by_held(self, held: frozenset[HeldDevice], name: str) -> tuple[tuple[Description, PropertySpec], ...]:
-        return ()
+    def units_taken(self, held: frozenset[HeldDevice] | None, method: str) -> Mapping[str, Counting]:
+        return {}
+
+    def told_by_held(self, held: frozenset[HeldDevice] | None, name: str) -> Told:
+        return Told()
 
 
 NOBODY: Final[CrewFacts] = _Nobody()

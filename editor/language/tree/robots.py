@@ -14,17 +14,18 @@ from editor.language.expressions.names import (
     member_names,
     unique_name,
 )
-from editor.language.expressions.value_types import joined_spec
-from editor.language.site.surroundings import Surroundings
+from editor.language.expressions.value_types import plain_type
+from editor.language.site.surroundings import Counting, HeldDevice, Surroundings, Told
 from editor.language.tree.held_devices import Held
 from editor.language.tree.nodes import COMPOSITES, Block, Node, Operate, Perform, blocks_of, with_blocks
 from editor.language.tree.program import Role, Tree
 from editor.language.tree.traversal import in_reading_order
 from editor.language.tree.variables import program_variables
 from vipo_device.protocol.description import Description, MethodSpec, PropertySpec
-from vipo_device.protocol.units import declared_unit
+from vipo_device.protocol.units import UNSAID, declared_unit
 
 Robots = tuple[Description, ...]
+Devices = tuple[Description, ...]
 
 
 def robots_for(surroundings: Surroundings, device: str | None, can: Sequence[str]) -> Robots:
@@ -59,15 +60,54 @@ def described_alike(robots: Robots, name: str) -> MethodSpec | None:
     return first if alike else None
 
 
-def units_taken(devices: Robots, name: str) -> dict[str, list[tuple[Description, str]]]:
-    """Return in which unit each of the devices that have a method takes its parameters, by their names."""
-    taken: dict[str, list[tuple[Description, str]]] = {}
+def units_taken(devices: Sequence[Description], name: str) -> dict[str, Counting]:
+    """Return in which units the devices that have a method take its numbers, by the names of its parameters."""
+    taken: dict[str, Counting] = {}
     for device in devices:
         method = device.method(name)
         for parameter in method.parameters if method is not None else ():
             if parameter.type == "number":
-                taken.setdefault(parameter.name, []).append((device, declared_unit(parameter.unit)))
+                one = device, declared_unit(parameter.unit)
+                taken[parameter.name] = _also(taken.get(parameter.name), one)
     return taken
+
+
+def joined_spec(specs: Sequence[PropertySpec]) -> PropertySpec | None:
+    """Return what several devices say together of one property; None where they differ in kind or unit."""
+    first = specs[0] if specs else None
+    if first is None or all(spec == first for spec in specs):
+        return first
+    if len({(plain_type(spec.type), declared_unit(spec.unit)) for spec in specs}) > 1:
+        return None
+    least = [spec.minimum for spec in specs if spec.minimum is not None]
+    most = [spec.maximum for spec in specs if spec.maximum is not None]
+    return replace(
+        first,
+        minimum=min(least) if len(least) == len(specs) else None,
+        maximum=max(most) if len(most) == len(specs) else None,
+        options=tuple(dict.fromkeys(o for s in specs for o in s.options)) if all(s.options for s in specs) else (),
+    )
+
+
+def _told_together(devices: Sequence[Description], name: str) -> Told:
+    """Return what devices report under a name; one that says no unit counts as the others do."""
+    told = [(device, spec) for device in devices if (spec := device.property(name)) is not None]
+    kinds = {plain_type(spec.type) for _, spec in told}
+    counting: Counting | None = None
+    for device, spec in told:
+        one = device, declared_unit(spec.unit)
+        if spec.type != "number" or (counting is not None and one[1] == UNSAID):
+            continue
+        counting = Counting(one) if counting is None or counting.first[1] == UNSAID else _also(counting, one)
+    return Told(kinds.pop() if len(kinds) == 1 else "", counting)
+
+
+def _also(counting: Counting | None, one: tuple[Description, str]) -> Counting:
+    """Return how devices count with one more of them."""
+    if counting is None:
+        return Counting(one)
+    differs = counting.other is None and one[1] != counting.first[1]
+    return Counting(counting.first, one) if differs else counting
 
 
 def _signature(method: MethodSpec) -> object:
@@ -127,8 +167,10 @@ class Candidates:
         self._found: dict[str, Robots] = {}
         self._told: dict[tuple[str, str], tuple[PropertySpec | None, ...]] = {}
         self._readings: dict[tuple[str, str], PropertySpec | None] = {}
-        self._held: dict[Held, Robots] = {}
-        self._told_by_held: dict[tuple[Held, str], tuple[tuple[Description, PropertySpec], ...]] = {}
+        self._held: dict[Held | None, Devices] = {}
+        self._able: dict[Held | None, Devices] = {}
+        self._units_taken: dict[tuple[Held | None, str], Mapping[str, Counting]] = {}
+        self._told_by_held: dict[tuple[Held | None, str], Told] = {}
 
     def robots(self, role: str) -> Robots:
         """Return the robots that may take a role, by its name in the script."""
@@ -151,27 +193,51 @@ class Candidates:
             self._readings[key] = joined_spec([spec for spec in self.told_by(role, name) if spec is not None])
         return self._readings[key]
 
-    def held(self, held: Held) -> Robots:
-        """Return the devices that a variable may hold, sorted by id; all approved ones where that is not known."""
+    def held(self, held: Held | None) -> Devices:
+        """Return the devices that a variable may hold, sorted by id; None, not known: all approved ones."""
         if held not in self._held:
-            devices = self._surroundings.devices
-            named = (
-                devices[each.device].description for each in held if each.device is not None and each.device in devices
-            )
-            of_roles = (robot for each in held if each.role is not None for robot in self.robots(each.role))
-            found = {description.id: description for description in (*named, *of_roles)}
-            if not found:
-                found = {key: facts.description for key, facts in devices.items() if facts.lifecycle == "approved"}
-            self._held[held] = tuple(found[key] for key in sorted(found))
+            self._held[held] = self._devices_of(held, chosen_can=False)
         return self._held[held]
 
-    def told_by_held(self, held: Held, name: str) -> tuple[tuple[Description, PropertySpec], ...]:
-        """Return which devices report a property that a variable may hold, and what they say of it."""
+    def units_taken(self, held: Held | None, method: str) -> Mapping[str, Counting]:
+        """Return in which units these take the numbers of a method, by the names of its parameters.
+
+        None that has the method is left out: a machine that people may choose is never told a number in a wrong unit.
+        """
+        key = (held, method)
+        if key not in self._units_taken:
+            self._units_taken[key] = units_taken(self.held(held), method)
+        return self._units_taken[key]
+
+    def told_by_held(self, held: Held | None, name: str) -> Told:
+        """Return what these report under a name; one that says no unit counts as the others do.
+
+        Of those that people may choose only such are looked at that can do all that the program does with them.
+        """
         key = (held, name)
         if key not in self._told_by_held:
-            told = ((device, device.property(name)) for device in self.held(held))
-            self._told_by_held[key] = tuple((device, spec) for device, spec in told if spec is not None)
+            if held not in self._able:
+                self._able[held] = self._devices_of(held, chosen_can=True)
+            self._told_by_held[key] = _told_together(self._able[held], name)
         return self._told_by_held[key]
+
+    def _devices_of(self, held: Held | None, *, chosen_can: bool) -> Devices:
+        devices = self._surroundings.devices
+        found: dict[str, Description] = {}
+        for each in (HeldDevice(),) if held is None else held:
+            if each.device is not None:
+                found.update({each.device: devices[each.device].description} if each.device in devices else {})
+            elif each.role is not None:
+                found.update((robot.id, robot) for robot in self.robots(each.role))
+            else:
+                approved = (facts.description for facts in devices.values() if facts.lifecycle == "approved")
+                found.update((d.id, d) for d in approved if not chosen_can or _can(d, each))
+        return tuple(found[key] for key in sorted(found))
+
+
+def _can(device: Description, wanted: HeldDevice) -> bool:
+    """Tell whether a device has all methods and readings that a program uses of it."""
+    return all(map(device.method, wanted.methods)) and all(map(device.property, wanted.readings))
 
 
 def with_crew(surroundings: Surroundings, roles: Sequence[Role]) -> Surroundings:

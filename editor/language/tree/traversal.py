@@ -7,7 +7,18 @@ from dataclasses import replace
 from typing import Final
 
 from editor.language.expressions.names import ROBOT_METHODS
-from editor.language.tree.nodes import OF_ROBOTS, Block, Call, Cover, ForEach, Node, Perform, Release, blocks_of
+from editor.language.tree.nodes import (
+    COMPOSITES,
+    OF_ROBOTS,
+    Block,
+    Call,
+    Cover,
+    ForEach,
+    Node,
+    Perform,
+    Release,
+    blocks_of,
+)
 from editor.language.tree.program import Function, Role, Tree
 
 Loops = tuple[ForEach, ...]
@@ -24,9 +35,10 @@ def with_loops(block: Block) -> list[tuple[Node, Loops]]:
 def _gather_with_loops(block: Block, loops: Loops, found: list[tuple[Node, Loops]]) -> None:
     for node in block:
         found.append((node, loops))
-        inside = (*loops, node) if isinstance(node, ForEach) else loops
-        for inner in blocks_of(node):
-            _gather_with_loops(inner, inside, found)
+        if node.__class__ in COMPOSITES:
+            inside = (*loops, node) if isinstance(node, ForEach) else loops
+            for inner in blocks_of(node):
+                _gather_with_loops(inner, inside, found)
 
 
 def reading_order(tree: Tree) -> tuple[Function, ...]:

@@ -16,7 +16,7 @@ from editor.language.expressions.value_types import NUMBER, TEXT, UNKNOWN_TYPE, 
 from editor.language.expressions.values import parts_of
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
-from editor.language.tree.held_devices import NOT_KNOWN, Held, Key, held_devices
+from editor.language.tree.held_devices import Held, Key, held_devices
 from editor.language.tree.program import Function, Parameter, Tree
 from editor.language.tree.traversal import Loops, with_loops
 from editor.language.tree.variables import read_by, set_by
@@ -39,12 +39,13 @@ def _holding(types: Types, tree: Tree, owner: object) -> dict[str, ValueType]:
 
 
 def _held_by(found: ValueType, held: Mapping[Key, Held], key: Key) -> ValueType:
-    return found if not held and not found.held else replace(found, held=held.get(key, NOT_KNOWN))
+    devices = held.get(key)
+    return found if devices == found.held else replace(found, held=devices)
 
 
 def types_in_program(tree: Tree, shared: frozenset[str], surroundings: Surroundings) -> dict[str, ValueType]:
     """Return what the program's parameters and variables hold."""
-    known = {**dict.fromkeys(OF_PROBLEM, TEXT), **types_of_parameters(tree.parameters)}
+    known = {**dict.fromkeys(OF_PROBLEM, TEXT), **_holding(types_of_parameters(tree.parameters), tree, None)}
     bodies = (tree.body, *(event.body for event in tree.events))
     return _with_types_set_in(bodies, shared, known, tree, surroundings)
 

@@ -99,6 +99,115 @@ def test_what_a_device_tells_that_a_variable_holds_is_converted(body: str, funct
     assert [each.text for each in begun(body, say + functions) if isinstance(each, m.Tell)] == ["hot"]
 
 
+ORDER = 'self.m.operate("curePaint", {"time": quantity(120, "s")})'
+FIND = "def find(self) -> Device:\n    return self.oven"
+HEAT = f'def heat(self, machine: Device = "{OVEN}"):\n    machine.operate("curePaint", {{"time": quantity(120, "s")}})'
+LOOK = TELL.replace("machine: Device", f'machine: Device = "{OVEN}"')
+SAY = 'def say(self):\n    self.notify("hot", level="info")\n'
+
+
+@pytest.mark.parametrize(
+    ("body", "functions"),
+    [
+        (f"self.m = self.find()\n{ORDER}", FIND),
+        ("self.heat()", HEAT),
+        (f'for o in ["{OVEN}"]:\n    {ORDER}'.replace("self.m", "o"), ""),
+        (f'self.m = "{OVEN}"\n{ORDER}', ""),
+    ],
+)  # fmt: skip
+def test_of_two_ovens_that_count_differently_the_one_that_is_held_is_told_its_own_unit(
+    body: str, functions: str
+) -> None:
+    plan = compiled(body, functions, site("SEC")).plan
+    assert plan is not None, told(body, functions, site("SEC"))
+    calls = [each.order.arguments for each in machine.start(plan, {}, HOT)[1] if isinstance(each, m.Ask)]
+    assert calls == [{"time": 2}]
+
+
+@pytest.mark.parametrize(
+    ("body", "functions"),
+    [
+        ('self.m = self.find()\nif self.m.read("temperature") > quantity(300, "K"):\n    self.say()', FIND),
+        ("self.tell()", LOOK),
+        (f'for o in ["{OVEN}"]:\n    if o.read("temperature") > quantity(300, "K"):\n        self.say()', ""),
+    ],
+)
+def test_of_two_ovens_that_report_differently_the_one_that_is_held_is_read(body: str, functions: str) -> None:
+    plan = compiled(body, SAY + functions, site("MIN", "K")).plan
+    assert plan is not None, told(body, SAY + functions, site("MIN", "K"))
+    assert [each.text for each in machine.start(plan, {}, HOT)[1] if isinstance(each, m.Tell)] == ["hot"]
+
+
+def test_a_function_that_nobody_calls_holds_no_device_of_which_units_are_told() -> None:
+    where = site("SEC", "K")
+    assert told('self.notify("hi", level="info")', SAY + TELL, where) == ["unused_function"] * 2
+    heat = HEAT.replace(f' = "{OVEN}"', "")
+    assert told('self.notify("hi", level="info")', heat, where) == ["unused_function"]
+    assert told(f"self.heat(machine=self.oven)\n{CALL_LATER}", f"{heat}\n{LATER}", where) == []
+
+
+CALL_LATER = "self.later(m=self.oven)"
+LATER = "def later(self, m: Device):\n    self.heat(machine=m)"
+CHOSEN = f'self.m = ctx.parameter("m", "{OVEN}", Device)'
+
+
+@pytest.mark.parametrize("body", [
+    f'{ORDER}\nif self.m.read("temperature") > 40:\n    self.say()',
+    f'self.use(machine=self.m)\n{ORDER}',
+])  # fmt: skip
+def test_of_a_device_that_people_choose_only_those_count_that_can_do_all_that_is_done_with_it(body: str) -> None:
+    use = TELL.replace("tell", "use")
+    functions = SAY + (use if "self.use" in body else "")
+    assert told(body, functions, with_thermometer(), CHOSEN) == []
+    assert told(body, functions, site("MIN", "K"), CHOSEN) == ["units_differ"]
+
+
+def test_a_machine_that_people_may_choose_is_never_told_a_number_in_another_unit() -> None:
+    where = site("SEC")
+    twin = where.devices[TWIN]
+    silent = replace(twin, description=replace(twin.description, properties=()))
+    where = replace(where, devices={**where.devices, TWIN: silent})
+    body = f'{ORDER}\nif self.m.read("temperature") > 40:\n    self.say()'
+    assert told(body, SAY, where, CHOSEN) == ["units_differ"]
+
+
+def with_thermometer() -> Surroundings:
+    """Return the site with a device that reports a temperature in K, and has no method."""
+    found = site()
+    facts = found.devices[TWIN]
+    kelvins = (PropertySpec("temperature", "number", "K"),)
+    thermometer = replace(facts.description, id="thermometer01", name="Thermometer", properties=kelvins, methods=())
+    return replace(found, devices={**found.devices, "thermometer01": replace(facts, description=thermometer)})
+
+
+def test_a_device_that_says_no_unit_is_taken_to_count_as_the_others_do() -> None:
+    body = (
+        'for oven in [self.oven, self.twin]:\n    if oven.read("temperature") > quantity(300, "K"):\n        self.say()'
+    )
+    assert told(body, SAY, site("MIN", "")) == []
+    plan = compiled(body, SAY, site("MIN", "")).plan
+    assert plan is not None
+    both = {(OVEN, "temperature"): 20.0, (TWIN, "temperature"): 30.0}
+    assert [each.text for each in machine.start(plan, {}, both)[1] if isinstance(each, m.Tell)] == ["hot"]
+
+
+@pytest.mark.parametrize("shown", ['{oven.read("temperature")}', '{round(oven.read("temperature"))}'])
+def test_what_is_only_shown_needs_no_unit(shown: str) -> None:
+    shown = shown.replace('"', "'")
+    body = f'for oven in [self.oven, self.twin]:\n    self.notify(f"It has {shown}", level="info")'
+    assert told(body, where=site("MIN", "K")) == []
+    assert told(body.replace("{", "{1 + "), where=site("MIN", "K")) == ["units_differ"]
+
+
+def test_a_measure_that_no_machine_takes_is_told_once() -> None:
+    body = 'for machine in [self.oven, self.twin]:\n    machine.operate("curePaint", {"time": quantity(9, "kg")})'
+    assert told(body, where=site("SEC")) == ["wrong_unit"]
+    assert told(body.replace("kg", "min"), where=site("KG")) == ["wrong_unit"]
+    either = f"self.m = self.oven\nif self.oven.temperature > 40:\n    self.m = self.twin\n{ORDER}"
+    assert told(either, where=site("KG")) == ["wrong_unit"]
+    assert told(body.replace("curePaint", "polish"), where=site("KG")) == ["unknown_method"]
+
+
 def test_what_is_waited_is_what_a_device_tells_that_a_variable_holds() -> None:
     actions = begun('for oven in [self.oven]:\n    self.wait(oven.read("left"))')
     assert [each.seconds for each in actions if isinstance(each, m.SetTimer)] == [120]
