@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from bench.blockly import measure_blockly
 from bench.figures import best_cpu_ms, figure
-from bench.programs import make_functions, make_program, with_step
+from bench.programs import make_chosen_machine, make_functions, make_program, with_step
 from editor.language import Surroundings, compile_document, parse_script, surroundings_from_json
 from editor.language.compiler import EditedProgram
 
@@ -25,6 +26,7 @@ def measure() -> Iterator[dict[str, object]]:
     yield from measure_curve(site)
     yield from measure_functions(site)
     yield from measure_edits(site)
+    yield from measure_chosen_machines(site)
     yield from measure_parsing(site)
     yield from measure_blockly(1000)
 
@@ -58,6 +60,17 @@ def measure_edits(site: Surroundings) -> Iterator[dict[str, object]]:
         yield figure(f"from an edit to diagnostics: {name}", min(times), "ms", steps=1000)
 
 
+def measure_chosen_machines(site: Surroundings) -> Iterator[dict[str, object]]:
+    """Change one step of a program at a machine that people choose, on sites of more and more machines."""
+    oven = site.devices["curingOven01"]
+    for machines in (0, 500):
+        names = [f"oven{number}" for number in range(machines)]
+        more = {name: replace(oven, description=replace(oven.description, id=name)) for name in names}
+        where = replace(site, devices={**site.devices, **more})
+        times = [*_times_of(make_chosen_machine(300), _other_minutes, where)]
+        yield figure("from an edit to diagnostics at a chosen machine", min(times), "ms", steps=300, more=machines)
+
+
 def _times_of(document: Json, edit: Callable[[Json, int], Json], site: Surroundings) -> Iterator[float]:
     program = EditedProgram()
     program.look(document, site).compiled(with_plan=False)
@@ -68,6 +81,12 @@ def _times_of(document: Json, edit: Callable[[Json, int], Json], site: Surroundi
 
 def _value(document: Json, number: int) -> Json:
     return with_step(document, "s503", {**document["steps"]["s503"], "params": {"duration": 7 + number}})
+
+
+def _other_minutes(document: Json, number: int) -> Json:
+    step = document["steps"]["o7"]
+    params = {**step["params"], "args": {"time": {"quantity": [11 + number, "min"]}}}
+    return with_step(document, "o7", {**step, "params": params})
 
 
 def _new_step(document: Json, number: int) -> Json:

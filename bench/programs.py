@@ -69,6 +69,17 @@ def with_step(document: Json, name: str, step: Json | None) -> Json:
     return {**document, "steps": others if step is None else {**others, name: step}}
 
 
+def make_chosen_machine(count: int) -> Json:
+    """Return a program of so many steps at one machine that people choose: what it is told has a unit each time."""
+    steps: Json = {}
+    for index in range(count):
+        args = {"time": {"quantity": [1 + index % 9, "min"]}}
+        params = {"device": {"param": "machine"}, "method": "curePaint", "args": args}
+        steps[f"o{index}"] = {"kind": "operate", "place": ["program", "body", _order(index)], "params": params}
+    machine = {"name": "machine", "type": "device", "default": "curingOven01"}
+    return {"format": 2, "start_pos": [0, 0], "steps": steps, "parameters": {"machine": machine}}
+
+
 def make_functions(count: int, *, chain: bool) -> Json:
     """Return a program of so many functions, each of one step; in a chain each is called by the one before it."""
     functions: Json = {}

@@ -35,25 +35,29 @@ _RESULT = ""
 
 
 def held_devices(tree: Tree) -> Mapping[Key, Held]:
-    """Return the devices that those variables of a program may hold that are used as one.
+    """Return the devices that the variables of a program may hold; of one that is not there nothing is known.
 
-    Of a variable that is not there nothing is known.
+    Where texts are put into variables only those are there that are used as a device.
     """
     return tree.derived(_held_devices)
 
 
 def _held_devices(tree: Tree) -> Mapping[Key, Held]:
-    uses = _uses(tree) if _has_variables(tree) else {}
-    if not uses:
+    if not _has_variables(tree):
         return {}
-    gathering = _Gathering(tree, uses)
+    chosen = any(parameter.type in _CHOSEN for parameter in tree.parameters)
+    gathering = _Gathering(tree, _uses(tree) if chosen else {})
     for event in tree.events:
         gathering.note_uses(event, _Scope((), None, gathering.own))
     for body in (tree.body, *(event.body for event in tree.events)):
         gathering.take_block(body, None)
     for function in tree.functions:
         gathering.take_block(function.body, function)
-    return gathering.spread()
+    if not gathering.takes_texts:
+        return gathering.spread()
+    uses = gathering.uses if chosen else _uses(tree)
+    names = {use.variable for used in uses.values() for use in used}
+    return {key: held for key, held in gathering.spread().items() if key[1] in names} if names else {}
 
 
 def _has_variables(tree: Tree) -> bool:
@@ -122,6 +126,7 @@ class _Gathering:
 
     tree: Tree
     uses: Mapping[int, list[_Use]]
+    """What steps do with devices that variables hold, where people choose one."""
     functions: Mapping[str, Function] = field(init=False)
     own: dict[str, frozenset[str]] = field(default_factory=dict)
     """The parameters and variables of each function."""
@@ -129,6 +134,8 @@ class _Gathering:
     taken_by: defaultdict[Key, set[Key]] = field(default_factory=lambda: defaultdict(set))
     """The variables into which what another one holds is put."""
     anything: set[Key] = field(default_factory=set)
+    takes_texts: bool = False
+    """A text, which may be the id of a device, is put into some variable."""
     used: defaultdict[Key, set[_Use]] = field(default_factory=lambda: defaultdict(set))
 
     def __post_init__(self) -> None:
@@ -191,8 +198,10 @@ class _Gathering:
                 case Located(role=str() as role):
                     held.add(HeldDevice(role=role))
                 case Constant(value=str(device)):
+                    self.takes_texts = True
                     held.add(HeldDevice(device))
                 case Constant(value=tuple(devices)):
+                    self.takes_texts = True
                     held.update(HeldDevice(each) for each in devices if isinstance(each, str))
                 case Variable(name=name):
                     self._flow(scope.key(name), key)
@@ -200,7 +209,7 @@ class _Gathering:
                     self.anything.add(key)
 
     def spread(self) -> Mapping[Key, Held]:
-        """Return what each variable that is used as a device may hold; without those that may hold anything."""
+        """Return what each variable may hold, also by way of others; without those that may hold anything."""
         for parameter in self.tree.parameters:
             if parameter.type in _CHOSEN:
                 key: Key = (None, parameter.name)
@@ -215,9 +224,7 @@ class _Gathering:
                 self.anything |= {taker} if key in self.anything else set()
                 if before != (len(self.devices[taker]), taker in self.anything):
                     left.append(taker)
-        names = {use.variable for used in self.uses.values() for use in used}
-        known = ((key, held) for key, held in self.devices.items() if key[1] in names and key not in self.anything)
-        return {key: frozenset(held) for key, held in known}
+        return {key: frozenset(held) for key, held in self.devices.items() if key not in self.anything}
 
     def _chosen(self, parameter: Key) -> HeldDevice:
         """Return the device that people choose for a parameter of the program: any that can do what is done with it."""
