@@ -6,25 +6,33 @@
 set -eu
 cd "$(dirname "$0")/.."
 umask 077
-mkdir -p secrets/authority secrets/broker secrets/web
-chmod 700 secrets
 
+# All that can be refused is looked at before anything is changed.
+renewed=""
 if [ "${1:-}" = --renew ]; then
-    case ${2:-} in
-    django-key) # the former keys stay in further lines: they read what was sealed with them, and sign nothing
-        { openssl rand -hex 32 && if [ -e secrets/django-key ]; then cat secrets/django-key; fi; } >secrets/django-key.new
-        mv -f secrets/django-key.new secrets/django-key
-        ;;
-    redis-password | broker-password) rm -f "secrets/$2" ;;
-    broker | web) rm -f "secrets/$2/server.crt" "secrets/$2/server.key" ;;
+    renewed=${2:-}
+    case $renewed in
+    django-key | redis-password | broker-password | broker | web) ;;
     *)
         echo "usage: deploy/set-up.sh --renew django-key|redis-password|broker-password|broker|web" >&2
         exit 2
         ;;
     esac
-    names=$(sed -n 's/^VIPO_NAMES="\{0,1\}\([^"]*\)"\{0,1\}$/\1/p' .env)
+    [ -e .env ] || {
+        echo "There is no .env here yet; deploy/set-up.sh NAME makes it." >&2
+        exit 1
+    }
+fi
+names=""
+[ ! -e .env ] || names=$(sed -n 's/^VIPO_NAMES="\{0,1\}\([^"]*\)"\{0,1\}$/\1/p' .env)
+if [ -n "$renewed" ]; then
     # shellcheck disable=SC2086
     set -- $names
+    names="$*"
+    [ "$#" -gt 0 ] || {
+        echo "VIPO_NAMES in .env names nothing; write the names and addresses of this server there." >&2
+        exit 1
+    }
 fi
 [ "$#" -gt 0 ] || {
     echo "usage: deploy/set-up.sh NAME [NAME ...]   such as: deploy/set-up.sh vipo.example.com 192.0.2.7" >&2
@@ -38,13 +46,15 @@ for name in "$@"; do
         ;;
     esac
 done
+mkdir -p secrets/authority secrets/broker secrets/web
+chmod 700 secrets
 
-for secret in django-key database-password redis-password broker-password; do
+take() { # FILE: FILE.new takes its place
     # The file is readable in the containers that it is given to, whoever they run as; nobody else gets to it, for the
     # folder above is closed.
-    [ -s "secrets/$secret" ] || openssl rand -hex 32 >"secrets/$secret"
-    chmod 444 "secrets/$secret"
-done
+    chmod 444 "$1.new"
+    mv -f "$1.new" "$1"
+}
 
 authority() {
     [ -s secrets/authority/ca.crt ] && return
@@ -55,8 +65,8 @@ authority() {
 
 certificate() { # FOLDER NAME ...
     folder=secrets/$1
+    [ "$1" != "$renewed" ] && [ -s "$folder/server.crt" ] && return
     shift
-    [ -s "$folder/server.crt" ] && return
     [ -s secrets/authority/ca.key ] || {
         echo "secrets/authority/ca.key is not here; bring it back to sign $folder/server.crt, then take it away." >&2
         exit 1
@@ -69,25 +79,43 @@ certificate() { # FOLDER NAME ...
         *) names="$names,IP:$name" ;;
         esac
     done
+    rm -f "$folder/server.key.new" "$folder/server.crt.new" # of a run that was broken off
     openssl req -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -subj "/CN=$1" \
-        -keyout "$folder/server.key" -out "$folder/server.csr" 2>/dev/null
+        -keyout "$folder/server.key.new" -out "$folder/server.csr" 2>/dev/null
     printf 'subjectAltName=%s\nbasicConstraints=CA:FALSE\nkeyUsage=digitalSignature\nextendedKeyUsage=serverAuth\n' \
         "${names#,}" >"$folder/server.ext"
     openssl x509 -req -in "$folder/server.csr" -CA secrets/authority/ca.crt -CAkey secrets/authority/ca.key \
-        -CAcreateserial -days 825 -sha256 -extfile "$folder/server.ext" -out "$folder/server.crt" 2>/dev/null
+        -CAcreateserial -days 825 -sha256 -extfile "$folder/server.ext" -out "$folder/server.crt.new" 2>/dev/null
     rm "$folder/server.csr" "$folder/server.ext"
+    rm -f "$folder/server.crt" # a key without its certificate is made again, and never beside another one's
+    take "$folder/server.key"
+    take "$folder/server.crt"
 }
-
-authority "$1"
-certificate broker "$@" mosquitto
-certificate web "$@"
-cp secrets/authority/ca.crt secrets/broker/ca.crt
-chmod 444 secrets/broker/* secrets/web/*
 
 if [ ! -e .env ]; then
     sed -e "s|^VIPO_HOSTS=.*|VIPO_HOSTS=$(echo "$*" | tr ' ' ',')|" -e "s|^VIPO_NAMES=.*|VIPO_NAMES=\"$*\"|" \
-        -e "s|^VIPO_BROKER_URL=.*|VIPO_BROKER_URL=mqtts://$1:8883/|" deploy/env.example >.env
+        -e "s|^VIPO_BROKER_URL=.*|VIPO_BROKER_URL=mqtts://$1:8883/|" deploy/env.example >.env.new
+    mv -f .env.new .env
 fi
+
+for secret in django-key database-password redis-password broker-password; do
+    [ "$secret" != "$renewed" ] && [ -s "secrets/$secret" ] && continue
+    rm -f "secrets/$secret.new"
+    openssl rand -hex 32 >"secrets/$secret.new"
+    # the former keys stay in further lines: they read what was sealed with them, and sign nothing
+    if [ "$secret" = django-key ] && [ -e secrets/django-key ]; then
+        cat secrets/django-key >>secrets/django-key.new
+    fi
+    take "secrets/$secret"
+done
+authority "$1"
+certificate broker "$@" mosquitto
+certificate web "$@"
+rm -f secrets/broker/ca.crt.new
+cp secrets/authority/ca.crt secrets/broker/ca.crt.new
+take secrets/broker/ca.crt
+chmod 444 secrets/django-key secrets/*-password secrets/broker/* secrets/web/* # also what somebody put there by hand
+
 cat <<SAID
 Ready: secrets/ and .env for $*.
   secrets/authority/ca.key signs certificates: take it off this machine, and bring it back to renew one.

@@ -1,34 +1,126 @@
-"""Renewing the server's key with `deploy/set-up.sh`: what the former one sealed is still read."""
+"""Setting a site up with `deploy/set-up.sh`, and renewing its secrets, by a user who is not root."""
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
+import tempfile
+from collections.abc import Iterator
 from pathlib import Path
+
+import pytest
 
 from tests.kit.files import ROOT
 
+NOBODY = 65534
+AUTHORITY_KEY = Path("secrets") / "authority" / "ca.key"
+
+
+@pytest.fixture
+def site() -> Iterator[Path]:
+    """A folder with the script, of a user who is not root."""
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place)
+        shutil.copytree(ROOT / "deploy", folder / "deploy")
+        if os.geteuid() == 0:
+            for path in (folder, *folder.rglob("*")):
+                os.chown(path, NOBODY, NOBODY)
+        yield folder
+
+
+def attempt(site: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    command = ["sh", str(site / "deploy" / "set-up.sh"), *arguments]
+    other = {"user": NOBODY, "group": NOBODY, "extra_groups": ()} if os.geteuid() == 0 else {}
+    return subprocess.run(command, check=False, capture_output=True, text=True, timeout=120, cwd=site, **other)  # type: ignore[call-overload,no-any-return]
+
 
 def run(site: Path, *arguments: str) -> None:
-    command = ["sh", str(site / "deploy" / "set-up.sh"), *arguments]
-    done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=120)
+    done = attempt(site, *arguments)
     assert done.returncode == 0, done.stderr
 
 
-def test_a_renewed_key_comes_before_the_former_ones_and_a_renewed_password_alone(tmp_path: Path) -> None:
-    shutil.copytree(ROOT / "deploy", tmp_path / "deploy")
-    run(tmp_path, "localhost")
-    keys, password = tmp_path / "secrets" / "django-key", tmp_path / "secrets" / "redis-password"
+def kept(site: Path) -> dict[str, str]:
+    """Return what every file of the site has, by its path."""
+    files = [site / ".env", *(path for path in (site / "secrets").rglob("*") if path.is_file())]
+    return {str(path.relative_to(site)): path.read_text() for path in files if path.exists()}
+
+
+def changed(before: dict[str, str], after: dict[str, str]) -> set[str]:
+    return {path for path in before | after if before.get(path) != after.get(path)}
+
+
+def modes(site: Path) -> set[int]:
+    """Return the modes of all files that containers are given."""
+    secrets = site / "secrets"
+    files = [path for folder in (secrets, secrets / "broker", secrets / "web") for path in folder.iterdir()]
+    return {path.stat().st_mode & 0o777 for path in files if path.is_file()}
+
+
+def test_a_renewed_key_comes_before_the_former_ones_and_a_renewed_password_alone(site: Path) -> None:
+    run(site, "localhost")
+    keys, password = site / "secrets" / "django-key", site / "secrets" / "redis-password"
     first, before = keys.read_text(), password.read_text()
-    run(tmp_path, "localhost")
+    run(site, "localhost")
     assert keys.read_text() == first
-    run(tmp_path, "--renew", "django-key")
-    run(tmp_path, "--renew", "django-key")
-    third, second, kept = keys.read_text().splitlines(keepends=True)
-    assert (kept, len({first, second, third}), keys.stat().st_mode & 0o777) == (first, 3, 0o444)
+    run(site, "--renew", "django-key")
+    run(site, "--renew", "django-key")
+    third, second, last = keys.read_text().splitlines(keepends=True)
+    assert (last, len({first, second, third}), keys.stat().st_mode & 0o777) == (first, 3, 0o444)
     keys.unlink()
-    run(tmp_path, "--renew", "django-key")
+    run(site, "--renew", "django-key")
     assert len(keys.read_text().splitlines()) == 1
-    run(tmp_path, "--renew", "redis-password")
+    run(site, "--renew", "redis-password")
     assert len(password.read_text().splitlines()) == 1
     assert password.read_text() != before
+
+
+@pytest.mark.parametrize(
+    ("name", "files"),
+    [
+        ("django-key", {"secrets/django-key"}),
+        ("broker-password", {"secrets/broker-password"}),
+        ("broker", {"secrets/broker/server.crt", "secrets/broker/server.key"}),
+        ("web", {"secrets/web/server.crt", "secrets/web/server.key"}),
+    ],
+)
+def test_whoever_is_not_root_renews_what_they_name_and_containers_can_read_it(
+    site: Path, name: str, files: set[str]
+) -> None:
+    run(site, "localhost")
+    before = kept(site)
+    run(site, "--renew", name)
+    assert (changed(before, kept(site)) - {"secrets/authority/ca.srl"}, modes(site)) == (files, {0o444})
+
+
+@pytest.mark.parametrize("name", ["broker", "web"])
+def test_a_certificate_that_cannot_be_signed_leaves_the_one_that_there_is(site: Path, name: str) -> None:
+    run(site, "localhost")
+    (site / AUTHORITY_KEY).unlink()
+    before = kept(site)
+    done = attempt(site, "--renew", name)
+    assert (done.returncode, kept(site), modes(site)) == (1, before, {0o444})
+    assert "bring it back" in done.stderr
+
+
+def test_nothing_is_renewed_where_no_name_is_known(site: Path) -> None:
+    run(site, "localhost")
+    (site / ".env").write_text("VIPO_HOSTS=localhost\n")
+    before = kept(site)
+    done = attempt(site, "--renew", "redis-password")
+    assert (done.returncode, kept(site)) == (1, before)
+    assert "VIPO_NAMES" in done.stderr
+
+
+def test_a_run_that_was_broken_off_is_taken_up(site: Path) -> None:
+    run(site, "localhost")
+    for name in ("secrets/django-key", "secrets/web/server.key", "secrets/web/server.crt", "secrets/broker/ca.crt"):
+        left = site / f"{name}.new"
+        left.write_text("half")
+        left.chmod(0o444)
+        if os.geteuid() == 0:
+            os.chown(left, NOBODY, NOBODY)
+    (site / "secrets" / "web" / "server.crt").unlink()
+    run(site, "--renew", "django-key")
+    assert not list((site / "secrets").rglob("*.new"))
+    assert "half" not in "".join(kept(site).values())
