@@ -24,7 +24,7 @@ if [ "${1:-}" = --renew ]; then
     }
 fi
 names=""
-[ ! -e .env ] || names=$(sed -n 's/^VIPO_NAMES="\{0,1\}\([^"]*\)"\{0,1\}$/\1/p' .env)
+[ ! -e .env ] || names=$(sed -n 's/^VIPO_NAMES="\{0,1\}\([^"]*\)"\{0,1\}$/\1/p' .env | tr -s ' ')
 if [ -n "$renewed" ]; then
     # shellcheck disable=SC2086
     set -- $names
@@ -46,6 +46,26 @@ for name in "$@"; do
         ;;
     esac
 done
+others="To give the site other names, write them into VIPO_NAMES, VIPO_HOSTS and VIPO_BROKER_URL in .env, then run\
+ deploy/set-up.sh --renew broker and deploy/set-up.sh --renew web."
+if [ -e .env ] && [ "$names" != "$*" ]; then
+    echo ".env is for '$names', not for '$*'; nothing was changed. $others" >&2
+    exit 1
+fi
+if [ -z "$renewed" ] && [ -s secrets/broker/server.crt ]; then
+    for name in "$@"; do
+        case $name in
+        *:*) look=-checkip ;;
+        *[!0-9.]*) look=-checkhost ;;
+        *) look=-checkip ;;
+        esac
+        openssl x509 -in secrets/broker/server.crt -noout "$look" "$name" | grep -q 'does match' || {
+            echo "The broker's certificate does not name '$name'; nothing was changed. $others" >&2
+            exit 1
+        }
+    done
+fi
+
 mkdir -p secrets/authority secrets/broker secrets/web
 chmod 700 secrets
 

@@ -57,6 +57,11 @@ def modes(site: Path) -> set[int]:
     return {path.stat().st_mode & 0o777 for path in files if path.is_file()}
 
 
+def names_of(certificate: Path) -> str:
+    command = ["openssl", "x509", "-in", str(certificate), "-noout", "-ext", "subjectAltName"]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.split("\n")[1].strip()
+
+
 def test_a_renewed_key_comes_before_the_former_ones_and_a_renewed_password_alone(site: Path) -> None:
     run(site, "localhost")
     keys, password = site / "secrets" / "django-key", site / "secrets" / "redis-password"
@@ -124,3 +129,20 @@ def test_a_run_that_was_broken_off_is_taken_up(site: Path) -> None:
     run(site, "--renew", "django-key")
     assert not list((site / "secrets").rglob("*.new"))
     assert "half" not in "".join(kept(site).values())
+
+
+def test_another_name_is_refused_until_it_is_written_and_signed(site: Path) -> None:
+    run(site, "vipo.example.com", "192.0.2.7")
+    before = kept(site)
+    done = attempt(site, "other.example.com")
+    assert (done.returncode, kept(site), "Ready" in done.stdout) == (1, before, False)
+    assert "--renew broker" in done.stderr
+    settings = (site / ".env").read_text().replace('"vipo.example.com 192.0.2.7"', '"other.example.com"')
+    (site / ".env").write_text(settings)
+    done = attempt(site, "other.example.com")
+    assert (done.returncode, "'other.example.com'" in done.stderr) == (1, True)
+    run(site, "--renew", "web")
+    run(site, "--renew", "broker")
+    run(site, "other.example.com")
+    assert names_of(site / "secrets" / "web" / "server.crt") == "DNS:other.example.com"
+    assert names_of(site / "secrets" / "broker" / "server.crt") == "DNS:other.example.com, DNS:mosquitto"
