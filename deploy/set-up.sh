@@ -113,8 +113,16 @@ certificate() { # FOLDER NAME ...
 }
 
 if [ ! -e .env ]; then
-    sed -e "s|^VIPO_HOSTS=.*|VIPO_HOSTS=$(echo "$*" | tr ' ' ',')|" -e "s|^VIPO_NAMES=.*|VIPO_NAMES=\"$*\"|" \
-        -e "s|^VIPO_BROKER_URL=.*|VIPO_BROKER_URL=mqtts://$1:8883/|" deploy/env.example >.env.new
+    hosts="" # an address of IPv6 stands in brackets where a port may follow
+    for name in "$@"; do
+        case $name in
+        *:*) hosts="$hosts,[$name]" ;;
+        *) hosts="$hosts,$name" ;;
+        esac
+    done
+    hosts=${hosts#,}
+    sed -e "s|^VIPO_HOSTS=.*|VIPO_HOSTS=$hosts|" -e "s|^VIPO_NAMES=.*|VIPO_NAMES=\"$*\"|" \
+        -e "s|^VIPO_BROKER_URL=.*|VIPO_BROKER_URL=mqtts://${hosts%%,*}:8883/|" deploy/env.example >.env.new
     mv -f .env.new .env
 fi
 

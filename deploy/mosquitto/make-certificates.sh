@@ -13,6 +13,7 @@ umask 077
 names=""
 for name in "$@"; do
     case $name in
+    *:*) names="$names,IP:$name" ;;
     *[!0-9.]*) names="$names,DNS:$name" ;;
     *) names="$names,IP:$name" ;;
     esac

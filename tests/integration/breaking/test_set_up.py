@@ -146,3 +146,17 @@ def test_another_name_is_refused_until_it_is_written_and_signed(site: Path) -> N
     run(site, "other.example.com")
     assert names_of(site / "secrets" / "web" / "server.crt") == "DNS:other.example.com"
     assert names_of(site / "secrets" / "broker" / "server.crt") == "DNS:other.example.com, DNS:mosquitto"
+
+
+def test_an_address_of_version_6_is_one_in_certificates_and_has_brackets_where_a_port_follows(site: Path) -> None:
+    run(site, "2001:db8::7", "vipo.example.com")
+    run(site, "2001:db8::7", "vipo.example.com")
+    wanted = "IP Address:2001:DB8:0:0:0:0:0:7, DNS:vipo.example.com"
+    assert names_of(site / "secrets" / "web" / "server.crt") == wanted
+    settings = (site / ".env").read_text().splitlines()
+    assert "VIPO_HOSTS=[2001:db8::7],vipo.example.com" in settings
+    assert "VIPO_BROKER_URL=mqtts://[2001:db8::7]:8883/" in settings
+    script = site / "deploy" / "mosquitto" / "make-certificates.sh"
+    made = site / "made"
+    subprocess.run(["sh", str(script), str(made), "2001:db8::7", "vipo.example.com"], check=True, capture_output=True)
+    assert names_of(made / "server.crt") == wanted
