@@ -23,6 +23,8 @@ SENTENCES = {
         f"{yjs_updates.MOST_NESTED} times ({shared_document.DEEPEST} in the document), more than "
         f"{yjs_updates.MOST_CLIENTS} clients ({yjs_updates.MOST_CLIENTS_OF_ALL:,} in what a client has in all) or "
         f"{yjs_updates.MOST_PARTS:,} changes, values and deletions, more than {yjs_updates.MOST_VALUES:,} values",
+        f"one program open {room.MOST_OF_PERSON} times by a person, or {hub.MOST_OF_PERSON} openings of theirs in a "
+        "process |",
         f"there are {room.MOST_WRITERS} who may draw or {room.MOST_READERS} who may only look already",
         f"{member.FRAMES_PER_S:g} messages a second ({member.BURST_FRAMES:g} at once) and "
         f"{member.BYTES_PER_S / MIB:g} MiB ({member.BURST_BYTES / MIB:g} at once)",

@@ -1,4 +1,4 @@
-"""docs/shapes names the messages that are told: to browsers of a site, and to devices of a stop."""
+"""docs/shapes names the messages that are told, to browsers of a site and to devices of a stop, and what a zone is."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import json
 import re
 from datetime import UTC, datetime
 
+from editor.language.tree.zones import FEWEST_CORNERS, MOST_CORNERS, RULES
 from execution.floor.stops import StopView, stop_payload
 from tests.kit.files import ROOT
 
@@ -23,3 +24,9 @@ def test_the_page_of_wake_ups_shows_a_stop_as_devices_are_told_it() -> None:
     (shown,) = re.findall(r"^A stop is `(.*?)`", (SHAPES / "wake-ups.md").read_text(encoding="utf-8"), re.MULTILINE)
     stop = StopView("hall", True, "Ada", datetime(2026, 1, 1, 12, tzinfo=UTC), 1767268800000)
     assert json.loads(shown) == json.loads(stop_payload(stop))
+
+
+def test_the_page_of_the_document_names_the_rules_of_zones_and_how_many_corners_one_has() -> None:
+    (shown,) = re.findall(r"`zones: \{id: .*? in metres, .*?\.", (SHAPES / "document.md").read_text(encoding="utf-8"))
+    assert [rule for rule in RULES if f"`{rule}`" not in shown] == []
+    assert shown.endswith(f"{FEWEST_CORNERS} to {MOST_CORNERS}.")
