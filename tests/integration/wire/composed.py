@@ -42,8 +42,13 @@ STARTED = (
     "worker-1",
     "rehearsals",
     "ticker",
+    "mirror",
+    "stand-ins",
 )
-FOLDERS = {"/state": "state", "/mosquitto/": "broker/", "/data": "redis"}
+FOLDERS = {"/state": "state", "/archive": "archive", "/mosquitto/": "broker/", "/data": "redis"}
+"""Paths of containers, and which folders of the test they are for who mounts something there."""
+CLOSED = "/proc"
+"""Where folders stand that are not mounted: they are empty, and nobody, not even root, can write there."""
 PROGRAMS = {"python": [], "celery": ["-m", "celery"], "daphne": ["-m", "daphne"]}
 FIRST_NAME = "vipo.example"
 
@@ -73,7 +78,10 @@ class Composed:
         """Return a text of the deployment with this machine's paths and addresses."""
         given = self.said["services"][service].get("secrets", ())
         paths = {f"/run/secrets/{name}": str(self.site / self.said["secrets"][name]["file"]) for name in given}
-        paths |= {inside: f"{self.folder}/{outside}" for inside, outside in FOLDERS.items()}
+        mounts = [volume.split(":")[1] for volume in self.said["services"][service].get("volumes", ())]
+        for inside, outside in FOLDERS.items():
+            is_mounted = any(mount.startswith(inside) for mount in mounts)
+            paths[inside] = f"{self.folder}/{outside}" if is_mounted else f"{CLOSED}{inside}"
         paths |= {"/tmp/": f"{self.folder}/tmp-{service}/"}
         # all at once, for the paths of the test begin like those of a container
         known = "|".join(re.escape(path) for path in sorted(paths, key=len, reverse=True))
@@ -137,7 +145,7 @@ class Composed:
 
 @contextmanager
 def running_composed(folder: Path) -> Iterator[Composed]:
-    """Set the deployment up as docs/operations.md says, and start what its compose file names."""
+    """Set the deployment up as docs/operations.md says, and start what its compose file names without a profile."""
     network = f"127.{secrets.randbelow(200) + 20}.{secrets.randbelow(250) + 1}"
     with ExitStack() as stack:
         composed = Composed(folder, network, stack.enter_context(run_postgres(folder)))
@@ -159,7 +167,7 @@ def set_up(composed: Composed) -> None:
     names = [FIRST_NAME, composed.address("proxy"), composed.address("mosquitto")]
     subprocess.run([composed.site / "deploy" / "set-up.sh", *names], check=True, capture_output=True)
     composed.said = read_compose(composed.site)
-    for name in ("state", "broker/config", "broker/data", "redis"):
+    for name in ("state", "archive", "broker/config", "broker/data", "redis"):
         (composed.folder / name).mkdir(parents=True, mode=0o700)
 
 

@@ -227,7 +227,7 @@ def test_whoever_sends_mail_signs_in_at_a_real_mail_server(site: Composed, servi
 
 
 def test_each_process_shows_that_it_lives(site: Composed) -> None:
-    for service in ("gateway", "worker-1", "ticker"):
+    for service in ("gateway", "worker-1", "ticker", "mirror", "stand-ins"):
         wait_for(service, lambda s=service: is_alive(site.folder / f"tmp-{s}" / "pulse"), 60, story=site.story)
 
 

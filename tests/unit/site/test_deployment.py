@@ -34,6 +34,19 @@ FOR_OTHER_FORMS = {
     "VIPO_SPEED",
 }
 """What a site of docker-compose.yml has no reason to set."""
+KEEPS_FILES = {
+    "connectors/management/commands/mtconnect.py": {"mtconnect"},
+    "connectors/management/commands/vda5050.py": {"vda5050"},
+    "execution/stand_ins/stand_ins.py": {"stand-ins"},
+    "registry/api/people.py": set(),  # reads the demo's accounts, where the embedded mode offers them
+    "registry/management/commands/end_demo.py": {"setup"},
+    "registry/management/commands/seed_demo.py": {"setup"},
+    "simulation/management/commands/scout.py": set(),  # no service
+    "simulation/management/commands/twin.py": {"twin"},
+    "vipo_site/cli/repair.py": {"setup"},  # as docs/cli.md has it run
+    "vipo_site/demo/main.py": set(),  # the embedded mode
+}
+"""Which modules use files of VIPO_STATE_DIR, and as which services they run."""
 
 
 def read_by_settings() -> set[str]:
@@ -115,6 +128,15 @@ def test_a_service_names_only_what_is_there_and_is_closed(name: str) -> None:
     files = {value for key, value in service.get("environment", {}).items() if key.endswith("_FILE")}
     unknown = {path.removeprefix("/run/secrets/") for path in files} - set(service.get("secrets", ()))
     assert unknown == set()
+
+
+def test_whoever_keeps_files_has_the_volume_for_them_and_nobody_else() -> None:
+    folders = ("connectors", "editor", "execution", "registry", "simulation", "vipo_site")
+    modules = {path for folder in folders for path in (ROOT / folder).rglob("*.py") if path.name != "settings.py"}
+    using = {path for path in modules if "settings.VIPO_STATE_DIR" in path.read_text()}
+    assert {path.relative_to(ROOT).as_posix() for path in using} == KEEPS_FILES.keys()
+    mounting = {name for name, service in SERVICES.items() if "state:/state" in service.get("volumes", ())}
+    assert mounting == set().union(*KEEPS_FILES.values())
 
 
 @pytest.mark.parametrize(
