@@ -34,6 +34,8 @@ FOR_OTHER_FORMS = {
     "VIPO_SPEED",
 }
 """What a site of docker-compose.yml has no reason to set."""
+FOR_TESTS = {"VIPO_DATABASE", "VIPO_REDIS", "VIPO_FRONTEND_DIST", "VIPO_FAULTS"}
+"""Beginnings of names, and what only tests set."""
 KEEPS_FILES = {
     "connectors/management/commands/mtconnect.py": {"mtconnect"},
     "connectors/management/commands/vda5050.py": {"vda5050"},
@@ -76,6 +78,19 @@ def test_what_env_example_shows_as_usual_is_what_holds_without_it() -> None:
     both = shown.keys() & defaults.keys() - examples
     assert {name: shown[name] for name in both} == {name: defaults[name] for name in both}
     assert len(both) > 10
+
+
+def test_each_setting_that_is_read_from_the_environment_stands_in_the_table() -> None:
+    """Also those of connectors and of single commands; what only tests set does not."""
+    page = (ROOT / "docs" / "operations.md").read_text()
+    folders = ("connectors", "editor", "execution", "registry", "simulation", "vipo_device", "vipo_site")
+    sources = [path.read_text() for folder in folders for path in (ROOT / folder).rglob("*.py")]
+    read = read_by_settings() | {
+        name
+        for source in sources
+        for name in re.findall(r'(?:environ(?:\.get\(|\[)|^[A-Z_]+ = )"(VIPO_\w+)"', source, re.MULTILINE)
+    }
+    assert sorted(name for name in read - FOR_TESTS if f"`{name}`" not in page) == []
 
 
 @pytest.mark.parametrize("name", sorted(read_by_settings() - FOR_OTHER_FORMS))
