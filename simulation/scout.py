@@ -88,7 +88,7 @@ def describe_scout(plan: ScoutPlan, start: Pose) -> Description:
 class ScoutActor(Robot):
     """What the robot does with commands: it explores, or drives where it is told to on the map that it has made.
 
-    Exploring that was cancelled goes on where it was; one that is over is new.
+    Exploring that was cancelled, or that a narrow place ended, goes on with its map; one that is over is new.
     """
 
     def __init__(
@@ -123,7 +123,7 @@ class ScoutActor(Robot):
             return super()._take_on(t_s, method, arguments, command)
         if self.busy:
             return f"{self.description.name} drives. Wait until it stands, or cancel that."
-        if self.expedition.is_over:
+        if not self.expedition.go_on() and self.expedition.is_over:
             self._begin_anew()
         self._exploring = command
         self._say(t_s, AckMessage(command, "ACCEPTED"))
@@ -157,7 +157,16 @@ class ScoutActor(Robot):
             self.expedition.tick()
             if self.expedition.is_over:
                 ended, self._exploring = self._exploring, ""
-                self._say_done(t_s, ended)
+                self._say_over(t_s, ended)
+
+    def _say_over(self, t_s: float, command: str) -> None:
+        """Answer DONE, or FAILED with what to do where a narrow place barred the way."""
+        name, maker = self.description.name, self.expedition.maker
+        if maker.is_barred:
+            why = f"{name} did not get through a narrow place behind which there is more to see. Drive it out of there"
+            self._say(t_s, AckMessage(command, "FAILED", f"{why}, or make room, and let it explore again."))
+        else:
+            self._say_done(t_s, command)
 
     def _be_steered(self, t_s: float) -> None:
         """Drive along what was released, by where the robot believes to be."""

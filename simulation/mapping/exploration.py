@@ -44,7 +44,7 @@ class Goal:
 class Ground:
     """The map in coarse cells [row, column]: where the robot's middle may be, and what lies at the edge of the known.
 
-    `origin` is the corner of the first cell in metres, `room_m` how far a wall is.
+    `origin` is the corner of the first cell in metres, `room_m` how far a wall is, `known` what is free or wall.
     """
 
     side_m: float
@@ -52,6 +52,7 @@ class Ground:
     room_m: NDArray[np.float64]
     drivable: NDArray[np.bool_]
     frontier: NDArray[np.bool_]
+    known: NDArray[np.bool_]
 
     def centres(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return the middles [n, 2] of cells in metres."""
@@ -72,7 +73,7 @@ def survey_ground(occupancy: OccupancyMap, radius_m: float, given_up: Iterable[P
     known_room = np.maximum(ndimage.distance_transform_edt(free) - 0.5, 0.0) * side_m
     drivable = (room >= radius_m + MARGIN_M) & (known_room >= radius_m)
     frontier = free & ndimage.binary_dilation(unknown, _EVERYWHERE)
-    ground = Ground(side_m, (float(corner[0]), float(corner[1])), room, drivable, frontier)
+    ground = Ground(side_m, (float(corner[0]), float(corner[1])), room, drivable, frontier, ~unknown)
     for point in given_up:
         _leave_out(ground, point)
     return ground
@@ -83,6 +84,25 @@ def _leave_out(ground: Ground, point: Point) -> None:
     centres = ground.centres(rows, columns)
     near = np.hypot(centres[:, 0] - point[0], centres[:, 1] - point[1]) < GIVEN_UP_M
     ground.frontier[rows[near], columns[near]] = False
+
+
+@dataclass(frozen=True, slots=True)
+class Frontiers:
+    """The frontiers that are worth a way: each cell's [row, column] number, the cells of each number, and the cells."""
+
+    labels: NDArray[np.int32]
+    sizes: NDArray[np.int64]
+    seen: NDArray[np.bool_]
+
+
+def find_frontiers(ground: Ground) -> Frontiers | None:
+    """Return the frontiers that are long enough to be worth a way; None when there is none."""
+    labels, count = ndimage.label(ground.frontier, _EVERYWHERE)
+    sizes = np.bincount(labels.ravel(), minlength=count + 1)
+    large = sizes * ground.side_m >= LEAST_M
+    large[0] = False
+    seen = large[labels]
+    return Frontiers(labels, sizes, seen) if seen.any() else None
 
 
 class Paths:
@@ -147,17 +167,11 @@ class Paths:
 
 
 def choose_goal(paths: Paths, radius_m: float) -> Goal | None:
-    """Return the frontier that is worth its way most, long ones counting for less way; None when all are seen."""
-    ground = paths.ground
-    labels, count = ndimage.label(ground.frontier, _EVERYWHERE)
-    if not count:
+    """Return the frontier that is worth its way most, long ones counting for less way; None when no way leads there."""
+    ground, frontiers = paths.ground, find_frontiers(paths.ground)
+    if frontiers is None:
         return None
-    sizes = np.bincount(labels.ravel(), minlength=count + 1)
-    large = sizes * ground.side_m >= LEAST_M
-    large[0] = False
-    seen = large[labels]
-    if not seen.any():
-        return None
+    labels, sizes, seen = frontiers.labels, frontiers.sizes, frontiers.seen
     away, (rows, columns) = ndimage.distance_transform_edt(~seen, return_indices=True)
     stands = np.isfinite(paths.cost) & (away * ground.side_m <= radius_m + LOOK_M)
     at_rows, at_columns = np.nonzero(stands)

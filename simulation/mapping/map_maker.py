@@ -10,7 +10,17 @@ import numpy as np
 
 from registry.floorplan.plan import Grid
 from simulation.actors.follower import wrapped
-from simulation.mapping.exploration import Goal, Paths, Point, choose_goal, is_near, survey_ground
+from simulation.mapping.exploration import (
+    Goal,
+    Ground,
+    Paths,
+    Point,
+    choose_goal,
+    find_frontiers,
+    is_near,
+    survey_ground,
+)
+from simulation.mapping.narrow_ways import NarrowWays
 from simulation.mapping.occupancy import SURE_FREE, SURE_WALL, Floats, OccupancyMap, read_scan
 from simulation.mapping.odometry import moved
 from simulation.mapping.scan_matching import Trust, match
@@ -19,6 +29,8 @@ from vipo_device.protocol.description import Pose
 SCAN_M, SCAN_RAD = 0.15, 0.12
 """After so much way or turning a scan is matched and goes into the map."""
 LOOK_AHEAD_M = 0.3
+NARROW_AHEAD_M = 0.1
+"""In narrow places the robot aims at so near a point of its way: it must not cut corners there."""
 THERE_M = 0.12
 STOP_M = 0.06
 """Nearer than so much beyond its own radius nothing may be ahead of a robot that drives."""
@@ -50,6 +62,7 @@ class _Course:
 
     path: list[Point]
     goal: Goal | None
+    is_narrow: bool = False
     nearest_m: float = float("inf")
     stalled_s: float = 0.0
     blocked: int = 0
@@ -66,7 +79,10 @@ class _Since:
 
 @dataclass
 class MapMaker:
-    """Explores a floor from `start` on. `anchor` is a corner of some cell, `side_m` the side of cells."""
+    """Explores a floor from `start` on. `anchor` is a corner of some cell, `side_m` the side of cells.
+
+    `is_barred` once the robot has not got out of or through a narrow place behind which there is more to see.
+    """
 
     robot: RobotSpec
     start: Pose
@@ -74,6 +90,7 @@ class MapMaker:
     anchor: Point = (0.0, 0.0)
     state: Literal["exploring", "returning", "done"] = "exploring"
     given_up: list[Point] = field(default_factory=list)
+    is_barred: bool = False
     matches: int = 0
 
     def __post_init__(self) -> None:
@@ -86,8 +103,17 @@ class MapMaker:
 
     @property
     def is_done(self) -> bool:
-        """True when nothing is left to see and the robot is back where it began, or as near as it could come."""
+        """True when the robot knows no way to more, and is back where it began, or as near as it could come."""
         return self.state == "done"
+
+    @property
+    def is_whole(self) -> bool:
+        """True when it is done, and has seen all that it can reach."""
+        return self.is_done and not self.is_barred
+
+    def go_on(self) -> None:
+        """Explore on with the same map, for the robot stands elsewhere now, or has been given room."""
+        self.state, self.is_barred, self._course = "exploring", False, None
 
     def grid(self) -> Grid:
         """Return the map as it is now."""
@@ -150,20 +176,42 @@ class MapMaker:
 
     def _plan(self) -> _Course | None:
         """Return the way to the next frontier, then home; None when all is over."""
-        ground = survey_ground(self.occupancy, self.robot.radius_m, self.given_up)
-        paths = Paths(ground, (self.pose.x, self.pose.y))
-        goal = choose_goal(paths, self.robot.radius_m) if self.state == "exploring" else None
-        if goal is not None:
-            return _Course(list(goal.path), goal)
-        path = () if self.state == "done" else paths.path_home((self.start.x, self.start.y))
-        if not path or is_near(self.pose, (self.start.x, self.start.y), THERE_M):
+        home, here, radius_m = (self.start.x, self.start.y), (self.pose.x, self.pose.y), self.robot.radius_m
+        ground = survey_ground(self.occupancy, radius_m, self.given_up)
+        paths = Paths(ground, here)
+        if self.state == "exploring":
+            course = self._next_course(ground, paths)
+            if course is not None:
+                return course
+        if self.state == "done" or is_near(self.pose, home, THERE_M):
             self.state = "done"
             return None
         self.state = "returning"
-        return _Course(list(path), None)
+        path, is_narrow = paths.path_home(home), False
+        if not path:
+            path, is_narrow = NarrowWays(self.occupancy, ground, here, radius_m).path_home(home), True
+        if not path:
+            self.state = "done"
+            return None
+        return _Course(list(path), None, is_narrow)
+
+    def _next_course(self, ground: Ground, paths: Paths) -> _Course | None:
+        """Return the way to the next frontier: a narrow one where no other leads to any."""
+        goal = choose_goal(paths, self.robot.radius_m)
+        if goal is not None:
+            return _Course(list(goal.path), goal)
+        if self.is_barred or find_frontiers(ground) is None:
+            return None
+        ways = NarrowWays(self.occupancy, ground, (self.pose.x, self.pose.y), self.robot.radius_m)
+        goal = ways.goal()
+        if goal is None:
+            self.is_barred = not ways.fits
+            return None
+        return _Course(list(goal.path), goal, is_narrow=True)
 
     def _follow(self, course: _Course, ranges: Floats, dt_s: float) -> tuple[float, float]:
-        while len(course.path) > 1 and is_near(self.pose, course.path[0], LOOK_AHEAD_M):
+        ahead_m = NARROW_AHEAD_M if course.is_narrow else LOOK_AHEAD_M
+        while len(course.path) > 1 and is_near(self.pose, course.path[0], ahead_m):
             course.path.pop(0)
         left_m = hypot(course.path[0][0] - self.pose.x, course.path[0][1] - self.pose.y)
         if len(course.path) == 1 and left_m < THERE_M:
@@ -231,6 +279,8 @@ class MapMaker:
     def _give_up(self, course: _Course) -> None:
         if course.goal is None:
             self.state = "done"
+        elif course.is_narrow:
+            self.is_barred = True
         else:
             self._leave(course.goal)
         self._back_s, self._course = BACK_S, None

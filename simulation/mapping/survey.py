@@ -37,11 +37,15 @@ class SurveyPlan:
 
 @dataclass(frozen=True, slots=True)
 class Survey:
-    """What came of it: metres, radians, virtual seconds. `is_whole` when the robot saw all that it could reach."""
+    """What came of it: metres, radians, virtual seconds. `is_whole` when the robot saw all that it could reach.
+
+    `is_barred` when it did not get out of or through a narrow place behind which there is more to see.
+    """
 
     grid: Grid
     start: Pose
     is_whole: bool
+    is_barred: bool
     driven_m: float
     virtual_s: float
     scans: int
@@ -94,8 +98,15 @@ class Expedition:
 
     @property
     def is_over(self) -> bool:
-        """True when the map is made, or the time is over."""
+        """True when the map is made, the robot cannot make more of it, or the time is over."""
         return self.maker.is_done or self.time_s >= self._plan.longest_s
+
+    def go_on(self) -> bool:
+        """Try anew, with the same map, what a narrow place barred the robot from; False when nothing did."""
+        if not self.maker.is_barred or self.time_s >= self._plan.longest_s:
+            return False
+        self.maker.go_on()
+        return True
 
     def put_in_the_way(self, obstacles: Sequence[Obstacle]) -> None:
         """Let things stand on the floor that the robot was not told of, in place of those that stood there.
@@ -175,7 +186,8 @@ class Expedition:
         return Survey(
             grid=maker.grid(),
             start=self._start,
-            is_whole=maker.is_done,
+            is_whole=maker.is_whole,
+            is_barred=maker.is_barred,
             driven_m=self._driven_m,
             virtual_s=virtual_s,
             scans=maker.matches,

@@ -51,7 +51,7 @@ def scan(options: argparse.Namespace) -> int:
     if options.json:
         write_json({"map": str(options.map), "seed": options.seed, "lidar_m": options.lidar, **body})
     else:
-        _tell(options, body)
+        _tell(options, body, is_barred=survey.is_barred)
     return CLEAN if survey.is_whole else FAULTY
 
 
@@ -131,7 +131,7 @@ def _errors(survey: Survey) -> tuple[tuple[str, float, float], ...]:
     return ("final", *survey.final_error), ("largest", *survey.largest_error)
 
 
-def _tell(options: argparse.Namespace, body: dict[str, object]) -> None:
+def _tell(options: argparse.Namespace, body: dict[str, object], *, is_barred: bool) -> None:
     errors = body["pose_error"]
     assert isinstance(errors, dict)
     write(f"Walls found (F1, one cell)  {body['f1']}")
@@ -141,5 +141,10 @@ def _tell(options: argparse.Namespace, body: dict[str, object]) -> None:
     write(f"Driven                      {body['driven_m']} m in {body['virtual_s']} s")
     write(f"Processor                   {body['processor_s']} s")
     write(f"Written                     {options.out / 'map.yaml'}, {options.out / 'map.pgm'}")
-    if not body["is_whole"]:
+    if is_barred:
+        write(
+            "The map is not whole: the robot did not get through a narrow place behind which there is more to see. "
+            "Let it begin where it has more room, with --start X Y THETA."
+        )
+    elif not body["is_whole"]:
         write("The map is not whole: the time was over before the robot had seen all that it can reach.")

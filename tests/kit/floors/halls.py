@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from registry.floorplan.plan import FREE, OCCUPIED, UNKNOWN, Grid
+from vipo_device.protocol.description import Pose
 
 
 def generated_hall(seed: int, width_m: float = 30.0, height_m: float = 15.0, side_m: float = 0.05) -> Grid:
@@ -30,6 +31,16 @@ def bare_hall(width_m: float, height_m: float, side_m: float = 0.05) -> Grid:
     cells = np.full((rows, columns), OCCUPIED, dtype=np.uint8)
     cells[2:-2, 2:-2] = FREE
     return Grid(columns, rows, side_m, 0.0, 0.0, cells.tobytes())
+
+
+def hall_with_a_bay(wide_m: float) -> tuple[Grid, Pose]:
+    """Return a hall of 6 by 3 m with a pillar and, below it, a parking bay 1.1 m deep; and a place in the bay."""
+    side_m, wide = 0.05, round(wide_m / 0.05)
+    cells = np.full((86, 124), OCCUPIED, dtype=np.uint8)
+    cells[24:84, 2:122] = FREE
+    cells[50:56, 84:90] = OCCUPIED
+    cells[2:24, 50 : 50 + wide] = FREE
+    return Grid(124, 86, side_m, 0.0, 0.0, cells.tobytes()), Pose((50 + wide / 2) * side_m, 0.45, 0.0, 1.57)
 
 
 def _rack(cells: np.ndarray[tuple[int, int], np.dtype[np.uint8]], side_m: float, box: tuple[float, ...]) -> None:

@@ -7,10 +7,10 @@ import pytest
 from registry.floorplan.plan import OCCUPIED, Grid
 from simulation.mapping.floor import TrueFloor
 from simulation.mapping.scores import score
-from simulation.mapping.survey import TICK_S, SurveyPlan
+from simulation.mapping.survey import LONGEST_S, TICK_S, SurveyPlan
 from simulation.scout import ScoutActor, ScoutPlan, describe_scout
 from simulation.world import Ack, Obstacle, WorldEvent
-from tests.kit.floors.halls import bare_hall
+from tests.kit.floors.halls import bare_hall, hall_with_a_bay
 from vipo_device.protocol.description import Pose
 
 FLOOR, START = bare_hall(6.0, 5.0), Pose(1.0, 1.0)
@@ -21,10 +21,10 @@ SHAPE = ("width", "height", "resolution_m", "origin_x_m", "origin_y_m")
 class Driven:
     """A scout whose time passes when the test says so."""
 
-    def __init__(self, floor: Grid = FLOOR) -> None:
+    def __init__(self, floor: Grid = FLOOR, start: Pose = START, longest_s: float = LONGEST_S) -> None:
         self.events: list[WorldEvent] = []
-        plan = ScoutPlan("hall.scout", "Scout", "hall", SurveyPlan(floor, 1, start=START))
-        self.actor = ScoutActor(describe_scout(plan, START), self.events.append, plan.survey)
+        plan = ScoutPlan("hall.scout", "Scout", "hall", SurveyPlan(floor, 1, start=start, longest_s=longest_s))
+        self.actor = ScoutActor(describe_scout(plan, start), self.events.append, plan.survey)
         self.now_s = 0.0
 
     def tell(self, given: str, method: str, **arguments: object) -> None:
@@ -144,3 +144,29 @@ def test_what_is_put_where_the_robot_stands_lies_there_once_it_has_left() -> Non
     scout.rest()
     scout.actor.put_in_the_way([thing])
     assert floor.clearance_m(START.x, START.y) == 0
+
+
+def test_a_scout_that_begins_in_a_bay_is_done_when_it_has_seen_the_hall() -> None:
+    floor, start = hall_with_a_bay(0.5)
+    scout = Driven(floor, start)
+    scout.tell("map", "explore")
+    scout.rest()
+    assert scout.said("map")[-1] == ("DONE", "")
+    assert score(scout.actor.expedition.maker.grid(), TrueFloor(floor), start).iou >= 0.97
+
+
+def test_a_scout_that_does_not_get_through_fails_and_goes_on_with_its_map_once_it_has_room() -> None:
+    floor, start = hall_with_a_bay(0.7)
+    scout = Driven(floor, start)
+    scout.actor.put_in_the_way([Obstacle(2.5, 1.0, 0.2), Obstacle(2.8, 1.0, 0.2)])
+    scout.tell("map", "explore")
+    scout.rest()
+    why = "Scout did not get through a narrow place behind which there is more to see. "
+    assert scout.said("map")[-1] == ("FAILED", why + "Drive it out of there, or make room, and let it explore again.")
+    before = scout.actor.expedition
+    scout.actor.put_in_the_way([])
+    scout.tell("on", "explore")
+    scout.rest()
+    assert scout.said("on")[-1] == ("DONE", "")
+    assert scout.actor.expedition is before
+    assert score(before.maker.grid(), TrueFloor(floor), start).iou >= 0.97

@@ -9,7 +9,7 @@ import pytest
 
 from registry.floorplan.map_server import read_map, write_pgm, write_yaml
 from registry.floorplan.plan import OCCUPIED, Grid
-from tests.kit.floors.halls import bare_hall
+from tests.kit.floors.halls import bare_hall, hall_with_a_bay
 from vipo_site.cli.main import main
 
 
@@ -51,6 +51,20 @@ def test_the_same_seed_writes_the_same_bytes(hall: Path, tmp_path: Path, capsys:
     assert "Walls found (F1, one cell)" in told
     for file in ("map.yaml", "map.pgm"):
         assert (tmp_path / "first" / file).read_bytes() == (tmp_path / "again" / file).read_bytes()
+
+
+@pytest.mark.parametrize(("wide_m", "code"), [(0.3, 1), (0.5, 0)])
+def test_a_scan_from_a_bay_ends_well_only_where_the_hall_was_seen(
+    wide_m: float, code: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    grid, start = hall_with_a_bay(wide_m)
+    at = ["--start", *(f"{value:g}" for value in (start.x, start.y, start.theta))]
+    assert main(["scan", "--map", str(write_map(tmp_path, grid)), *at, "--out", str(tmp_path / "out")]) == code
+    why = (
+        "The map is not whole: the robot did not get through a narrow place behind which there is more to see. "
+        "Let it begin where it has more room, with --start X Y THETA.\n"
+    )
+    assert (why in capsys.readouterr().out) == (code == 1)
 
 
 def refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
