@@ -160,13 +160,16 @@ class ScoutActor(Robot):
                 self._say_over(t_s, ended)
 
     def _say_over(self, t_s: float, command: str) -> None:
-        """Answer DONE, or FAILED with what to do where a narrow place barred the way."""
+        """Answer DONE for a map that is whole, and FAILED with what to do for another one."""
         name, maker = self.description.name, self.expedition.maker
-        if maker.is_barred:
+        if maker.is_whole:
+            self._say_done(t_s, command)
+        elif maker.is_barred:
             why = f"{name} did not get through a narrow place behind which there is more to see. Drive it out of there"
             self._say(t_s, AckMessage(command, "FAILED", f"{why}, or make room, and let it explore again."))
         else:
-            self._say_done(t_s, command)
+            why = f"The time was over before {name} had seen all that it can reach. Drive it to what is left"
+            self._say(t_s, AckMessage(command, "FAILED", f"{why}, and let it explore again."))
 
     def _be_steered(self, t_s: float) -> None:
         """Drive along what was released, by where the robot believes to be."""

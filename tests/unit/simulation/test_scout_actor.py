@@ -170,3 +170,11 @@ def test_a_scout_that_does_not_get_through_fails_and_goes_on_with_its_map_once_i
     assert scout.said("on")[-1] == ("DONE", "")
     assert scout.actor.expedition is before
     assert score(before.maker.grid(), TrueFloor(floor), start).iou >= 0.97
+
+
+def test_a_scout_whose_time_is_over_does_not_say_that_its_map_is_whole() -> None:
+    scout = Driven(hall_with_a_bay(0.7)[0], Pose(1.0, 2.0), longest_s=5.0)
+    scout.tell("map", "explore")
+    scout.rest()
+    why = "The time was over before Scout had seen all that it can reach. "
+    assert scout.said("map")[-1] == ("FAILED", why + "Drive it to what is left, and let it explore again.")
