@@ -27,10 +27,14 @@ MAX_SIDE = 4096
 MAX_IMAGE_BYTES = 16 * 1024 * 1024
 MAX_YAML_BYTES = 64 * 1024
 MAX_BRACKETS = 64
+LONGEST_NUMBER = 40
+"""Characters of a number of the header; a longer one stays the text that it is."""
 BAND_ROWS, PIECE_BYTES = 256, 1 << 18
 """An image is worked on in bands, its text in pieces: beside the cells themselves, little is held at a time."""
 MOST_COMMENTS = 1000
 _DIGITS_AND_SPACE = b"0123456789 \t\r\n\v\f"
+_NUMBERS = frozenset(("tag:yaml.org,2002:int", "tag:yaml.org,2002:float"))
+_PNG_HEAD = b"\x89PNG\r\n\x1a\n"
 _PIXELS = {OCCUPIED: 0, FREE: 254, UNKNOWN: 205}
 Cells = NDArray[np.uint8]
 Shades = NDArray[np.float32]
@@ -100,7 +104,8 @@ def _without_sixties(pattern: re.Pattern[str]) -> re.Pattern[str]:
 class _PlainLoader(yaml.SafeLoader):
     """SafeLoader without anchors, of which a few can stand for gigabytes, and without numbers to the base of sixty.
 
-    ROS reads `1:30` as a text (YAML 1.2), YAML 1.1 as 90: here it is a text, and so no resolution.
+    ROS reads `1:30` as a text (YAML 1.2), YAML 1.1 as 90: here it is a text, and so no resolution. So is a number that
+    is too long to be meant; Python refuses to print some of them.
     """
 
     yaml_implicit_resolvers = {
@@ -111,7 +116,14 @@ class _PlainLoader(yaml.SafeLoader):
     def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
         if self.check_event(yaml.AliasEvent):
             raise BadMap("The .yaml file uses aliases (*name). A map's header needs none; remove them.")
-        return super().compose_node(parent, index)
+        node = super().compose_node(parent, index)
+        if isinstance(node, yaml.ScalarNode) and node.tag in _NUMBERS and len(node.value) > LONGEST_NUMBER:
+            node.tag = "tag:yaml.org,2002:str"
+        return node
+
+
+_ODD_YAML = (yaml.YAMLError, ValueError, LookupError, AttributeError, ArithmeticError, TypeError, RecursionError)
+"""What PyYAML raises of a text that is no YAML, and of values that do not fit their tags, such as `!!bool x`."""
 
 
 def _load_yaml(yaml_bytes: bytes) -> dict[str, Any]:
@@ -121,7 +133,7 @@ def _load_yaml(yaml_bytes: bytes) -> dict[str, Any]:
         raise BadMap("The .yaml file is nested too deeply for a map's header. Choose the map's .yaml file.")
     try:
         fields = yaml.load(yaml_bytes.decode("utf-8-sig"), Loader=_PlainLoader)  # noqa: S506 - a SafeLoader, stricter
-    except (yaml.YAMLError, UnicodeDecodeError, ValueError, RecursionError) as error:
+    except _ODD_YAML as error:
         first_line = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise BadMap(
             f"The .yaml file cannot be read ({first_line[:120]}). Compare it with a map_server file."
@@ -165,19 +177,33 @@ def _read_image(data: bytes) -> tuple[tuple[int, int], Bands]:
     """Return height and width, and the image's bands from the top; the size is looked at before anything is decoded."""
     if data[:2] in (b"P2", b"P5"):
         return _read_pgm(data)
-    if data[:8] != b"\x89PNG\r\n\x1a\n":
+    if not data.startswith(_PNG_HEAD):
         raise BadMap("The map's image is neither PGM (P2, P5) nor PNG. Save it as one of them.")
+    if data[12:16] == b"IHDR" and len(data) >= 24:
+        check_size(int.from_bytes(data[16:20]), int.from_bytes(data[20:24]))
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)
             image = Image.open(io.BytesIO(data), formats=["PNG"])
             check_size(*image.size)
             image.load()
-    except (UnidentifiedImageError, OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+    except _ODD_PNG as error:
         raise BadMap("The map's PNG image is damaged. Export it again.") from error
     width, height = image.size
     tops = range(0, height, BAND_ROWS)
     return (height, width), (_lightness(image.crop((0, y, width, min(y + BAND_ROWS, height)))) for y in tops)
+
+
+_ODD_PNG = (
+    UnidentifiedImageError,
+    OSError,
+    SyntaxError,
+    ValueError,
+    LookupError,
+    Image.DecompressionBombError,
+    Image.DecompressionBombWarning,
+)
+"""What Pillow raises of a PNG that is damaged, or in which a second header says another size than the first."""
 
 
 def _lightness(image: Image.Image) -> Band:

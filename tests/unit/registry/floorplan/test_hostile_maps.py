@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import io
+import struct
 import tracemalloc
+import zlib
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from registry.floorplan.map_server import MOST_COMMENTS, BadMap, read_header, read_map
 from registry.floorplan.plan import MOST_RUNS, Grid, cells_array, wall_boxes
@@ -46,6 +50,62 @@ def test_no_more_is_read_than_the_header_says() -> None:
 def test_the_size_is_looked_at_before_anything_is_decoded(image: bytes) -> None:
     with pytest.raises(BadMap, match="4096 x 4096 is the most"):
         read_map(HEADER, image)
+
+
+def chunk(kind: bytes, body: bytes) -> bytes:
+    return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+
+def png_of(*chunks: tuple[bytes, bytes]) -> bytes:
+    return b"\x89PNG\r\n\x1a\n" + b"".join(chunk(*each) for each in chunks)
+
+
+def size(width: int, height: int) -> tuple[bytes, bytes]:
+    return b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
+
+
+PIXEL, END = (b"IDAT", zlib.compress(b"\0\xfe")), (b"IEND", b"")
+
+
+@pytest.mark.parametrize("side", [4097, 9460, 10_000, 14_000, 2**31 - 1])
+def test_a_png_that_is_too_large_is_told_its_size_whatever_the_decoder_thinks_of_it(side: int) -> None:
+    with pytest.raises(BadMap, match=f"{side} x {side} cells; 4096 x 4096 is the most"):
+        read_map(HEADER, png_of(size(side, side), PIXEL, END))
+
+
+@pytest.mark.parametrize(
+    "chunks",
+    [
+        (size(1, 1), size(10_000, 10_000), PIXEL, END),
+        (size(1, 1), size(14_000, 14_000), PIXEL, END),
+        (size(1, 1), PIXEL, (b"iCCP", b""), END),
+    ],
+    ids=["says_89_million_pixels_later", "says_179_million_pixels_later", "odd_part_after_the_pixels"],
+)
+def test_a_png_that_is_odd_inside_is_damaged(chunks: tuple[tuple[bytes, bytes], ...]) -> None:
+    with pytest.raises(BadMap, match="PNG image is damaged"):
+        read_map(HEADER, png_of(*chunks))
+
+
+def test_the_size_of_a_png_is_read_where_a_writer_puts_it() -> None:
+    out = io.BytesIO()
+    Image.new("L", (3, 2), 254).save(out, "PNG")
+    grid = read_map(HEADER, out.getvalue())
+    assert (grid.width, grid.height) == (3, 2)
+
+
+@pytest.mark.parametrize("value", ["!!float ''", "!!int ''", "!!bool x", "!!timestamp foo", "!!float x", "2026-13-45"])
+def test_a_value_that_does_not_fit_its_tag_is_a_header_that_cannot_be_read(value: str) -> None:
+    with pytest.raises(BadMap, match="cannot be read"):
+        read_header(HEADER + f"other: {value}\n".encode())
+
+
+@pytest.mark.parametrize("digits", ["0x" + "f" * 5000, "9" * 5000, "0b" + "1" * 30_000])
+def test_a_number_of_thousands_of_digits_is_told_as_it_is_written(digits: str) -> None:
+    for name in ("resolution", "occupied_thresh", "negate", "mode"):
+        with pytest.raises(BadMap, match=f"{name} is '{digits[:40]}"):
+            read_header(HEADER + f"{name}: {digits}\n".encode())
+    assert read_header(HEADER + f"other: {digits}\n".encode()).image == "a.pgm"
 
 
 def test_numbers_and_comments_are_read_wherever_a_piece_of_the_text_ends() -> None:

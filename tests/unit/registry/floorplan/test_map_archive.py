@@ -65,6 +65,18 @@ def test_an_archive_that_unpacks_to_gigabytes_is_left_where_a_map_would_end() ->
         tracemalloc.stop()
 
 
+@pytest.mark.parametrize("packing", [zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
+def test_an_archive_that_is_damaged_inside_is_refused_however_it_is_packed(packing: int) -> None:
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", packing) as archive:
+        archive.writestr("a.yaml", HEADER)
+    packed = out.getvalue()
+    begins = 34 + len("a.yaml")
+    damaged = packed[:begins] + b"\xff" * 5 + packed[begins + 5 :]
+    with pytest.raises(BadMap, match="cannot be opened"):
+        open_archive(damaged)
+
+
 def test_what_an_archive_says_of_its_sizes_is_not_believed() -> None:
     packed = bytearray(pack({"a.yaml": HEADER, "a.pgm": bytes(MAX_IMAGE_BYTES + 9)}))
     at = packed.rindex(b"PK\1\2")
