@@ -135,9 +135,13 @@ class ObstacleShape(Schema):
 
 
 class MapShape(Schema):
-    """A site's map without its cells; robots plan without its `obstacles`, simulated ones meet them."""
+    """A site's map without its cells; robots plan without its `obstacles`, simulated ones meet them.
+
+    `tag` is the ETag of the cells.
+    """
 
     version: int
+    tag: str
     width: int
     height: int
     resolution_m: float

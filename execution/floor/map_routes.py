@@ -79,10 +79,9 @@ def _replaced(site: str, headers: Mapping[str, str]) -> int:
     if not tag and headers.get("If-None-Match", "").strip() != "*":
         raise MapTagNeeded("Say in If-Match which map this replaces, by its ETag, or If-None-Match: * for none.")
     present = registry.find_map(site=site)
-    version = present.version if present else 0
-    if tag != (registry.map_tag(site=site, version=version) if version else ""):
+    if tag != (present.tag if present else ""):
         raise _overtaken()
-    return version
+    return present.version if present else 0
 
 
 def _overtaken() -> MapOvertaken:

@@ -26,6 +26,11 @@ class NoRobotMap(RegistryError):
     status = 404
 
 
+def map_tag(owner: str, version: int, made_at: datetime) -> str:
+    """Return the ETag of a map of a site or a robot; a number comes a second time once a backup is brought back."""
+    return f'"{owner}-{version}-{made_at:%Y%m%d%H%M%S%f}"'
+
+
 @dataclass(frozen=True, slots=True)
 class RobotMapFacts:
     """A robot's map without its cells: metres; `known` is a share from 0 to 1; it last differed at `changed_at`."""
@@ -40,6 +45,11 @@ class RobotMapFacts:
     known: float
     at: datetime
     changed_at: datetime
+
+    @property
+    def tag(self) -> str:
+        """The ETag of its cells: no other map has it, not even one of the same number."""
+        return map_tag(self.device, self.version, self.at)
 
 
 @dataclass(frozen=True, slots=True)

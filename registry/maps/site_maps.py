@@ -21,7 +21,7 @@ from registry.floorplan.map_server import check_size
 from registry.floorplan.plan import Box, FloorPlan, Grid, wall_boxes
 from registry.live.fanout import publish
 from registry.maps.kept_work import KeptWork
-from registry.maps.robot_maps import get_robot_map
+from registry.maps.robot_maps import get_robot_map, map_tag
 from registry.models import Device, Site, SiteMap, User
 from registry.sites.sites import find_site, list_places
 from vipo_device.protocol.description import Description
@@ -52,11 +52,17 @@ class MapChanged(RegistryError):
 
 @dataclass(frozen=True, slots=True)
 class MapView:
-    """A site's map."""
+    """A site's map; `made_at` tells apart two of the same number, of which a restored backup has forgotten one."""
 
     site: str
     version: int
     grid: Grid
+    made_at: datetime
+
+    @property
+    def tag(self) -> str:
+        """The ETag of its cells: no other map has it, not even one of the same number."""
+        return map_tag(self.site, self.version, self.made_at)
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +148,7 @@ def get_map_version(*, site: str, version: int) -> MapView:
     row = rows.values_list("pk", "created_at").first()
     if row is None:
         raise NoMap(f"Version {version} of this site's map is not kept. Choose one of the list.")
-    return MapView(site, version, _grid(*row))
+    return MapView(site, version, _grid(*row), row[1])
 
 
 def save_map(
@@ -174,12 +180,7 @@ def save_map(
         SiteMap.objects.filter(site=row, version__lte=saved.version - MOST_VERSIONS).delete()
         note_act(site_id=row.pk, code="map_published", facts={"version": saved.version, "source": source})
         transaction.on_commit(lambda: publish(site, {"type": "map", "version": saved.version}))
-    return MapView(site, saved.version, grid)
-
-
-def map_tag(*, site: str, version: int) -> str:
-    """Return the ETag of a version of a site's map."""
-    return f'"{site}-{version}"'
+    return MapView(site, saved.version, grid, saved.created_at)
 
 
 def get_map(*, site: str) -> MapView:
@@ -188,7 +189,8 @@ def get_map(*, site: str) -> MapView:
     latest = versions.values_list("pk", "version", "created_at").first()
     if latest is None:
         raise _no_map(site)
-    return MapView(site, latest[1], _grid(latest[0], latest[2]))
+    key, version, made_at = latest
+    return MapView(site, version, _grid(key, made_at), made_at)
 
 
 def _no_map(site: str) -> NoMap:

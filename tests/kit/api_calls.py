@@ -227,7 +227,8 @@ def ask(client: Client, method: str, path: str, name: str, ids: dict[str, str]) 
         return client.post(path, {"name": "New", "yaml": SimpleUploadedFile("map.yaml", b"image: a.pgm")})
     if name in ("upload_map", "look_at_map"):
         files = {"yaml": SimpleUploadedFile("map.yaml", b"image: a.pgm")}
-        return client.post(path, files, headers={"If-Match": f'"{ids["slug"]}-1"'})
+        present = client.get(f"/api/sites/{ids['slug']}/map/cells")
+        return client.post(path, files, headers={"If-Match": present.headers.get("ETag", '"none"')})
     if method == "get":
         return client.get(path)
     sent = {

@@ -4,12 +4,12 @@ import { api } from "./client";
 import type { Device, FloorCheck, FloorFinding, FloorRemedy, SiteMap } from "./types";
 
 /** What a check depends on; robots that drive change nothing of it. */
-function stampOf({ version, places, zones }: SiteMap, devices: readonly Device[]): string {
+function stampOf({ tag, places, zones }: SiteMap, devices: readonly Device[]): string {
   const approved = devices.filter(({ lifecycle }) => lifecycle === "approved");
   const parts = approved.map(({ id, kind, radius_m, location, size }) =>
     kind === "robot" ? [id, radius_m] : [id, location, size],
   );
-  return JSON.stringify([version, places, zones, parts]);
+  return JSON.stringify([tag, places, zones, parts]);
 }
 
 /** The check for robots of a width in metres, or for the site's widest; the one before stays until the next is here. */

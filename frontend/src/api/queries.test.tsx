@@ -10,9 +10,9 @@ afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-/** A site's maps, of which version n has the one cell n; `saves` are versions that somebody saves as the address is answered. */
+/** A site's maps, of which version n has the one cell n, n + 1 in the next story, after a backup came back; `saves` are versions that somebody saves as the address is answered. */
 function mapServer(saves: Readonly<Record<string, number>>) {
-  const saved = { version: 1 };
+  const saved = { version: 1, story: 0 };
   const asked: string[] = [];
   const answer = (address: string) => {
     const path = address.replace("/api/sites/hall", "");
@@ -20,8 +20,9 @@ function mapServer(saves: Readonly<Record<string, number>>) {
     const holds = saved.version;
     saved.version = saves[path] ?? holds;
     const version = Number(/versions\/(\d+)/.exec(path)?.[1] ?? holds);
-    if (!path.endsWith("/cells")) return new Response(JSON.stringify({ version }));
-    return new Response(new Uint8Array([version]), { headers: { ETag: `"hall-${version}"` } });
+    const tag = `"hall-${version}-${saved.story}"`;
+    if (!path.endsWith("/cells")) return new Response(JSON.stringify({ version, tag }));
+    return new Response(new Uint8Array([version + saved.story]), { headers: { ETag: tag } });
   };
   vi.stubGlobal("fetch", (address: string) => Promise.resolve(answer(address)));
   return { asked, saved };
@@ -58,6 +59,15 @@ test("so is one that is saved while a newer one than the known is fetched", asyn
   await waitFor(() => expect(shown.current.data?.version).toBe(2));
   expect(shown.current.data?.cells).toEqual(new Uint8Array([2]));
   expect(asked).toEqual(["/map", "/map/versions/2/cells"]);
+});
+
+test("a map of the same number after a backup came back is not shown with the cells of the lost one", async () => {
+  const { saved } = mapServer({});
+  const shown = openMap();
+  await waitFor(() => expect(shown.current.data?.cells).toEqual(new Uint8Array([1])));
+  saved.story = 1;
+  await shown.current.refetch();
+  await waitFor(() => expect(shown.current.data?.cells).toEqual(new Uint8Array([2])));
 });
 
 function after(ask: typeof fetch, address: string, then: () => void): typeof fetch {

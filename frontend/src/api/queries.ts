@@ -27,6 +27,7 @@ import type {
   Version,
   WholeVersion,
 } from "./types";
+import { areOf } from "./wholeMap";
 
 /** The names of the caches. */
 export const keys = {
@@ -103,7 +104,7 @@ async function getMe(): Promise<Me> {
 }
 
 /**
- * The cells of a version never change: those that are known are not fetched again, and stay the same array.
+ * The cells of a map never change: those that are known are not fetched again, and stay the same array.
  *
  * Somebody may save a map between the two answers: the cells are always those of the version that the map tells.
  */
@@ -113,12 +114,10 @@ async function getMap(slug: string, known: SiteMap | undefined): Promise<SiteMap
   const getCells = (version: number) => api.bytes(`${path}/versions/${version}/cells`);
   if (known) {
     const info = await getInfo();
-    return { ...info, cells: info.version === known.version ? known.cells : await getCells(info.version) };
+    return { ...info, cells: info.tag === known.tag ? known.cells : await getCells(info.version) };
   }
   const [info, { tag, bytes }] = await Promise.all([getInfo(), api.tagged(`${path}/cells`)]);
-  // A proxy may have made the tag a weak one: `W/` before it.
-  const fits = tag.endsWith(`"${slug}-${info.version}"`);
-  return { ...info, cells: fits ? bytes : await getCells(info.version) };
+  return { ...info, cells: areOf(info, tag) ? bytes : await getCells(info.version) };
 }
 
 /** The whole journal of a run; the server gives a thousand lines at once. */

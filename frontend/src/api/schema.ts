@@ -3093,7 +3093,7 @@ export interface paths {
         };
         /**
          * Show Cells
-         * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown. The ETag is the version's.
+         * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown. The ETag is its `tag`.
          */
         get: operations["show_cells"];
         put?: never;
@@ -5225,13 +5225,18 @@ export interface components {
             walls_gained_m2: number;
             walls_lost_m2: number;
         };
-        /** @description A site's map without its cells; robots plan without its `obstacles`, simulated ones meet them. */
+        /**
+         * @description A site's map without its cells; robots plan without its `obstacles`, simulated ones meet them.
+         *
+         *     `tag` is the ETag of the cells.
+         */
         MapShape: {
             height: number;
             obstacles: components["schemas"]["ObstacleShape"][];
             origin: components["schemas"]["Origin"];
             places: components["schemas"]["PlaceShape"][];
             resolution_m: number;
+            tag: string;
             version: number;
             walls: [
                 number,
@@ -5554,11 +5559,12 @@ export interface components {
             site: string;
             site_name: string;
         };
-        /** @description A version of a site's map without its cells. */
+        /** @description A version of a site's map without its cells; `tag` is the ETag of these. */
         OldMapShape: {
             height: number;
             origin: components["schemas"]["Origin"];
             resolution_m: number;
+            tag: string;
             version: number;
             width: number;
         };
@@ -6186,7 +6192,7 @@ export interface components {
             distance_m: number;
             wait_s: number;
         };
-        /** @description A robot's newest map without its cells; `known` is a share from 0 to 1. */
+        /** @description A robot's newest map without its cells; `tag` is the ETag of these, `known` a share from 0 to 1. */
         RobotMapShape: {
             at: string;
             changed_at: string;
@@ -6195,6 +6201,7 @@ export interface components {
             known: number;
             origin: components["schemas"]["Origin"];
             resolution_m: number;
+            tag: string;
             version: number;
             width: number;
         };

@@ -3,6 +3,7 @@ import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { api } from "./client";
 import { staleWithSiteMap } from "./robotMaps";
 import type { components } from "./schema";
+import { getWholeMap } from "./wholeMap";
 
 export type BroughtMapDifference = components["schemas"]["BroughtMapDifference"];
 type MapVersionInfo = components["schemas"]["OldMapShape"];
@@ -11,8 +12,8 @@ export type MapSource = "upload" | "picture" | "drawing" | "edit";
 interface Brought {
   form: FormData;
   source: MapSource;
-  /** The version of the site's map that it replaces, 0: the site has none. */
-  replaces: number;
+  /** The tag of the site's map that it replaces, null: the site has none. */
+  replaces: string | null;
 }
 
 /** Make a map the site's; refused with 412 where another one holds by now. */
@@ -21,9 +22,7 @@ export function useBringMap(slug: string) {
   return useMutation({
     mutationFn: ({ form, source, replaces }: Brought) => {
       form.set("source", source);
-      const known: Record<string, string> = replaces
-        ? { "If-Match": `"${slug}-${String(replaces)}"` }
-        : { "If-None-Match": "*" };
+      const known: Record<string, string> = replaces ? { "If-Match": replaces } : { "If-None-Match": "*" };
       return api.upload<{ version: number }>(`/sites/${slug}/map/upload`, form, known);
     },
     onSettled: () => {
@@ -32,16 +31,18 @@ export function useBringMap(slug: string) {
   });
 }
 
-/** An earlier version of a site's map, without its places, which stand over all versions. */
+/**
+ * An earlier version of a site's map, without its places, which stand over all versions. It is asked for each time: once
+ * a backup is brought back, another map may have its number. Cells that the browser has are not sent again.
+ */
 export const useOldMap = (slug: string, version: number) =>
   useQuery({
     queryKey: ["old-map", slug, version],
-    queryFn: async () => {
-      const path = `/sites/${slug}/map/versions/${String(version)}`;
-      const [info, cells] = await Promise.all([api.get<MapVersionInfo>(path), api.bytes(`${path}/cells`)]);
-      return { ...info, cells, places: [] };
-    },
-    staleTime: Infinity,
+    queryFn: async () => ({
+      ...(await getWholeMap<MapVersionInfo>(`/sites/${slug}/map/versions/${String(version)}`)),
+      places: [],
+    }),
+    staleTime: 0,
   });
 
 /** What a map would change; asked for each time anew. */

@@ -41,9 +41,10 @@ class MapVersionShape(Schema):
 
 
 class OldMapShape(Schema):
-    """A version of a site's map without its cells."""
+    """A version of a site's map without its cells; `tag` is the ETag of these."""
 
     version: int
+    tag: str
     width: int
     height: int
     resolution_m: float
@@ -51,10 +52,11 @@ class OldMapShape(Schema):
 
 
 class RobotMapShape(Schema):
-    """A robot's newest map without its cells; `known` is a share from 0 to 1."""
+    """A robot's newest map without its cells; `tag` is the ETag of these, `known` a share from 0 to 1."""
 
     device: str
     version: int
+    tag: str
     width: int
     height: int
     resolution_m: float
@@ -143,6 +145,7 @@ def show_map(request: HttpRequest, slug: str) -> dict[str, Any]:
     grid = found.grid
     return {
         "version": found.version,
+        "tag": found.tag,
         **_measures(grid),
         "places": services.list_places(site=slug),
         "zones": services.list_zones(site=slug),
@@ -162,10 +165,10 @@ def _measures(grid: Grid) -> dict[str, Any]:
 
 @router.get("/sites/{slug}/map/cells", openapi_extra=sends(CELLS))
 def show_cells(request: HttpRequest, slug: str) -> HttpResponse:
-    """Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown. The ETag is the version's."""
+    """Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown. The ETag is its `tag`."""
     require(signed_in(request), slug, "viewer")
     found = services.get_map(site=slug)
-    return _cells(request, services.map_tag(site=slug, version=found.version), found.grid)
+    return _cells(request, found.tag, found.grid)
 
 
 def _cells(request: HttpRequest, tag: str, grid: Grid) -> HttpResponse:
@@ -216,7 +219,7 @@ def show_map_version(request: HttpRequest, slug: str, version: int) -> dict[str,
     """Show a version of a site's map that is kept, without its cells."""
     require(signed_in(request), slug, "viewer")
     found = services.get_map_version(site=slug, version=version)
-    return {"version": found.version, **_measures(found.grid)}
+    return {"version": found.version, "tag": found.tag, **_measures(found.grid)}
 
 
 @router.get("/sites/{slug}/map/versions/{int:version}/cells", openapi_extra=sends(CELLS))
@@ -224,7 +227,7 @@ def show_version_cells(request: HttpRequest, slug: str, version: int) -> HttpRes
     """Send the cells of a version that is kept: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown."""
     require(signed_in(request), slug, "viewer")
     found = services.get_map_version(site=slug, version=version)
-    return _cells(request, services.map_tag(site=slug, version=version), found.grid)
+    return _cells(request, found.tag, found.grid)
 
 
 @router.get("/sites/{slug}/devices/{device_id}/map", response=RobotMapShape)
@@ -233,7 +236,12 @@ def show_robot_map(request: HttpRequest, slug: str, device_id: str) -> dict[str,
     require(signed_in(request), slug, "viewer")
     facts = services.get_robot_map_facts(site=slug, device_id=device_id)
     times = {"at": facts.at.isoformat(), "changed_at": facts.changed_at.isoformat()}
-    return {**asdict(facts), **times, "origin": {"x": facts.origin_x_m, "y": facts.origin_y_m, "yaw": 0.0}}
+    return {
+        **asdict(facts),
+        "tag": facts.tag,
+        **times,
+        "origin": {"x": facts.origin_x_m, "y": facts.origin_y_m, "yaw": 0.0},
+    }
 
 
 @router.get("/sites/{slug}/devices/{device_id}/map/cells", openapi_extra=sends(CELLS))
@@ -241,7 +249,7 @@ def show_robot_cells(request: HttpRequest, slug: str, device_id: str) -> HttpRes
     """Send the cells of a robot's map: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown."""
     require(signed_in(request), slug, "viewer")
     found = services.get_robot_map(site=slug, device_id=device_id)
-    return _cells(request, f'"{device_id}-{found.facts.version}"', found.grid)
+    return _cells(request, found.facts.tag, found.grid)
 
 
 @router.get("/sites/{slug}/devices/{device_id}/map.yaml", openapi_extra=sends("application/yaml"))

@@ -74,7 +74,7 @@ def make_each(client: Client) -> dict[str, Any]:
                 "yaml": SimpleUploadedFile("m.yaml", write_yaml(grid, "m.pgm")),
                 "image": SimpleUploadedFile("m.pgm", write_pgm(grid)),
             },
-            headers={"If-Match": f'"{SITE}-3"'},
+            headers={"If-Match": client.get(f"{AT_SITE}/map").json()["tag"]},
         ),
         "add_zone": post_json(
             client,

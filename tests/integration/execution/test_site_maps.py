@@ -16,7 +16,7 @@ from registry import services as registry
 from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.floorplan.plan import Grid
 from registry.live import fanout
-from registry.models import Device, SiteMap
+from registry.models import Device, RobotMap, SiteMap
 from tests.kit import demo_floor
 from tests.kit.programs import ANY, CARRY, SITE, TASK, run_status
 from tests.kit.sign_in import ROLES, join_and_sign_in, post_json
@@ -234,14 +234,20 @@ def packed(grid):
     }
 
 
-def bring(client, grid, tag=f'"{SITE}-1"', source="edit", path="map/upload"):
+def tag_of(client):
+    return client.get(f"/api/sites/{SITE}/map/cells")["ETag"]
+
+
+def bring(client, grid, tag=None, source="edit", path="map/upload"):
+    """Bring a map in the place of the one with the tag: None stands for the one that holds, empty for no word of it."""
+    tag = tag_of(client) if tag is None else tag
     headers = {"If-Match": tag} if tag else {}
     return client.post(f"/api/sites/{SITE}/{path}", {"source": source, **packed(grid)}, headers=headers)
 
 
 def test_a_map_that_somebody_has_changed_becomes_the_sites_and_is_exact_to_the_cell(factory):
     client = join_and_sign_in("admin", SITE)
-    assert client.get(f"/api/sites/{SITE}/map/cells")["ETag"] == f'"{SITE}-1"'
+    assert client.get(f"/api/sites/{SITE}/map").json()["tag"] == tag_of(client)
     changed = walled(7, -8, 7.5, -7.5)
     assert bring(client, changed).json() == {"version": 2}
     assert registry.get_map(site=SITE).grid == changed
@@ -251,12 +257,36 @@ def test_a_map_that_somebody_has_changed_becomes_the_sites_and_is_exact_to_the_c
 
 def test_of_two_who_change_the_map_the_second_is_told_and_nothing_is_lost(factory):
     client = join_and_sign_in("admin", SITE)
-    theirs = walled(7, -8, 7.5, -7.5)
-    assert bring(client, theirs).status_code == 201
-    second = bring(client, widened())
+    known, theirs = tag_of(client), walled(7, -8, 7.5, -7.5)
+    assert bring(client, theirs, known).status_code == 201
+    second = bring(client, widened(), known)
     assert (second.status_code, second.json()["code"]) == (412, "map_overtaken")
     assert registry.get_map(site=SITE).grid == theirs
-    assert bring(client, widened(), tag=f'"{SITE}-2"').json() == {"version": 3}
+    assert bring(client, widened(), tag=tag_of(client)).json() == {"version": 3}
+
+
+def lost_to_a_backup(grid):
+    """Save a map and bring back the backup from before it; the next map has its number."""
+    lost = registry.save_map(site=SITE, grid=grid)
+    yield lost
+    SiteMap.objects.get(site__slug=SITE, version=lost.version).delete()
+    yield registry.save_map(site=SITE, grid=widened())
+
+
+def test_a_map_of_the_same_number_after_a_backup_is_another(factory):
+    client = join_and_sign_in("admin", SITE)
+    story = lost_to_a_backup(walled(7, -8, 7.5, -7.5))
+    lost, known = next(story), tag_of(client)
+    old = f"/api/sites/{SITE}/map/versions/{lost.version}"
+    assert client.get(old).json()["tag"] == client.get(f"{old}/cells")["ETag"] == known
+    assert next(story).version == lost.version
+    for cells in (f"/api/sites/{SITE}/map/cells", f"{old}/cells"):
+        again = client.get(cells, headers={"If-None-Match": known})
+        assert (again.status_code, gzip.decompress(again.content)) == (200, widened().cells)
+        assert client.get(cells, headers={"If-None-Match": again["ETag"]}).status_code == 304
+    refused = bring(client, PLAN, known)
+    assert (refused.status_code, refused.json()["code"]) == (412, "map_overtaken")
+    assert registry.get_map(site=SITE).grid == widened()
 
 
 def test_who_changes_the_map_must_say_which(factory):
@@ -306,3 +336,16 @@ def test_an_earlier_version_can_be_looked_at(factory):
     assert gzip.decompress(client.get(f"{old}/cells").content) == PLAN.cells
     missing = client.get(f"/api/sites/{SITE}/map/versions/9")
     assert (missing.status_code, missing.json()["code"]) == (404, "no_map")
+
+
+def test_a_robots_map_of_the_same_number_after_a_backup_is_another(factory):
+    client = join_and_sign_in("viewer", SITE)
+    cells = f"/api/sites/{SITE}/devices/robot01/map/cells"
+    say_map(widened(), number=1)
+    known = client.get(cells)["ETag"]
+    assert client.get(f"/api/sites/{SITE}/devices/robot01/map").json()["tag"] == known
+    assert client.get(cells, headers={"If-None-Match": known}).status_code == 304
+    RobotMap.objects.all().delete()
+    say_map(PLAN, number=2)
+    again = client.get(cells, headers={"If-None-Match": known})
+    assert (again.status_code, gzip.decompress(again.content)) == (200, PLAN.cells)

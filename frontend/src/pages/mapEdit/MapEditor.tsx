@@ -90,7 +90,7 @@ export function MapEditor({ site, newest }: { site: Site; newest: SiteMap }) {
           />
         </Panel>
         <Panel className={styles.about}>
-          {newest.version !== base.version && stage !== "saved" ? (
+          {newest.tag !== base.tag && stage !== "saved" ? (
             <p role="status" className={styles.overtaken}>
               {t("mapEdit.overtaken", { version: newest.version })}
             </p>
@@ -111,8 +111,8 @@ export function MapEditor({ site, newest }: { site: Site; newest: SiteMap }) {
           action={t("mapEdit.save")}
           makeForm={() => rosForm(edits.now)}
           source="edit"
-          base={base.version}
-          newest={newest.version}
+          base={base}
+          newest={newest}
           onSaved={saved}
           onClose={() => setStage("drawing")}
         />

@@ -6,6 +6,7 @@ import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { ApiProblem } from "@/api/client";
 import { useBringMap, useLookAtMap, type BroughtMapDifference, type MapSource } from "@/api/siteMaps";
+import type { SiteMap } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatNumber, withUnit } from "@/i18n/format";
 import { problemText } from "@/shell/LoadProblem";
@@ -18,6 +19,8 @@ const AMOUNTS = [
   ["floorLost", "floor_lost_m2"],
 ] as const;
 
+type MapName = Pick<SiteMap, "version" | "tag">;
+
 interface SaveProps {
   slug: string;
   title: string;
@@ -26,9 +29,9 @@ interface SaveProps {
   /** The map as the server takes it; made once. */
   makeForm: () => FormData;
   source: MapSource;
-  /** The version that was changed, and the one that the site has by now. */
-  base: number;
-  newest: number;
+  /** The map that was changed, and the one that the site has by now. */
+  base: MapName;
+  newest: MapName;
   onSaved: (version: number) => void;
   onClose: () => void;
 }
@@ -40,8 +43,9 @@ export function SaveDialog({ slug, title, action, makeForm, source, base, newest
   const bring = useBringMap(slug);
   const [form] = useState(makeForm);
   useEffect(() => lookAt(form), [lookAt, form]);
-  const isOvertaken = newest > base || (bring.error instanceof ApiProblem && bring.error.status === 412);
-  const save = () => bring.mutate({ form, source, replaces: newest }, { onSuccess: ({ version }) => onSaved(version) });
+  const isOvertaken = newest.tag !== base.tag || (bring.error instanceof ApiProblem && bring.error.status === 412);
+  const save = () =>
+    bring.mutate({ form, source, replaces: newest.tag }, { onSuccess: ({ version }) => onSaved(version) });
   const problem = look.error ?? (isOvertaken ? null : bring.error);
   return (
     <Modal opened onClose={onClose} title={title} size={560}>
@@ -50,7 +54,7 @@ export function SaveDialog({ slug, title, action, makeForm, source, base, newest
         {look.isPending ? <Skeleton height={120} radius="md" /> : null}
         {isOvertaken ? (
           <p role="alert" className={styles.overtaken}>
-            <TriangleAlert size={16} aria-hidden="true" /> {t("mapEdit.overtaken", { version: newest })}
+            <TriangleAlert size={16} aria-hidden="true" /> {t("mapEdit.overtaken", { version: newest.version })}
           </p>
         ) : null}
         {problem ? (

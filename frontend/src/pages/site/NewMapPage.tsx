@@ -40,7 +40,7 @@ function FirstMap({ site }: { site: Site }) {
   const saved = useSaved(site.slug);
   const submit = (event: FormEvent) => {
     event.preventDefault();
-    const sent = bring.mutateAsync({ form: choice.makeForm(), source: choice.source, replaces: 0 });
+    const sent = bring.mutateAsync({ form: choice.makeForm(), source: choice.source, replaces: null });
     // The page may be loading the new map by then, so this does not hang on what is shown.
     sent.then(
       ({ version }) => saved(version),
@@ -109,13 +109,13 @@ function AnotherMap({ site, present }: { site: Site; present: SiteMap }) {
   const choice = useMapChoice(site.slug);
   const saved = useSaved(site.slug);
   const [isAligned, align] = useState(false);
-  const [base, setBase] = useState<number | null>(null);
+  const [base, setBase] = useState<SiteMap | null>(null);
   const { cells, error, isReading } = useCells(site.slug, choice, isAligned && choice.isReady);
   const alignment = useAlignment(cells, present, kindOf(choice.files) === "map");
   const map = isAligned ? alignment.map : null;
   const submit = (event: FormEvent) => {
     event.preventDefault();
-    setBase(present.version);
+    setBase(present);
   };
   return (
     <div className={styles.page}>
@@ -163,7 +163,7 @@ function AnotherMap({ site, present }: { site: Site; present: SiteMap }) {
           makeForm={() => (map ? rosForm(map) : choice.makeForm())}
           source={choice.source}
           base={base}
-          newest={present.version}
+          newest={present}
           onSaved={saved}
           onClose={() => setBase(null)}
         />
