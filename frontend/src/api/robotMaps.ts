@@ -3,6 +3,7 @@ import { skipToken, useMutation, useQuery, useQueryClient } from "@tanstack/reac
 import { api, ApiProblem } from "./client";
 import { keys } from "./queries";
 import type { MapDifference, MapVersion, RobotMap, RobotMapInfo } from "./types";
+import { getWholeMap } from "./wholeMap";
 
 export type MapChange =
   | { do: "use"; device: string; version: number; replaces: number }
@@ -21,10 +22,8 @@ export const robotMapFile = (slug: string, device: string, form: "yaml" | "pgm")
   `/api${pathOf(slug, device)}.${form}`;
 
 async function getRobotMap(slug: string, device: string): Promise<RobotMap | null> {
-  const path = pathOf(slug, device);
   try {
-    const [info, cells] = await Promise.all([api.get<RobotMapInfo>(path), api.bytes(`${path}/cells`)]);
-    return { ...info, cells };
+    return await getWholeMap<RobotMapInfo>(pathOf(slug, device));
   } catch (error) {
     if (error instanceof ApiProblem && error.code === "no_robot_map") return null;
     throw error;
