@@ -93,7 +93,6 @@ from registry.maps.site_maps import (
     MapVersionView,
     MapView,
     NoMap,
-    compare_robot_map,
     find_map,
     get_floor_plan,
     get_map,
@@ -105,7 +104,7 @@ from registry.maps.site_maps import (
     save_map,
     use_robot_map,
 )
-from registry.maps.uploads import MapFiles, create_site_from_map, look_at_upload, read_upload
+from registry.maps.uploads import MapFiles, create_site_from_map, look_at_robot_map, look_at_upload, read_upload
 from registry.maps.zones import ZoneChange, add_zone, change_zone, close_zone, find_zone, open_zone, remove_zone
 from registry.people.access import Access, NotAMember, find_access, list_with_role, require
 from registry.people.keyed_requests import prune_keyed_requests
@@ -239,7 +238,6 @@ __all__ = [
     "check_sign_in",
     "close_account",
     "close_zone",
-    "compare_robot_map",
     "confirm_topic",
     "count",
     "count_dropped",
@@ -322,6 +320,7 @@ __all__ = [
     "list_with_role",
     "list_zones",
     "listen",
+    "look_at_robot_map",
     "look_at_upload",
     "mark_alert_seen",
     "mark_all_seen",

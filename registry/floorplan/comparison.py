@@ -52,27 +52,28 @@ class NamedPoint:
     y: float
 
 
+Subject = Description | NamedPoint
+
+
 def compare_maps(
     before: Grid | None, after: Grid, devices: Sequence[Description], places: Iterable[NamedPoint]
 ) -> MapDifference:
     """Return what changes on the floor; both grids stand in the same map frame, whatever their cells' sizes."""
-    was = np.full((after.height, after.width), UNKNOWN, np.uint8) if before is None else _seen_from(after, before)
-    now = cells_array(after)
-    still = np.full((1, 1), UNKNOWN, np.uint8) if before is None else _seen_from(before, after)
-    past = np.full((1, 1), UNKNOWN, np.uint8) if before is None else cells_array(before)
-    new_m2 = after.resolution_m**2
-    old_m2 = 0.0 if before is None else before.resolution_m**2
-    return MapDifference(
-        floor_gained_m2=_area(now, was, FREE, new_m2),
-        floor_lost_m2=_area(past, still, FREE, old_m2),
-        walls_gained_m2=_area(now, was, OCCUPIED, new_m2),
-        walls_lost_m2=_area(past, still, OCCUPIED, old_m2),
-        troubles=tuple(_troubles(before, after, devices, list(places))),
+    floor_gained_m2, walls_gained_m2 = _only_in(after, before)
+    floor_lost_m2, walls_lost_m2 = (0.0, 0.0) if before is None else _only_in(before, after)
+    troubles = tuple(_troubles(before, after, devices, list(places)))
+    return MapDifference(floor_gained_m2, floor_lost_m2, walls_gained_m2, walls_lost_m2, troubles)
+
+
+def _only_in(here: Grid, there: Grid | None) -> tuple[float, float]:
+    """Return how much floor and wall a grid has where another (None: there is none) has it not, in square metres."""
+    cells, seen = cells_array(here), None if there is None else _seen_from(here, there)
+    counts = (
+        int(np.count_nonzero(cells == kind if seen is None else (cells == kind) & (seen != kind)))
+        for kind in (FREE, OCCUPIED)
     )
-
-
-def _area(here: Cells, there: Cells, kind: int, cell_m2: float) -> float:
-    return round(float(np.count_nonzero((here == kind) & (there != kind))) * cell_m2, 2)
+    floor, walls = (round(float(count) * here.resolution_m**2, 2) for count in counts)
+    return floor, walls
 
 
 def _seen_from(grid: Grid, other: Grid) -> Cells:
@@ -91,18 +92,29 @@ def _seen_from(grid: Grid, other: Grid) -> Cells:
 def _troubles(
     before: Grid | None, after: Grid, devices: Sequence[Description], places: Sequence[NamedPoint]
 ) -> Iterable[MapTrouble]:
+    """Yield whom the new map does not suit: one floor at a time, since that of a large map takes much memory."""
     machines = [device for device in devices if device.kind == "machine"]
     radius_m = max((d.radius_m for d in devices if d.kind == "robot"), default=0.0) or DEFAULT_RADIUS_M
-    new = FloorPlan(after, machines)
-    old = None if before is None else FloorPlan(before, machines)
-    for machine in machines:
-        if why := _trouble_of_machine(new, machine, radius_m):
-            is_new = old is None or _trouble_of_machine(old, machine, radius_m) is None
-            yield MapTrouble(machine.id, machine.name, "machine", why, is_new)
-    for place in places:
-        if why := _trouble_of_place(new, place, radius_m):
-            is_new = old is None or _trouble_of_place(old, place, radius_m) is None
-            yield MapTrouble(place.id, place.name, "place", why, is_new)
+    now = _why_each(after, machines, [*machines, *places], radius_m)
+    troubled = [subject for subject, _ in now]
+    was = {} if before is None or not troubled else dict(_why_each(before, machines, troubled, radius_m))
+    for subject, why in now:
+        kind: Literal["machine", "place"] = "machine" if isinstance(subject, Description) else "place"
+        yield MapTrouble(subject.id, subject.name, kind, why, before is None or subject not in was)
+
+
+def _why_each(
+    grid: Grid, machines: Sequence[Description], subjects: Sequence[Subject], radius_m: float
+) -> list[tuple[Subject, Trouble]]:
+    """Return those of the machines and places that a map does not suit, and why."""
+    floor = FloorPlan(grid, machines)
+    reasons = (
+        _trouble_of_machine(floor, each, radius_m)
+        if isinstance(each, Description)
+        else _trouble_of_place(floor, each, radius_m)
+        for each in subjects
+    )
+    return [(each, why) for each, why in zip(subjects, reasons, strict=True) if why]
 
 
 def _trouble_of_machine(floor: FloorPlan, machine: Description, radius_m: float) -> Trouble | None:

@@ -18,6 +18,8 @@ from vipo_device.protocol.description import Description, Pose
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, 255
 STATION_GAP_M = 0.15
+BAND_ROWS = 256
+"""Numbers of all cells are worked out in bands of so many rows: what stands between takes little memory."""
 COMFORT_M = 0.3
 MOST_RUNS = 50_000
 MOST_COVERS = 200
@@ -69,8 +71,15 @@ def clearance_m(grid: Grid) -> NDArray[np.float64]:
     Unknown cells and everything off the map count as wall; non-free cells have 0.
     """
     free = np.pad(cells_array(grid) == FREE, 1, constant_values=False)
-    cells: NDArray[np.float64] = scipy.ndimage.distance_transform_edt(free)[1:-1, 1:-1]
-    return np.maximum(cells - 0.5, 0.0) * grid.resolution_m
+    nearest = scipy.ndimage.distance_transform_edt(free, return_distances=False, return_indices=True)[:, 1:-1, 1:-1]
+    columns = np.arange(1, grid.width + 1)[None, :]
+    found = np.empty((grid.height, grid.width))
+    for top in range(0, grid.height, BAND_ROWS):
+        band = nearest[:, top : top + BAND_ROWS]
+        up = (band[0] - np.arange(top + 1, top + 1 + band.shape[1])[:, None]).astype(np.float64)
+        aside = (band[1] - columns).astype(np.float64)
+        found[top : top + BAND_ROWS] = np.maximum(np.sqrt(up * up + aside * aside) - 0.5, 0.0) * grid.resolution_m
+    return found
 
 
 def wall_boxes(grid: Grid) -> tuple[Box, ...]:
@@ -177,24 +186,29 @@ def with_devices(grid: Grid, devices: Iterable[Description]) -> Grid:
     return replace(grid, cells=cells.tobytes())
 
 
-def _occupy(grid: Grid, cells: NDArray[np.uint8], device: Description) -> None:
-    """Mark the cells that the machine's outline touches."""
+def _occupy(grid: Grid, cells: NDArray[np.uint8], device: Description, top: int = 0, left: int = 0) -> None:
+    """Mark the cells that the machine's outline touches; `cells` are those of the grid from a row and column on."""
     reach_m = hypot(device.size.x, device.size.y) / 2 + grid.resolution_m
-    rows = _span(device.pose.y - grid.origin_y_m, reach_m, grid.resolution_m, grid.height)
-    columns = _span(device.pose.x - grid.origin_x_m, reach_m, grid.resolution_m, grid.width)
+    height, width = cells.shape
+    rows = _span(device.pose.y - grid.origin_y_m, reach_m, grid.resolution_m, (top, top + height))
+    columns = _span(device.pose.x - grid.origin_x_m, reach_m, grid.resolution_m, (left, left + width))
+    if rows.start == rows.stop or columns.start == columns.stop:
+        return
     y = grid.origin_y_m + (np.arange(rows.start, rows.stop) + 0.5) * grid.resolution_m - device.pose.y
     x = grid.origin_x_m + (np.arange(columns.start, columns.stop) + 0.5) * grid.resolution_m - device.pose.x
     turn_x, turn_y = cos(device.pose.theta), sin(device.pose.theta)
     along = np.abs(x[None, :] * turn_x + y[:, None] * turn_y)
     across = np.abs(y[:, None] * turn_x - x[None, :] * turn_y)
     touch_m = grid.resolution_m / 2 - 1e-9
-    cells[rows, columns][(along < device.size.x / 2 + touch_m) & (across < device.size.y / 2 + touch_m)] = OCCUPIED
+    touched = cells[rows.start - top : rows.stop - top, columns.start - left : columns.stop - left]
+    touched[(along < device.size.x / 2 + touch_m) & (across < device.size.y / 2 + touch_m)] = OCCUPIED
 
 
-def _span(middle_m: float, reach_m: float, resolution_m: float, count: int) -> slice:
+def _span(middle_m: float, reach_m: float, resolution_m: float, within: tuple[int, int]) -> slice:
     first = int((middle_m - reach_m) // resolution_m)
     last = int((middle_m + reach_m) // resolution_m) + 1
-    return slice(min(max(first, 0), count), min(max(last, 0), count))
+    low, high = within
+    return slice(min(max(first, low), high), min(max(last, low), high))
 
 
 def stations(grid: Grid, devices: Iterable[Description], radius_m: float) -> dict[str, Pose]:
@@ -206,10 +220,9 @@ def stations(grid: Grid, devices: Iterable[Description], radius_m: float) -> dic
     """
     devices = list(devices)
     plan = FloorPlan(grid, devices)
-    floor = plan.main_floor(radius_m)
     found = {}
     for device in devices:
-        if device.kind == "machine" and (pose := _station(plan, floor, device, radius_m)):
+        if device.kind == "machine" and (pose := _station(plan, device, radius_m)):
             found[device.id] = pose
     return found
 
@@ -220,12 +233,12 @@ def points_beside(device: Description, radius_m: float) -> tuple[tuple[float, fl
     return tuple((pose.x, pose.y) for pose in (*front_and_back, *right_and_left))
 
 
-def _station(plan: FloorPlan, floor: NDArray[np.bool_], device: Description, radius_m: float) -> Pose | None:
+def _station(plan: FloorPlan, device: Description, radius_m: float) -> Pose | None:
     gap_m = radius_m + STATION_GAP_M
     for spare_m in (COMFORT_M, 0.05):
         for shift in (0.0, -0.25, 0.25):
             for pair in _sides(device, gap_m, shift):
-                open_poses = [p for p in pair if plan.is_open(floor, p)]
+                open_poses = [p for p in pair if plan.is_open(p, radius_m)]
                 rooms = [(plan.room_beside_m(device, p), -i, p) for i, p in enumerate(open_poses)]
                 if rooms and (best := max(rooms, key=lambda r: r[:2]))[0] >= radius_m + spare_m:
                     return best[2]
@@ -258,6 +271,7 @@ class FloorPlan:
         self._devices = tuple(devices)
         self.clearance_m = clearance_m(with_devices(grid, self._devices))
         self._regions: dict[float, NDArray[np.int32]] = {}
+        self._main_regions: dict[float, int] = {}
         self._stations: dict[tuple[str, float], Pose | None] = {}
         self._traffic: dict[float, tuple[Ground, Lattice]] = {}
         self._covers: dict[object, str] = {}
@@ -319,21 +333,22 @@ class FloorPlan:
             self._regions[radius_m] = labels
         return self._regions[radius_m]
 
-    def main_floor(self, radius_m: float) -> NDArray[np.bool_]:
-        """Return the cells of the largest region in which a robot of that radius can drive about."""
-        labels = self.regions(radius_m)
-        sizes = np.bincount(labels.ravel())
-        if sizes.size < 2:
-            return np.zeros(labels.shape, dtype=np.bool_)
-        return np.asarray(labels == 1 + int(np.argmax(sizes[1:])))
+    def main_region(self, radius_m: float) -> int:
+        """Return the number of the largest region in which a robot of that radius can drive about; 0: there is none."""
+        if radius_m not in self._main_regions:
+            labels = self.regions(radius_m)
+            sizes = np.zeros(int(labels.max(initial=0)) + 1, dtype=np.int64)
+            for top in range(0, labels.shape[0], BAND_ROWS):
+                sizes += np.bincount(labels[top : top + BAND_ROWS].ravel(), minlength=sizes.size)
+            self._main_regions[radius_m] = 1 + int(np.argmax(sizes[1:])) if sizes.size > 1 else 0
+        return self._main_regions[radius_m]
 
     def station(self, device_id: str, radius_m: float) -> tuple[float, float] | None:
         """Return where a robot of that radius stands to serve a machine; None when it has no room to."""
         key = (device_id, radius_m)
         if key not in self._stations:
             found = next((device for device in self._devices if device.id == device_id), None)
-            floor = self.main_floor(radius_m)
-            self._stations[key] = None if found is None else _station(self, floor, found, radius_m)
+            self._stations[key] = None if found is None else _station(self, found, radius_m)
         pose = self._stations[key]
         return None if pose is None else (pose.x, pose.y)
 
@@ -341,16 +356,16 @@ class FloorPlan:
         """Tell whether the machine stands on this floor."""
         return any(device.id == device_id for device in self._devices)
 
-    def is_open(self, floor: NDArray[np.bool_], pose: Pose) -> bool:
-        """Tell whether the pose's cell belongs to the floor."""
-        cell = self.grid.cell_of(pose.x, pose.y)
-        return cell is not None and bool(floor[cell])
+    def is_open(self, pose: Pose, radius_m: float) -> bool:
+        """Tell whether the pose's cell lies in the largest region in which a robot of that radius can drive."""
+        cell, main = self.grid.cell_of(pose.x, pose.y), self.main_region(radius_m)
+        return cell is not None and main > 0 and int(self.regions(radius_m)[cell]) == main
 
     def room_beside_m(self, device: Description, pose: Pose) -> float:
         """Return how far the pose is from everything but the device itself, in metres."""
-        others = with_devices(self.grid, (d for d in self._devices if d.id != device.id))
+        others = [d for d in self._devices if d.kind == "machine" and d.id != device.id]
         cell = self.grid.cell_of(pose.x, pose.y)
-        return 0.0 if cell is None else float(_clearance_near(others, cell))
+        return 0.0 if cell is None else _clearance_near(self.grid, others, cell)
 
     def _regions_around(self, xy: tuple[float, float], radius_m: float) -> set[int]:
         reach = max(1, round(radius_m / self.grid.resolution_m))
@@ -364,15 +379,19 @@ class FloorPlan:
         return set(np.unique(window).tolist())
 
 
-def _clearance_near(grid: Grid, cell: tuple[int, int], reach_m: float = 1.5) -> float:
-    """Return the clearance of one cell, looking no farther than `reach_m`."""
+def _clearance_near(grid: Grid, machines: Iterable[Description], cell: tuple[int, int], reach_m: float = 1.5) -> float:
+    """Return the clearance of one cell among walls and machines, looking no farther than `reach_m`."""
     reach = round(reach_m / grid.resolution_m)
     row, column = cell
-    top, left = max(0, row - reach), max(0, column - reach)
-    free = np.pad(cells_array(grid) == FREE, 1, constant_values=False)
-    window = free[top : row + reach + 3, left : column + reach + 3]
-    if window.all():
+    top, left = max(0, row - reach - 1), max(0, column - reach - 1)
+    cells = cells_array(grid)[top : row + reach + 2, left : column + reach + 2].copy()
+    for machine in machines:
+        _occupy(grid, cells, machine, top, left)
+    # what lies off the map is wall; what the window cuts off is too far away to count
+    edges = ((row <= reach, row + reach + 1 >= grid.height), (column <= reach, column + reach + 1 >= grid.width))
+    free = np.pad(cells == FREE, [(int(low), int(high)) for low, high in edges], constant_values=False)
+    if free.all():
         return reach_m
-    rows, columns = np.nonzero(~window)
-    nearest = np.hypot(rows - (row + 1 - top), columns - (column + 1 - left)).min()
+    rows, columns = np.nonzero(~free)
+    nearest = np.hypot(rows - (row - top + edges[0][0]), columns - (column - left + edges[1][0])).min()
     return max(0.0, (float(nearest) - 0.5) * grid.resolution_m)

@@ -1,4 +1,4 @@
-"""Maps as people bring them: a header with its image, or both in one archive; few are read at once."""
+"""Maps as people bring them, a header with its image or both in one archive; few are read or compared at once."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from registry.floorplan.comparison import MapDifference
 from registry.floorplan.map_archive import open_archive
 from registry.floorplan.map_server import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap, read_map
 from registry.floorplan.plan import Grid
-from registry.maps.site_maps import compare_with_site, save_map
+from registry.maps.site_maps import compare_robot_map, compare_with_site, save_map
 from registry.models import User
 from registry.sites.quota import lock_site_quota, require_site_quota
 from registry.sites.sites import checked_name, create_site, get_site
@@ -23,7 +23,7 @@ from registry.sites.views import SiteView
 
 READING_PATIENCE_S = 5.0
 reading_slots = Slots(in_all=2, of_site=2, of_person=1, most_waiting=1)
-"""Maps that are read at once."""
+"""Maps that are read, or held against a site's, at once."""
 Made = TypeVar("Made")
 if TYPE_CHECKING:
     Upload = UploadedFile[Any]
@@ -82,6 +82,14 @@ def look_at_upload(*, site: str, files: MapFiles, by: User) -> tuple[Grid, int, 
         return (grid, *compare_with_site(site=site, grid=grid))
 
     return in_turn(by, look)
+
+
+def look_at_robot_map(*, site: str, device_id: str, by: User) -> tuple[int, int, MapDifference]:
+    """Return the robot's version, the site's version (0: it has no map) and what changes from this one to that one.
+
+    Raises NoSuchDevice, NoRobotMap, TooManyUploads.
+    """
+    return in_turn(by, lambda: compare_robot_map(site=site, device_id=device_id))
 
 
 def in_turn(by: User, work: Callable[[], Made]) -> Made:

@@ -271,6 +271,7 @@ def download_robot_pgm(request: HttpRequest, slug: str, device_id: str) -> HttpR
 @router.get("/sites/{slug}/devices/{device_id}/map/difference", response=MapDifferenceShape)
 def show_difference(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
     """Show what would change at the site if the robot's map became its own."""
-    require(signed_in(request), slug, "viewer")
-    version, replaces, difference = services.compare_robot_map(site=slug, device_id=device_id)
+    user = signed_in(request)
+    require(user, slug, "viewer")
+    version, replaces, difference = services.look_at_robot_map(site=slug, device_id=device_id, by=user)
     return {"version": version, "replaces": replaces, **asdict(difference)}

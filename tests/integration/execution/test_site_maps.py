@@ -16,6 +16,7 @@ from registry import services as registry
 from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.floorplan.plan import Grid
 from registry.live import fanout
+from registry.maps import uploads
 from registry.models import Device, RobotMap, SiteMap
 from tests.kit import demo_floor
 from tests.kit.programs import ANY, CARRY, SITE, TASK, run_status
@@ -349,3 +350,18 @@ def test_a_robots_map_of_the_same_number_after_a_backup_is_another(factory):
     say_map(PLAN, number=2)
     again = client.get(cells, headers={"If-None-Match": known})
     assert (again.status_code, gzip.decompress(again.content)) == (200, PLAN.cells)
+
+
+def test_one_map_at_a_time_is_held_against_the_sites_for_a_person(factory, monkeypatch):
+    monkeypatch.setattr(uploads, "READING_PATIENCE_S", 0.0)
+    say_map(widened())
+    client = join_and_sign_in("viewer", SITE)
+    difference = f"/api/sites/{SITE}/devices/robot01/map/difference"
+    claim = registry.Claim(client.get("/api/me").json()["user"]["id"])
+    assert uploads.reading_slots.take(claim)
+    try:
+        refused = client.get(difference)
+    finally:
+        uploads.reading_slots.give_back(claim)
+    assert (refused.status_code, refused.json()["code"]) == (429, "too_many_uploads")
+    assert client.get(difference).json()["version"] == 1
