@@ -2,7 +2,8 @@
 
 The file comes on standard input, what is drawn in it goes to standard output as JSON; the exit code says which kind of
 answer it is. Curves become lines, blocks are drawn where they are inserted, what is no line (texts, dimensions,
-hatches) is counted and left out. Nothing that a file refers to is fetched.
+hatches) is counted and left out. Nothing that a file refers to is fetched: a block of another file counts as XREF, one
+that is nowhere as INSERT.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from math import isfinite
 from typing import Any
 
 from ezdxf import recover
+from ezdxf.audit import AuditError
 from ezdxf.document import Drawing
 from ezdxf.entities.dxfentity import DXFEntity
 from ezdxf.entities.dxfgfx import DXFGraphic
@@ -41,6 +43,8 @@ SAG = 0.002
 """How far a line may cut a curve short, as a share of the curve's size."""
 METRES = {1: 0.0254, 2: 0.3048, 4: 0.001, 5: 0.01, 6: 1.0, 10: 0.9144, 14: 0.1}
 """What a drawing's unit is by $INSUNITS: inches, feet, millimetres, centimetres, metres, yards, decimetres."""
+END_BYTES = b" \t\r\n\0\x1a"
+"""What may stand behind the mark at a drawing's end."""
 DRAWN = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
 
 
@@ -91,6 +95,9 @@ class Reader:
             )
         if block.mcount > MOST_ENTITIES:
             raise Refused(f"A block is repeated {block.mcount} times. Leave out what is no wall.", TOO_LARGE)
+        if block.is_xref() and not len(block.block() or ()):
+            self.skipped["XREF"] += 1
+            return
         for each in block.multi_insert() if block.mcount > 1 else (block,):
             self.take(each.virtual_entities(), layer, depth + 1)
 
@@ -142,13 +149,18 @@ def read_drawing(data: bytes) -> dict[str, Any]:
     if b"SECTION" not in data:
         raise Refused(broken)
     try:
-        drawing, _ = recover.read(io.BytesIO(data))
+        drawing, audit = recover.read(io.BytesIO(data))
     except (DXFError, OSError, ValueError, TypeError, LookupError, AttributeError, ArithmeticError) as error:
         raise Refused(broken) from error
     reader = Reader(drawing)
+    if nowhere := sum(1 for fix in audit.fixes if fix.code == AuditError.UNDEFINED_BLOCK):
+        reader.skipped["INSERT"] = nowhere  # the reader has taken them out already
     reader.take(drawing.modelspace())
     if not any(layer.lines for layer in reader.layers.values()):
-        raise Refused("The drawing has no lines in its model space. Choose the drawing with the walls.")
+        is_whole = data.rstrip(END_BYTES).endswith(b"EOF")
+        raise Refused(
+            "The drawing has no lines in its model space. Choose the drawing with the walls." if is_whole else broken
+        )
     unit = drawing.header.get("$INSUNITS", 0)
     return {"metres": METRES.get(unit), "layers": list(_told(reader.layers)), "skipped": dict(reader.skipped)}
 

@@ -77,6 +77,27 @@ def test_blocks_are_drawn_where_they_stand_on_the_layer_of_their_insert():
     assert len(lines_of(read, "DOORS")) == 5
 
 
+def test_a_block_of_another_file_and_one_that_is_nowhere_are_counted_as_left_out():
+    drawing, space = new()
+    drawing.add_xref_def("hall.dxf", "HALL")
+    space.add_blockref("HALL", (0, 0))
+    space.add_blockref("NOWHERE", (0, 0))
+    space.add_blockref("NOWHERE", (5, 0))
+    space.add_line((0, 0), (5, 0))
+    assert read_drawing(packed(drawing))["skipped"] == {"XREF": 1, "INSERT": 2}
+
+
+def test_a_drawing_that_is_cut_off_before_its_lines_is_damaged_one_without_lines_is_not():
+    drawing, space = new()
+    empty = packed(drawing)
+    space.add_line((0, 0), (5, 0))
+    whole = packed(drawing)
+    with pytest.raises(Refused, match="or it is damaged"):
+        read_drawing(whole[: whole.index(b"ENTITIES")])
+    with pytest.raises(Refused, match="no lines in its model space"):
+        read_drawing(empty)
+
+
 def test_blocks_that_stand_for_too_many_are_refused_before_they_are_drawn(monkeypatch):
     monkeypatch.setattr(drawing_reader, "MOST_ENTITIES", 2000)
     drawing, space = new()
