@@ -161,6 +161,8 @@ def export_rehearsal(*, rehearsal_id: UUID | str, form: RecordingForm) -> bytes:
         HistoryUnreadable: it is in the archive, which cannot be read.
     """
     view = get_rehearsal(rehearsal_id=rehearsal_id)
+    if view.kind == Rehearsal.Kind.TESTS:
+        raise NotPossibleNow("Tests of a program have no recording. Rehearse the program; a rehearsal has one.")
     if view.result is None:
         raise NotPossibleNow(f"The rehearsal has no recording: it is {view.status}. One that is done has one.")
     return write_json(view) if form == "json" else write_mcap(view)

@@ -116,6 +116,15 @@ def test_very_many_poses_are_thinned_evenly(rehearsal, result, monkeypatch):
     assert len({after - before for before, after in pairwise(times)}) == 1
 
 
+def test_tests_of_a_program_are_said_to_have_no_recording(rehearsal):
+    Rehearsal.objects.update(kind="tests", result=None)
+    answer = fetch(rehearsal, "mcap")
+    assert (answer.status_code, answer.json()["detail"]) == (
+        409,
+        "Tests of a program have no recording. Rehearse the program; a rehearsal has one.",
+    )
+
+
 def test_what_has_no_recording_is_refused_with_a_sentence(rehearsal):
     Rehearsal.objects.update(status="running", result=None)
     refused = fetch(rehearsal, "mcap")
