@@ -74,7 +74,7 @@ def keep_robot_map(*, device: Device, grid: Grid, packed: bytes, at: datetime) -
     is_same = before is not None and all(_plain(getattr(before, name)) == value for name, value in fields.items())
     changed_at = before.changed_at if before and is_same else at
     version = (before.version if before else 0) + 1
-    known = len(grid.cells) - grid.cells.count(UNKNOWN)
+    known = len(grid.cells) - plain_grid(grid).cells.count(UNKNOWN)
     told = {**fields, "version": version, "known_cells": known, "at": at, "changed_at": changed_at}
     RobotMap.objects.update_or_create(device=device, defaults=told)
     _note(device, grid, at)

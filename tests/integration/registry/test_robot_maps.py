@@ -60,7 +60,7 @@ def test_a_map_is_kept_when_its_last_part_has_come_in_whatever_order(robot: str)
     assert kept().grid == Grid(300, 200, 0.05, -1.0, 2.5, KINDS)
     facts = services.get_robot_map_facts(site="hall", device_id="robot1")
     assert (facts.version, facts.at, facts.changed_at) == (1, NOW, NOW)
-    assert facts.known == pytest.approx((60_000 - CELLS.count(255)) / 60_000)
+    assert facts.known == pytest.approx((60_000 - kept().grid.cells.count(255)) / 60_000)
     assert RobotMapPart.objects.count() == 0
 
 
@@ -155,3 +155,9 @@ def test_the_history_gets_one_line_an_hour_and_an_unchanged_map_keeps_its_age(ro
     assert kept().facts.changed_at == NOW + timedelta(seconds=3700)
     lines = DeviceEvent.objects.filter(kind="map").order_by("pk").values_list("text", flat=True)
     assert list(lines) == ["Sent its map: 15.0 by 10.0 m"] * 2
+
+
+def test_cells_that_are_neither_free_nor_wall_enough_are_unknown_in_the_share_as_in_the_picture(robot: str) -> None:
+    hear(*messages(cells=bytes([0, 19, 20, 40, 65, 66, 100, 255]), width=8))
+    found = services.get_robot_map(site="hall", device_id=robot)
+    assert found.facts.known == 1 - found.grid.cells.count(255) / 8 == 0.5
