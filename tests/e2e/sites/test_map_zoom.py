@@ -1,4 +1,4 @@
-"""The map's page is seen from nearer: by buttons, wheel and dragging, and what is pointed at stays right."""
+"""The map's page is seen from nearer, by buttons, wheel and dragging; what is pointed at or dragged stays right."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import SITE, ask, shoot, violations
+from tests.e2e.screens import SITE, address_of, ask, shoot, tell, violations
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
@@ -165,3 +165,79 @@ def test_a_tool_that_is_taken_from_nearer_leaves_the_view_and_puts_things_under_
     page.get_by_role("button", name="Add a zone").click()
     expect(page.get_by_role("button", name="Draw the new zone")).to_be_focused()
     assert view_of(page) == seen
+
+
+def remove(page: Page, path: str) -> None:
+    headers = {"X-CSRFToken": ask(page, "/api/me")["csrf"], "Referer": page.url}
+    assert page.request.delete(address_of(page, f"{SITE}/{path}"), headers=headers).status == 204
+
+
+def whole_box(thing: Locator) -> tuple[float, float, float, float]:
+    box = thing.bounding_box()
+    assert box is not None
+    return box["x"], box["y"], box["width"], box["height"]
+
+
+def middle_outside(page: Page, thing: Locator) -> tuple[float, float]:
+    """Come nearer and move the map until a thing's middle is left of the pane; return a spot of it that is seen."""
+    x, y, width, height = whole_box(thing)
+    page.mouse.move(x + width / 2, y + height / 2)
+    page.mouse.wheel(0, -420)
+    pane = page.locator("svg[data-nearer]")
+    expect(pane).to_be_visible()
+    left, top, wide, _ = whole_box(pane)
+    x, y, width, height = whole_box(thing)
+    shows = min(120.0, width / 3)
+    start = left + wide - 100, top + 300
+    page.mouse.move(*start)
+    page.mouse.down(button="middle")
+    page.mouse.move(start[0] + left + shows - (x + width), start[1], steps=4)
+    page.mouse.up(button="middle")
+    x, y, width, height = whole_box(thing)
+    assert x + width / 2 < left
+    return x + width - shows / 2, y + height / 2
+
+
+def test_what_is_pressed_from_nearer_leaves_the_view_and_a_press_that_trembles_moves_nothing(sign_in: SignIn) -> None:
+    page = sign_in("admin", MAP)
+    corners = [[2.0, -10.0], [8.0, -10.0], [8.0, -6.0], [2.0, -6.0]]
+    tell(page, f"{SITE}/zones", {"name": "Aisle", "rule": "preferred", "points": corners})
+    changes: list[str] = []
+    page.on("request", lambda request: changes.append(request.url) if request.method == "PATCH" else None)
+    for mode, thing in (
+        ("Move machines", page.get_by_role("button", name=re.compile(f"^{OVEN} at"))),
+        ("Edit zones", page.get_by_role("button", name="Aisle").first),
+    ):
+        page.get_by_role("button", name=mode).click()
+        x, y = middle_outside(page, thing)
+        seen, before = view_of(page), whole_box(thing)
+        page.mouse.move(x, y)
+        page.mouse.down()
+        expect(thing).to_be_focused()
+        page.mouse.move(x + 1, y)
+        page.mouse.up()
+        assert view_of(page) == seen
+        assert whole_box(thing) == before
+        page.get_by_role("button", name="The whole map").press("Enter")
+        expect(page.locator("svg[data-nearer]")).to_have_count(0)
+    assert changes == []
+
+    corner = page.get_by_role("button", name="Corner 1 at")
+    x, y, width, height = whole_box(corner)
+    page.mouse.move(x + 4, y + 4)  # beside its middle, where a finger may be
+    page.mouse.down()
+    page.mouse.move(x + 6, y + 5)
+    page.mouse.up()
+    assert whole_box(corner) == (x, y, width, height)
+    page.mouse.down()
+    page.mouse.move(x + 34, y - 16, steps=4)
+    assert whole_box(corner) == pytest.approx((x + 28, y - 21, width, height), abs=1)
+    assert changes == []
+    page.mouse.up()
+    wait_for("the corner where it was put", lambda: zone_points(page)[1:] == corners[1:] != zone_points(page))
+    remove(page, "zones/aisle")
+
+
+def zone_points(page: Page) -> list[list[float]]:
+    zone = next(zone for zone in ask(page, f"{SITE}/map")["zones"] if zone["id"] == "aisle")
+    return [list(point) for point in zone["points"]]

@@ -26,27 +26,63 @@ export function pointed(event: PointerEvent<SVGGraphicsElement> | MouseEvent<SVG
   return toMetres(new DOMPoint(event.clientX, event.clientY).matrixTransform(plane.getScreenCTM()?.inverse()));
 }
 
-export function useDragging({ at, setDraft, keep }: DraftPoint) {
-  const [grip, setGrip] = useState<Point | null>(null);
-  const letGo = (done: () => void) => () => {
-    if (grip) done();
-    setGrip(null);
+/** Pixels of the screen: a hand that presses moves less than this. */
+export const LEAST_DRAG = 4;
+
+interface Drag<At> {
+  /** Where the thing is when it is taken hold of. */
+  at: At;
+  /** Show it where it comes when it is moved by (metres) from where it was. */
+  show: (from: At, by: Point) => void;
+  keep: () => void;
+  giveUp: () => void;
+}
+
+interface Held<At> {
+  pointer: number;
+  from: At;
+  x: number;
+  y: number;
+  grip: Point;
+  isMoved: boolean;
+}
+
+/** What a thing on the map hears while the main button, a pen or the first finger drags it. */
+export function useDrag<At>({ at, show, keep, giveUp }: Drag<At>) {
+  const held = useRef<Held<At> | null>(null);
+  const isHeldBy = (event: PointerEvent) => held.current?.pointer === event.pointerId;
+  const letGo = (done: () => void) => (event: PointerEvent) => {
+    if (!isHeldBy(event)) return;
+    held.current = null;
+    done();
   };
   return {
-    onPointerDown: (event: PointerEvent<SVGGElement>) => {
-      if (event.button !== 0) return;
+    onPointerDown: (event: PointerEvent<SVGGraphicsElement>) => {
+      if (event.button !== 0 || !event.isPrimary) return;
       event.currentTarget.setPointerCapture(event.pointerId);
-      const [x, y] = pointed(event);
-      setGrip([at[0] - x, at[1] - y]);
+      const { pointerId: pointer, clientX: x, clientY: y } = event;
+      held.current = { pointer, from: at, x, y, grip: pointed(event), isMoved: false };
     },
-    onPointerMove: (event: PointerEvent<SVGGElement>) => {
-      if (!grip) return;
+    onPointerMove: (event: PointerEvent<SVGGraphicsElement>) => {
+      const { current } = held;
+      if (!current || !isHeldBy(event)) return;
+      current.isMoved ||= Math.hypot(event.clientX - current.x, event.clientY - current.y) >= LEAST_DRAG;
+      if (!current.isMoved) return;
       const [x, y] = pointed(event);
-      setDraft([x + grip[0], y + grip[1]]);
+      show(current.from, [x - current.grip[0], y - current.grip[1]]);
     },
     onPointerUp: letGo(keep),
-    onPointerCancel: letGo(() => setDraft(null)),
+    onPointerCancel: letGo(giveUp),
   };
+}
+
+export function useDragging({ at, setDraft, keep }: DraftPoint) {
+  return useDrag({
+    at,
+    show: ([x, y], by) => setDraft([x + by[0], y + by[1]]),
+    keep,
+    giveUp: () => setDraft(null),
+  });
 }
 
 /** Send where it stands now; it is told when that is refused, and when it is over. */

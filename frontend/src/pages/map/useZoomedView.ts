@@ -66,9 +66,12 @@ export function useZoomedView() {
     event.preventDefault();
     put({ ...view, x: view.x + way[0] * BY_KEY, y: view.y + way[1] * BY_KEY });
   };
-  /** What has the focus is seen; a tool’s floor, which is as large as the map, always is where its part is. */
+  /**
+   * What the keyboard gives the focus to is seen; a tool’s floor, which is as large as the map, always is where its
+   * part is. What is pressed stays where it is, under the pointer.
+   */
   const follow = (event: FocusEvent<SVGSVGElement>) => {
-    if (!isNearer || event.target === event.currentTarget) return;
+    if (!isNearer || event.target === event.currentTarget || !event.target.matches(":focus-visible")) return;
     const pane = event.currentTarget.getBoundingClientRect();
     const { x, y, width: wide, height: high } = event.target.getBoundingClientRect();
     const next = showing(view, { x: x - pane.x, y: y - pane.y, width: wide, height: high }, pane);

@@ -1,12 +1,11 @@
 /** A zone that an admin selects, moves as a whole by dragging or by the arrow keys, and changes at its corners. */
-import { useState, type KeyboardEvent, type PointerEvent } from "react";
+import type { KeyboardEvent } from "react";
 import { useTranslation } from "react-i18next";
 import type { MapZone, SiteMap } from "@/api/types";
 import { zoneWords } from "@/map/floor/zoneWords";
-import type { Point } from "@/map/plane/projection";
-import { pointed } from "../../devices/movable";
+import { useDrag } from "../../devices/movable";
 import { nudge } from "../../devices/placement";
-import { pathOf, shifted, type Outline } from "./outline";
+import { pathOf, shifted } from "./outline";
 import { useOutlineDraft } from "./useOutlineDraft";
 import { ZoneCorners } from "./ZoneCorners";
 import styles from "./zones.module.css";
@@ -22,7 +21,6 @@ interface MovableZoneProps {
 export function MovableZone({ slug, map, zone, isSelected, onSelect }: MovableZoneProps) {
   const { t } = useTranslation();
   const draft = useOutlineDraft(slug, zone);
-  const [grip, setGrip] = useState<{ at: Point; points: Outline } | null>(null);
   const { points } = draft;
   const press = (event: KeyboardEvent) => {
     const by = nudge([0, 0], event.key, event.shiftKey);
@@ -32,15 +30,12 @@ export function MovableZone({ slug, map, zone, isSelected, onSelect }: MovableZo
     else return;
     event.preventDefault();
   };
-  const drag = (event: PointerEvent<SVGPathElement>) => {
-    if (!grip) return;
-    const [x, y] = pointed(event);
-    draft.show(shifted(grip.points, [x - grip.at[0], y - grip.at[1]], map));
-  };
-  const release = () => {
-    if (grip) draft.keep();
-    setGrip(null);
-  };
+  const dragging = useDrag({
+    at: points,
+    show: (from, by) => draft.show(shifted(from, by, map)),
+    keep: draft.keep,
+    giveUp: () => draft.show(null),
+  });
   return (
     <g>
       <path
@@ -51,15 +46,11 @@ export function MovableZone({ slug, map, zone, isSelected, onSelect }: MovableZo
         aria-pressed={isSelected}
         aria-label={zoneWords(zone, t)}
         aria-describedby="zones-help"
+        {...dragging}
         onPointerDown={(event) => {
-          if (event.button !== 0) return;
-          onSelect();
-          event.currentTarget.setPointerCapture(event.pointerId);
-          setGrip({ at: pointed(event), points });
+          if (event.button === 0) onSelect();
+          dragging.onPointerDown(event);
         }}
-        onPointerMove={drag}
-        onPointerUp={release}
-        onPointerCancel={() => (setGrip(null), draft.show(null))}
         onFocus={onSelect}
         onKeyDown={press}
         onBlur={() => draft.keep()}

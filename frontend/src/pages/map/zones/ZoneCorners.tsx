@@ -1,9 +1,9 @@
 /** The corners of an outline: dragged, moved by arrow keys, added on the middle of a side, taken away with Delete. */
-import { useState, type KeyboardEvent, type PointerEvent } from "react";
+import type { KeyboardEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { formatNumber } from "@/i18n/format";
 import { toPixels, type Point } from "@/map/plane/projection";
-import { pointed } from "../../devices/movable";
+import { useDrag } from "../../devices/movable";
 import { nudge, onMap, type Extent } from "../../devices/placement";
 import { middleOf, withCorner, withMoved, withoutCorner, type Outline } from "./outline";
 import type { OutlineDraft } from "./useOutlineDraft";
@@ -56,7 +56,6 @@ interface CornerProps extends ZoneCornersProps {
 
 function Corner({ at, corner, points, map, draft }: CornerProps) {
   const { t } = useTranslation();
-  const [isHeld, hold] = useState(false);
   const move = (to: Point) => draft.show(withMoved(points, at, onMap(to, map)));
   const press = (event: KeyboardEvent) => {
     const moved = nudge(corner, event.key, event.shiftKey);
@@ -68,10 +67,12 @@ function Corner({ at, corner, points, map, draft }: CornerProps) {
     event.preventDefault();
     event.stopPropagation();
   };
-  const release = () => {
-    if (isHeld) draft.keep();
-    hold(false);
-  };
+  const dragging = useDrag({
+    at: corner,
+    show: (from, by) => move([from[0] + by[0], from[1] + by[1]]),
+    keep: draft.keep,
+    giveUp: () => draft.show(null),
+  });
   const { x, y } = toPixels(corner);
   const [cornerX, cornerY] = corner;
   const name = t("zone.corner", { number: at + 1, x: formatNumber(cornerX, 2), y: formatNumber(cornerY, 2) });
@@ -89,17 +90,7 @@ function Corner({ at, corner, points, map, draft }: CornerProps) {
         tabIndex={0}
         aria-label={name}
         aria-describedby="zones-help"
-        onPointerDown={(event: PointerEvent<SVGRectElement>) => {
-          if (event.button !== 0) return;
-          event.stopPropagation();
-          event.currentTarget.setPointerCapture(event.pointerId);
-          hold(true);
-        }}
-        onPointerMove={(event) => {
-          if (isHeld) move(pointed(event));
-        }}
-        onPointerUp={release}
-        onPointerCancel={() => (hold(false), draft.show(null))}
+        {...dragging}
         onKeyDown={press}
         onBlur={() => draft.keep()}
       />
