@@ -58,6 +58,8 @@ export interface StaticMapProps {
   under?: Underlay | null;
   /** How it is seen, where people come nearer. */
   seen?: SeenMap;
+  /** Whether things are dragged or drawn on it: a finger then does that, instead of scrolling the page. */
+  editing?: boolean;
   /** More to draw in drawing pixels, above the devices. */
   children?: ReactNode;
 }
@@ -89,6 +91,7 @@ export function StaticMap(props: StaticMapProps) {
         ref={seen?.surface}
         className={classes.still}
         data-nearer={seen?.isNearer || undefined}
+        data-editing={props.editing || undefined}
         {...seen?.handlers}
         aria-hidden={props.onSelect || props.children ? undefined : true}
       >

@@ -241,3 +241,34 @@ def test_what_is_pressed_from_nearer_leaves_the_view_and_a_press_that_trembles_m
 def zone_points(page: Page) -> list[list[float]]:
     zone = next(zone for zone in ask(page, f"{SITE}/map")["zones"] if zone["id"] == "aisle")
     return [list(point) for point in zone["points"]]
+
+
+def test_a_finger_drags_what_is_on_the_whole_map_while_it_is_changed(sign_in: SignIn) -> None:
+    page = sign_in("admin", MAP, width=820, height=1180)
+    tell(page, f"{SITE}/places", {"name": "Stool", "kind": "point", "x": 10.0, "y": -8.0})
+    corners = [[9.0, -8.9], [11.0, -8.9], [11.0, -7.1], [9.0, -7.1]]
+    tell(page, f"{SITE}/zones", {"name": "Ramp", "rule": "preferred", "points": corners})
+    lying = tell(page, f"{SITE}/obstacles", {"x": 12.0, "y": -8.3, "size_m": 0.5})
+    cdp = page.context.new_cdp_session(page)
+    cdp.send("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 5})
+
+    def touch(kind: str, *spots: tuple[float, float]) -> None:
+        cdp.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y} for x, y in spots]})
+
+    for mode, thing in (
+        ("Edit places", page.get_by_role("button", name="Stool at")),
+        ("Edit zones", page.get_by_role("button", name="Ramp").first),
+        ("Move machines", page.get_by_role("button", name=re.compile(f"^{OVEN} at"))),
+        ("Put obstacles", page.get_by_role("button", name="Obstacle, 50").first),
+    ):
+        page.get_by_role("button", name=mode).click()
+        before = whole_box(thing)
+        x, y = before[0] + before[2] / 2, before[1] + before[3] / 2
+        touch("touchStart", (x, y))
+        for part in range(1, 9):
+            touch("touchMove", (x, y - part * 8))
+        wait_for(f"what is dragged: {mode}", lambda thing=thing, y=before[1]: whole_box(thing)[1] < y - 40)
+        touch("touchCancel")
+        wait_for(f"what is given up: {mode}", lambda thing=thing, box=before: whole_box(thing) == box)
+    for path in ("places/stool", "zones/ramp", f"obstacles/{lying['id']}"):
+        remove(page, path)

@@ -165,6 +165,7 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
           )}
           named
           seen={seen}
+          editing={mode !== null || stopMeasuring !== null}
           selected={query.get("device")}
           onSelect={!stopMeasuring && (mode === null || mode === "machines") ? open : undefined}
           label={t("pages.map.of", { site: site.name })}
