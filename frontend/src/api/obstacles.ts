@@ -25,10 +25,11 @@ function send(slug: string, change: ObstacleChange): Promise<Obstacle | undefine
   }
 }
 
-/** Change what lies on the floor; whatever comes of it, the map is fetched anew. */
+/** Change what lies on the floor; whatever comes of it, the map is fetched anew. Changes go out one after another. */
 export function useChangeObstacles(slug: string) {
   const queries = useQueryClient();
   return useMutation({
+    scope: { id: `obstacles ${slug}` },
     mutationFn: (change: ObstacleChange) => send(slug, change),
     onSettled: () => queries.invalidateQueries({ queryKey: keys.map(slug), exact: false }),
   });

@@ -175,7 +175,7 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
           ))}
           {mode === "places" ? <PlaceHandles slug={site.slug} map={map} places={places} /> : null}
           {mode === "zones" ? <ZoneHandles slug={site.slug} map={map} zones={zones} /> : null}
-          {mode === "obstacles" ? <ObstacleHandles map={map} editing={obstacles} /> : null}
+          {mode === "obstacles" ? <ObstacleHandles slug={site.slug} map={map} editing={obstacles} /> : null}
           {mode === null && (layers.chosen.check || check.chosen) ? (
             <FloorCheckMarks map={map} devices={devices} view={check} />
           ) : null}

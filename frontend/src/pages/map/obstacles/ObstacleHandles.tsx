@@ -1,8 +1,10 @@
 /** The obstacles over the map while somebody puts them there, and the floor on which the next one is put. */
 import type { KeyboardEvent } from "react";
 import { useTranslation } from "react-i18next";
+import { useChangeObstacles } from "@/api/obstacles";
 import type { Obstacle, SiteMap } from "@/api/types";
 import { PIXELS_PER_METRE, toPixels } from "@/map/plane/projection";
+import { tellRefusal } from "@/shell/refusal";
 import { movedByKey, useDraftPoint, useDragging } from "../../devices/movable";
 import { FloorTool } from "../FloorTool";
 import styles from "./obstacles.module.css";
@@ -12,36 +14,46 @@ import type { ObstacleEditing } from "./useObstacles";
 /** Drawing pixels: a finger finds it, too. */
 const REACH = 24;
 
-export function ObstacleHandles({ map, editing }: { map: SiteMap; editing: ObstacleEditing }) {
+interface HandlesProps {
+  slug: string;
+  map: SiteMap;
+  editing: ObstacleEditing;
+}
+
+export function ObstacleHandles({ slug, map, editing }: HandlesProps) {
   const { t } = useTranslation();
   return (
     <>
       {editing.adding ? <FloorTool map={map} label={t("obstacle.put")} put={editing.put} stop={editing.stop} /> : null}
       {map.obstacles.map((obstacle) => (
-        <MovableObstacle key={obstacle.id} map={map} obstacle={obstacle} editing={editing} />
+        <MovableObstacle key={obstacle.id} slug={slug} map={map} obstacle={obstacle} editing={editing} />
       ))}
     </>
   );
 }
 
-interface MovableObstacleProps {
-  map: SiteMap;
+interface MovableObstacleProps extends HandlesProps {
   obstacle: Obstacle;
-  editing: ObstacleEditing;
 }
 
-function MovableObstacle({ map, obstacle, editing }: MovableObstacleProps) {
-  const draft = useDraftPoint(map, [obstacle.x, obstacle.y], editing.isSending, (to, done) =>
-    editing.move(obstacle, to, done),
+function MovableObstacle({ slug, map, obstacle, editing }: MovableObstacleProps) {
+  const { t } = useTranslation();
+  const change = useChangeObstacles(slug);
+  const { id, size_m } = obstacle;
+  const draft = useDraftPoint(map, [obstacle.x, obstacle.y], change.isPending, ([x, y], done) =>
+    change.mutate(
+      { do: "move", id, obstacle: { x, y, size_m } },
+      { ...done, onError: (error) => (done.onError(), tellRefusal(error, t)) },
+    ),
   );
   const { at, keep } = draft;
   const pixel = toPixels(at);
-  const radius = (obstacle.size_m / 2) * PIXELS_PER_METRE;
+  const radius = (size_m / 2) * PIXELS_PER_METRE;
   const arm = radius * Math.SQRT1_2;
   const press = (event: KeyboardEvent) => {
     if (event.key !== "Delete" && event.key !== "Backspace") return movedByKey(event, draft);
     event.preventDefault();
-    editing.remove(obstacle.id);
+    editing.remove(id);
   };
   return (
     <g

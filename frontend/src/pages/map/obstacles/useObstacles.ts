@@ -2,7 +2,6 @@
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useChangeObstacles } from "@/api/obstacles";
-import type { Obstacle } from "@/api/types";
 import type { Point } from "@/map/plane/projection";
 import { tellRefusal } from "@/shell/refusal";
 
@@ -23,13 +22,7 @@ export function useObstacles(slug: string) {
     stop: () => setAdding(false),
     size_m,
     setSize,
-    isSending: change.isPending,
     put: ([x, y]: Point) => change.mutate({ do: "add", obstacle: { x, y, size_m } }, { onError }),
-    move: (obstacle: Obstacle, [x, y]: Point, done: { onError: () => void; onSettled: () => void }) =>
-      change.mutate(
-        { do: "move", id: obstacle.id, obstacle: { x, y, size_m: obstacle.size_m } },
-        { ...done, onError: (error) => (done.onError(), onError(error)) },
-      ),
     remove: (id: number) => change.mutate({ do: "remove", id }, { onError }),
     removeAll: () => change.mutate({ do: "removeAll" }, { onError }),
   };
