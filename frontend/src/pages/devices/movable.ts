@@ -85,35 +85,58 @@ export function useDragging({ at, setDraft, keep }: DraftPoint) {
   });
 }
 
-/** Send where it stands now; it is told when that is refused, and when it is over. */
-type Send = (to: Point, done: { onError: () => void; onSettled: () => void }) => void;
+/** Send how it is now; it is told when that is refused, and when it is over. */
+type Send<Value> = (to: Value, done: { onError: () => void; onSettled: () => void }) => void;
+
+export interface Draft<Value> {
+  /** How it is shown. */
+  at: Value;
+  draft: Value | null;
+  /** Show it so; null: as it is kept. */
+  setDraft: (value: Value | null) => void;
+  /** Send what is shown, or this. */
+  keep: (given?: Value) => void;
+}
 
 /**
- * Where a thing stands for the one who moves it, until the server says the same.
+ * How a thing is for the one who changes it, until the server says the same.
  *
- * What is moved while an earlier place is being kept (`isSending`) is kept next.
+ * What is changed while an earlier change is being kept (`isSending`) stays, and is kept next.
  */
-export function useDraftPoint(map: Extent, [x, y]: Point, isSending: boolean, send: Send): DraftPoint {
-  const [draft, setDraft] = useState<Point | null>(null);
-  const [sent, next] = [useRef<Point | null>(null), useRef<Point | null>(null)];
+export function useDraft<Value>(
+  kept: Value,
+  isAlike: (a: Value, b: Value) => boolean,
+  isSending: boolean,
+  send: Send<Value>,
+): Draft<Value> {
+  const [draft, setDraft] = useState<Value | null>(null);
+  const [sent, next] = [useRef<Value | null>(null), useRef<Value | null>(null)];
   useEffect(() => {
-    setDraft((last) => (last && sent.current && !isSame(last, sent.current) ? last : null));
-  }, [x, y, sent]);
-  const sendOn = (to: Point) => {
+    setDraft((last) => (last && sent.current && !isAlike(last, sent.current) ? last : null));
+  }, [JSON.stringify(kept), sent]); // oxlint-disable-line react/exhaustive-deps -- when what is kept is another, and only then
+  const sendOn = (to: Value) => {
     sent.current = to;
     const goOn = () => {
       const then = next.current;
       next.current = null;
-      if (then && !isSame(then, to)) sendOn(then);
+      if (then && !isAlike(then, to)) sendOn(then);
     };
-    send(to, { onError: () => setDraft(null), onSettled: goOn });
+    const takeBack = () => setDraft((last) => (last && !isAlike(last, to) ? last : null));
+    send(to, { onError: takeBack, onSettled: goOn });
   };
-  const keep = () => {
-    if (!draft) return;
-    if (isSending) next.current = draft;
-    else if (isSame(draft, [x, y])) setDraft(null);
-    else sendOn(draft);
+  const keep = (given?: Value) => {
+    const to = given ?? draft;
+    if (!to) return;
+    setDraft(to);
+    if (isSending) next.current = to;
+    else if (isAlike(to, kept)) setDraft(null);
+    else sendOn(to);
   };
-  const place = (point: Point | null) => setDraft(point && onMap(point, map));
-  return { at: draft ?? ([x, y] as const), draft, setDraft: place, keep };
+  return { at: draft ?? kept, draft, setDraft, keep };
+}
+
+/** Where a thing stands for the one who moves it, never off the map. */
+export function useDraftPoint(map: Extent, at: Point, isSending: boolean, send: Send<Point>): DraftPoint {
+  const { setDraft, keep, ...shown } = useDraft(at, isSame, isSending, send);
+  return { ...shown, setDraft: (point) => setDraft(point && onMap(point, map)), keep: () => keep() };
 }
