@@ -19,6 +19,7 @@ import { Robots } from "./robots/Robots";
 import { prismOfObstacle, prismsOf, SUN } from "./shadows";
 import styles from "./Scene3D.module.css";
 import type { CameraMode, CopyOf, Moment, SceneDevice, SceneMap, SceneRecording } from "./types";
+import { useArea } from "./useArea";
 
 interface SceneProps {
   map: SceneMap;
@@ -59,18 +60,11 @@ function usePalette(): Palette {
   return palette;
 }
 
-/** The known floor's middle and largest side, in metres. */
-function extent(map: SceneMap) {
-  const width = map.width * map.resolution_m;
-  const depth = map.height * map.resolution_m;
-  return { centre: new THREE.Vector3(map.origin.x + width / 2, 0, -(map.origin.y + depth / 2)), width, depth };
-}
-
 function CameraRig({ map, recording, moment, camera: mode, follow }: SceneProps) {
   const camera = useThree((state) => state.camera) as THREE.PerspectiveCamera;
   const aspect = useThree((state) => state.size.width / Math.max(1, state.size.height));
   const controls = useRef<Controls>(null);
-  const area = useMemo(() => extent(map), [map]);
+  const area = useArea(map);
   useEffect(() => {
     camera.fov = mode === "robot" ? ROBOT_CAMERA.field : FIELD_OF_VIEW;
     camera.updateProjectionMatrix();
