@@ -37,6 +37,7 @@ import { useObstacles } from "./obstacles/useObstacles";
 import { PlaceHandles } from "./places/PlaceHandles";
 import { PlacesPanel } from "./places/PlacesPanel";
 import { usePlaces } from "./places/usePlaces";
+import { useFloorCounts } from "./useFloorCounts";
 import { useZoomedView } from "./useZoomedView";
 import { ZoomControls } from "./ZoomControls";
 import { useZones } from "./zones/useZones";
@@ -45,11 +46,12 @@ import { ZonesPanel } from "./zones/ZonesPanel";
 
 function Facts({ map }: { map: SiteMap }) {
   const { t } = useTranslation();
+  const { free, known } = useFloorCounts(map.cells);
   const metres = (value: number, digits = 1) => withUnit(formatNumber(value, digits), "m");
   const facts: [string, string][] = [
     ["size", `${metres(map.width * map.resolution_m)} × ${metres(map.height * map.resolution_m)}`],
-    ["free", withUnit(formatNumber(freeArea(map), 1), "m²")],
-    ["known", withUnit(formatNumber(knownShare(map) * 100), "%")],
+    ["free", withUnit(formatNumber(free * map.resolution_m ** 2, 1), "m²")],
+    ["known", withUnit(formatNumber(known * 100), "%")],
     ["resolution", withUnit(formatNumber(map.resolution_m * 100, 1), t("pages.map.perCell"))],
     ["cells", `${formatNumber(map.width)} × ${formatNumber(map.height)}`],
     ["origin", formatPoint(map.origin.x, map.origin.y)],
@@ -268,25 +270,4 @@ export function MapPage() {
       ) : null}
     </PageShell>
   );
-}
-
-interface Cells {
-  readonly cells: Uint8Array;
-  readonly resolution_m: number;
-}
-
-function share(cells: Uint8Array, accept: (cell: number) => boolean): number {
-  let found = 0;
-  for (const cell of cells) if (accept(cell)) found += 1;
-  return found;
-}
-
-/** Square metres that are free. */
-export function freeArea({ cells, resolution_m }: Cells): number {
-  return share(cells, (cell) => cell === 0) * resolution_m * resolution_m;
-}
-
-/** 0 to 1: how much of the map is known. */
-export function knownShare({ cells }: Cells): number {
-  return cells.length > 0 ? share(cells, (cell) => cell !== 255) / cells.length : 0;
 }
