@@ -11,33 +11,27 @@ import type { Site, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { IconButton } from "@/design/IconButton";
 import { Panel } from "@/design/Panel";
-import type { Point } from "@/map/plane/projection";
 import { PageShell } from "@/shell/PageShell";
 import { EditSurface } from "./EditSurface";
-import { begin, change, redo, undo, type Edits } from "./history";
 import { LeaveGuard } from "./LeaveGuard";
 import styles from "./mapEdit.module.css";
 import { SaveDialog } from "./SaveDialog";
 import { ToolPanel } from "./ToolPanel";
-import { applyStroke, FIRST_SETTINGS } from "./tools";
+import { FIRST_SETTINGS } from "./tools";
 import { useEditKeys } from "./useEditKeys";
+import { useEdits } from "./useEdits";
 
 export function MapEditor({ site, newest }: { site: Site; newest: SiteMap }) {
   const { t } = useTranslation();
   const navigate = useNavigate();
   const [base] = useState(newest);
-  const [edits, setEdits] = useState<Edits>(() => begin(base));
+  const { edits, measured, finish, change, changeLie, undo, redo } = useEdits(base);
   const [settings, set] = useState(FIRST_SETTINGS);
-  const [measured, setMeasured] = useState<readonly Point[]>([]);
   const [stage, setStage] = useState<"drawing" | "saving" | "saved">("drawing");
   const devices = (useDevices(site.slug).data ?? []).filter(({ lifecycle }) => lifecycle === "approved");
   const isChanged = edits.now !== base;
-  const finish = (stroke: readonly Point[]) => {
-    if (settings.tool === "measure") setMeasured(stroke);
-    else setEdits((last) => change(last, applyStroke(last.now, settings, stroke)));
-  };
   const choose = (tool: typeof settings.tool) => set({ ...settings, tool });
-  useEditKeys({ choose, undo: () => setEdits(undo), redo: () => setEdits(redo), isOff: stage !== "drawing" });
+  useEditKeys({ choose, undo, redo, isOff: stage !== "drawing" });
   const saved = (version: number) => {
     setStage("saved");
     notifications.show({ message: t("mapEdit.saved", { version }) });
@@ -50,10 +44,10 @@ export function MapEditor({ site, newest }: { site: Site; newest: SiteMap }) {
       chips={<Chip>{t(isChanged ? "mapEdit.unsaved" : "pages.map.version", { version: base.version })}</Chip>}
       actions={
         <>
-          <IconButton label={t("mapEdit.undo")} disabled={edits.past.length === 0} onClick={() => setEdits(undo)}>
+          <IconButton label={t("mapEdit.undo")} disabled={edits.past.length === 0} onClick={undo}>
             <Undo2 size={17} aria-hidden="true" />
           </IconButton>
-          <IconButton label={t("mapEdit.redo")} disabled={edits.future.length === 0} onClick={() => setEdits(redo)}>
+          <IconButton label={t("mapEdit.redo")} disabled={edits.future.length === 0} onClick={redo}>
             <Redo2 size={17} aria-hidden="true" />
           </IconButton>
           <Button
@@ -85,7 +79,7 @@ export function MapEditor({ site, newest }: { site: Site; newest: SiteMap }) {
             devices={devices}
             settings={settings}
             choose={choose}
-            finish={finish}
+            finish={(stroke) => finish(settings, stroke)}
             measured={measured}
           />
         </Panel>
@@ -99,7 +93,8 @@ export function MapEditor({ site, newest }: { site: Site; newest: SiteMap }) {
             map={edits.now}
             settings={settings}
             set={set}
-            change={(map) => setEdits((last) => change(last, map))}
+            change={change}
+            changeLie={changeLie}
             measured={measured}
           />
         </Panel>

@@ -9,7 +9,7 @@ import type { CellMap } from "@/map/floor/rosFiles";
 import type { Point } from "@/map/plane/projection";
 import { rescale, type Material } from "./cells/edits";
 import { eraseSpecks } from "./cells/specks";
-import { turnBy, turnQuarter } from "./cells/turning";
+import { fitsTurned, turnBy, turnQuarter } from "./cells/turning";
 import { lengthOf } from "../map/measure/measuring";
 import styles from "./mapEdit.module.css";
 import type { Settings } from "./tools";
@@ -18,13 +18,15 @@ interface PanelProps {
   map: CellMap;
   settings: Settings;
   set: (settings: Settings) => void;
+  /** Go on with a map that lies as this one does, or with one that does not. */
   change: (map: CellMap) => void;
+  changeLie: (map: CellMap) => void;
   measured: readonly Point[];
 }
 
 const MATERIALS: readonly Material[] = ["wall", "floor", "unknown"];
 
-export function ToolPanel({ map, settings, set, change, measured }: PanelProps) {
+export function ToolPanel({ map, settings, set, change, changeLie, measured }: PanelProps) {
   const { t } = useTranslation();
   const { tool } = settings;
   return (
@@ -54,17 +56,15 @@ export function ToolPanel({ map, settings, set, change, measured }: PanelProps) 
             }
           />
         ) : null}
-        {tool === "measure" ? <Scale map={map} measured={measured} change={change} /> : null}
+        {tool === "measure" ? <Scale map={map} measured={measured} changeLie={changeLie} /> : null}
       </section>
-      <Turning map={map} change={change} />
+      <Turning map={map} changeLie={changeLie} />
       <Specks map={map} change={change} />
     </>
   );
 }
 
-type WholeProps = Pick<PanelProps, "map" | "change">;
-
-function Scale({ map, measured, change }: Pick<PanelProps, "map" | "change" | "measured">) {
+function Scale({ map, measured, changeLie }: Pick<PanelProps, "map" | "changeLie" | "measured">) {
   const { t } = useTranslation();
   const [length, setLength] = useState<number | string>("");
   const known = lengthOf(measured);
@@ -81,17 +81,18 @@ function Scale({ map, measured, change }: Pick<PanelProps, "map" | "change" | "m
         value={length}
         onChange={setLength}
       />
-      <Button variant="default" disabled={scaled === map} onClick={() => change(scaled)}>
+      <Button variant="default" disabled={scaled === map} onClick={() => changeLie(scaled)}>
         {t("mapEdit.scale")}
       </Button>
     </>
   );
 }
 
-function Turning({ map, change }: WholeProps) {
+function Turning({ map, changeLie }: Pick<PanelProps, "map" | "changeLie">) {
   const { t } = useTranslation();
   const [degrees, setDegrees] = useState<number | string>("");
-  const turned = Number(degrees) ? () => change(turnBy(map, Number(degrees))) : undefined;
+  const isTooLarge = !fitsTurned(map, Number(degrees));
+  const turned = Number(degrees) && !isTooLarge ? () => changeLie(turnBy(map, Number(degrees))) : undefined;
   return (
     <section aria-labelledby="turn">
       <h2 id="turn">{t("mapEdit.turn")}</h2>
@@ -101,7 +102,7 @@ function Turning({ map, change }: WholeProps) {
             key={way}
             variant="default"
             leftSection={way === "left" ? <RotateCcw size={16} /> : <RotateCw size={16} />}
-            onClick={() => change(turnQuarter(map, way))}
+            onClick={() => changeLie(turnQuarter(map, way))}
           >
             {t(`mapEdit.quarter.${way}`)}
           </Button>
@@ -123,11 +124,14 @@ function Turning({ map, change }: WholeProps) {
           {t("mapEdit.turnBy")}
         </Button>
       </div>
+      <p className={styles.quiet} role="status">
+        {isTooLarge ? t("mapEdit.turnedTooLarge") : ""}
+      </p>
     </section>
   );
 }
 
-function Specks({ map, change }: WholeProps) {
+function Specks({ map, change }: Pick<PanelProps, "map" | "change">) {
   const { t } = useTranslation();
   const [least, setLeast] = useState<number | string>(6);
   const [told, setTold] = useState("");

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { drawn, letters } from "./drawn";
-import { turnBy, turnQuarter } from "./turning";
+import { fitsTurned, turnBy, turnQuarter } from "./turning";
 
 const L = drawn("#...", "#...", "##??");
 
@@ -19,4 +19,10 @@ test("other angles cut nothing off and leave the corners unknown", () => {
 
 test("no turn leaves the map as it is", () => {
   for (const degrees of [0, 360, Number.NaN]) expect(turnBy(L, degrees)).toBe(L);
+});
+
+test("a map that would have more than 4096 cells on a side is left as it is", () => {
+  const long = { ...L, width: 4096, height: 300, cells: new Uint8Array(4096 * 300) };
+  expect([0, 5, 90, Number.NaN].map((degrees) => fitsTurned(long, degrees))).toEqual([true, false, true, true]);
+  expect(turnBy(long, 5)).toBe(long);
 });

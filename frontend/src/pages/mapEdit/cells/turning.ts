@@ -19,14 +19,29 @@ export function turnQuarter(map: CellMap, way: "left" | "right"): CellMap {
   return { ...map, width: height, height: width, cells: turned, origin: corner };
 }
 
-/** Turn by so many degrees anticlockwise; the map grows so that nothing is cut off, new corners are unknown. */
+/** Columns and rows of the map turned by so many degrees. */
+function sidesTurned({ width, height }: CellMap, degrees: number): [width: number, height: number] {
+  const angle = (degrees * Math.PI) / 180;
+  const [cos, sin] = [Math.abs(Math.cos(angle)), Math.abs(Math.sin(angle))];
+  const side = (along: number, across: number) => Math.ceil(Math.round((along * cos + across * sin) * 1e6) / 1e6);
+  return [side(width, height), side(height, width)];
+}
+
+/** Whether the map turned by so many degrees has no more cells on a side than a map may have. */
+export function fitsTurned(map: CellMap, degrees: number): boolean {
+  return !(Math.max(...sidesTurned(map, degrees)) > MOST_SIDE);
+}
+
+/**
+ * Turn by so many degrees anticlockwise; the map grows so that nothing is cut off, new corners are unknown.
+ *
+ * The same map where it does not fit turned.
+ */
 export function turnBy(map: CellMap, degrees: number): CellMap {
+  if (!Number.isFinite(degrees) || Math.abs(degrees % 360) < 1e-9 || !fitsTurned(map, degrees)) return map;
   const angle = (degrees * Math.PI) / 180;
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
-  const side = (along: number, across: number) =>
-    Math.ceil(Math.round((Math.abs(along * cos) + Math.abs(across * sin)) * 1e6) / 1e6);
-  const [width, height] = [side(map.width, map.height), side(map.height, map.width)];
-  if (!Number.isFinite(angle) || Math.abs(degrees % 360) < 1e-9 || Math.max(width, height) > MOST_SIDE) return map;
+  const [width, height] = sidesTurned(map, degrees);
   const cells = new Uint8Array(width * height).fill(UNKNOWN);
   for (let row = 0; row < height; row += 1)
     for (let column = 0; column < width; column += 1) {
