@@ -36,11 +36,18 @@ export function Filming({ rehearsal, duration_s, player, opened, onClose }: Film
   const [speed, setSpeed] = useState(USUAL_SPEED);
   const [failed, setFailed] = useState(false);
   const { film, begin, finish, drop } = useFilm(rehearsal, player, duration_s);
-  const start = () => setFailed(!begin(speed));
+  const close = () => {
+    setFailed(false);
+    onClose();
+  };
+  const start = () => {
+    if (begin(speed)) close();
+    else setFailed(true);
+  };
   const able = filmForm() !== null;
   return (
     <>
-      <Modal opened={opened && !film} onClose={onClose} title={t("simulation.film.title")} size={460}>
+      <Modal opened={opened && !film} onClose={close} title={t("simulation.film.title")} size={460}>
         <div className={styles.form}>
           <p>{t(able ? "simulation.film.about" : "simulation.film.unable")}</p>
           <Select
@@ -55,17 +62,14 @@ export function Filming({ rehearsal, duration_s, player, opened, onClose }: Film
           />
           {failed ? <p role="alert">{t("simulation.film.no_picture")}</p> : null}
           <div className={styles.buttons}>
-            <Button variant="default" onClick={onClose}>
+            <Button variant="default" onClick={close}>
               {t("editor.cancel")}
             </Button>
             <Button
               data-autofocus
               disabled={!able}
               leftSection={<FilmIcon size={16} aria-hidden="true" />}
-              onClick={() => {
-                start();
-                onClose();
-              }}
+              onClick={start}
             >
               {t("simulation.film.begin")}
             </Button>
