@@ -71,6 +71,27 @@ def test_a_drawing_is_read_aligned_and_looked_at_before_it_replaces_the_map(sign
     assert version(page) == before
 
 
+def test_a_finger_puts_a_point_of_the_alignment_elsewhere(sign_in: SignIn) -> None:
+    page = sign_in("admin", "/sites/painting-factory/map/new", width=820, height=600)
+    bring(page, "hall.dxf", hall())
+    page.get_by_label("One unit of the drawing is").select_option(label="a millimetre")
+    page.get_by_role("switch", name="Align it with the present map").press("Space")
+    point = page.get_by_role("button", name="Point 1 of the brought map")
+    point.scroll_into_view_if_needed()
+    before, box = point.get_attribute("transform"), point.bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    cdp = page.context.new_cdp_session(page)
+    cdp.send("Emulation.setTouchEmulationEnabled", {"enabled": True})
+    for kind, up in (("touchStart", 0), *(("touchMove", 5 * part) for part in range(1, 9))):
+        cdp.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y - up}]})
+    cdp.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    expect(point).not_to_have_attribute("transform", before or "")
+    after = point.bounding_box()
+    assert after is not None
+    assert after["y"] < box["y"] - 30
+
+
 def test_a_file_that_is_no_drawing_is_refused_where_it_was_chosen(sign_in: SignIn, faults: list[str]) -> None:
     page = sign_in("admin", "/sites/painting-factory/map/new")
     bring(page, "hall.dxf", b"AC1032 not this one")
