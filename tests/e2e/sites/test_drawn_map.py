@@ -74,7 +74,10 @@ def test_a_drawing_is_read_aligned_and_looked_at_before_it_replaces_the_map(sign
 def test_a_finger_puts_a_point_of_the_alignment_elsewhere(sign_in: SignIn) -> None:
     page = sign_in("admin", "/sites/painting-factory/map/new", width=820, height=600)
     bring(page, "hall.dxf", hall())
+    expect(page.get_by_label("One unit of the drawing is")).to_have_value("0")
     page.get_by_label("One unit of the drawing is").select_option(label="a millimetre")
+    expect(page.get_by_text(re.compile(r"What is chosen is 12\.0.m . 8\.0.m"))).to_be_visible()
+    expect(page.get_by_role("button", name="Use this map")).to_be_enabled()
     page.get_by_role("switch", name="Align it with the present map").press("Space")
     point = page.get_by_role("button", name="Point 1 of the brought map")
     point.scroll_into_view_if_needed()
