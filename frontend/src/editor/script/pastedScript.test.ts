@@ -66,6 +66,20 @@ test("of a whole script the steps are taken, with what its run gives them", () =
   expect(text).toBe(PRINTED.script.replace("curingOven01", "oven02"));
 });
 
+test("a name that the program gives to another device is another one in what is pasted", () => {
+  const pasted = PRINTED.script.replace("curingOven01", "oven02");
+  const text = scriptWith(pasted, PRINTED, "w3", [OVEN])?.split("\n");
+  expect(text?.filter((line) => /curing_oven/.test(line))).toEqual([
+    "        if self.curing_oven.temperature > 60:",
+    "        if self.curing_oven_2.temperature > 60:",
+    '        self.curing_oven = ctx.get("curingOven01")',
+    '        self.curing_oven_2 = ctx.get("oven02")',
+  ]);
+  expect(scriptWith(pasted, { ...PRINTED, script: text?.join("\n") ?? "" }, null, [OVEN])).not.toMatch(/oven_3/);
+  const same = scriptWith(PRINTED.script, PRINTED, "w3", [OVEN]);
+  expect(same).not.toMatch(/oven_2/);
+});
+
 test("an empty text is nothing to paste", () => {
   expect(scriptWith(" \n", EMPTY, null, [])).toBeNull();
 });

@@ -14,15 +14,17 @@ import { scriptWithChosen, strangersInScript } from "./strangers";
 import type { DrawnScript } from "./session";
 
 const GIVEN = /self\.(\p{ID_Continue}+)\s*=\s*(ctx\.\w+\([^\n]*\))/gu;
+const NAMED = /\bself\.(\p{ID_Continue}+)/gu;
 const CALL_OF_NEW_TASK = /^\s*self\.new_task\(\)\s*$/;
 
 /** The program's script with the pasted lines behind a step, or at its end; null where nothing is to be pasted. */
 export function scriptWith(
-  pasted: string,
+  text: string,
   { script, lines }: Printed,
   behind: string | null,
   devices: readonly NamedDevice[],
 ): string | null {
+  const pasted = withOwnNames(text, script);
   const body = bodyOf(pasted.replaceAll("\t", "    ").split("\n"));
   if (body.length === 0) return null;
   const printed = script.split("\n");
@@ -35,6 +37,33 @@ export function scriptWith(
   const before = printed.slice(0, spot.at).filter((line, index) => !(index === spot.at - 1 && line.trim() === "pass"));
   const between = [...printed.slice(spot.at, defined), ...functions, ...printed.slice(defined, run)];
   return [...before, ...own, ...between, ...given, ...printed.slice(run)].join("\n");
+}
+
+/** What `run` gives each name: `ctx.get("oven01")`. */
+function givenIn(script: string): Map<string, string> {
+  return new Map([...script.matchAll(GIVEN)].map(([, name, what]) => [name ?? "", what ?? ""]));
+}
+
+/**
+ * The pasted lines with another name for what they mean by one that the program gives to something else: the name by
+ * which the program has the same, or a fresh one. So each step goes on driving its robot.
+ */
+function withOwnNames(pasted: string, script: string): string {
+  const [ours, theirs] = [givenIn(script), givenIn(pasted)];
+  const taken = new Set([...`${script}\n${pasted}`.matchAll(NAMED)].map(([, name]) => name));
+  const others = new Map<string, string>();
+  for (const [name, what] of theirs) {
+    if (!ours.has(name) || ours.get(name) === what) continue;
+    const same = [...ours].find(([, each]) => each === what)?.[0];
+    let number = 2;
+    while (taken.has(`${name}_${number}`)) number += 1;
+    const other = same ?? `${name}_${number}`;
+    taken.add(other);
+    others.set(name, other);
+  }
+  return pasted.replace(NAMED, (whole, name: string) =>
+    others.has(name) ? `self.${others.get(name) ?? name}` : whole,
+  );
 }
 
 /** The lines of new_task of a whole script, else all lines; without what indents them all, and blank ends. */
@@ -76,8 +105,7 @@ const OWN_FUNCTIONS = ["new_task", "run"];
 
 /** The lines that `run` needs for names that it does not give yet. */
 function missingNames(body: string, script: string, pasted: string, devices: readonly NamedDevice[]): string[] {
-  const known = new Set([...script.matchAll(GIVEN)].map(([, name]) => name));
-  const theirs = new Map([...pasted.matchAll(GIVEN)].map(([, name, what]) => [name, what]));
+  const [known, theirs] = [givenIn(script), givenIn(pasted)];
   const used = new Set(
     [...body.matchAll(/self\.(\p{ID_Continue}+)(?!\p{ID_Continue}*\()/gu)].map(([, name]) => name ?? ""),
   );
