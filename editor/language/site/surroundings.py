@@ -83,14 +83,12 @@ class FloorFacts(Protocol):
 class HeldDevice:
     """A device that a variable may hold: by its id, or as the robot of a role, by its name in the script.
 
-    Without either it is one that people choose for a parameter: any approved one, of which these methods and readings
-    are used.
+    Without either it is one that people choose for a parameter: any approved one, of which these methods are used.
     """
 
     device: str | None = None
     role: str | None = None
     methods: frozenset[str] = frozenset()
-    readings: frozenset[str] = frozenset()
 
     @property
     def is_chosen(self) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Final, Literal, NamedTuple
+from typing import Final, NamedTuple
 
 from editor.language.expressions.nodes import (
     OF_PROBLEM,
@@ -66,11 +66,10 @@ def _has_variables(tree: Tree) -> bool:
 
 
 class _Use(NamedTuple):
-    """What a step does with the device that a variable holds: carries out a method, reads a property, or is there."""
+    """That a step has to do with the device that a variable holds, and which method it carries out there, if any."""
 
     variable: str
-    kind: Literal["method", "reading", "place"]
-    name: str
+    method: str = ""
 
 
 def _uses(tree: Tree) -> dict[int, list[_Use]]:
@@ -102,7 +101,7 @@ def _add_uses(node: n.Node, value: object, used: list[_Use]) -> None:
     """Add what a step does with devices that variables hold by one of its fields."""
     match value:
         case PlaceRef(value=Variable(name=name)):
-            used.append(_Use(name, "method", node.method) if isinstance(node, n.Operate) else _Use(name, "place", ""))
+            used.append(_Use(name, node.method if isinstance(node, n.Operate) else ""))
         case tuple():
             for each in value:
                 _add_readings(each[1] if isinstance(each, tuple) else each, used)
@@ -117,7 +116,7 @@ def _add_readings(value: object, used: list[_Use]) -> None:
             if argument.__class__ not in _WITHOUT_USES:
                 _add_readings(argument, used)
     elif isinstance(value, Reading) and isinstance(value.device, Variable):
-        used.append(_Use(value.device.name, "reading", value.property))
+        used.append(_Use(value.device.name))
 
 
 @dataclass(slots=True)
@@ -227,15 +226,13 @@ class _Gathering:
         return {key: frozenset(held) for key, held in self.devices.items() if key not in self.anything}
 
     def _chosen(self, parameter: Key) -> HeldDevice:
-        """Return the device that people choose for a parameter of the program: any that can do what is done with it."""
+        """Return the device that people choose for a parameter of the program, with what it is told to do."""
         reached, left = {parameter}, [parameter]
         while left:
             new = self.taken_by.get(left.pop(), set()) - reached
             reached |= new
             left.extend(new)
-        uses = {use for key in reached for use in self.used.get(key, ())}
-        methods, readings = ({use.name for use in uses if use.kind == kind} for kind in ("method", "reading"))
-        return HeldDevice(methods=frozenset(methods - {""}), readings=frozenset(readings - {""}))
+        return HeldDevice(methods=frozenset(u.method for key in reached for u in self.used.get(key, ()) if u.method))
 
 
 @dataclass(frozen=True, slots=True)

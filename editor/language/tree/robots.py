@@ -212,7 +212,8 @@ class Candidates:
     def told_by_held(self, held: Held | None, name: str) -> Told:
         """Return what these report under a name; one that says no unit counts as the others do.
 
-        Of those that people may choose only such are looked at that can do all that the program does with them.
+        Those that people may choose are left out where they can do nothing of what the program does with them: such a
+        one fails in the program's first step with it.
         """
         key = (held, name)
         if key not in self._told_by_held:
@@ -236,8 +237,8 @@ class Candidates:
 
 
 def _can(device: Description, wanted: HeldDevice) -> bool:
-    """Tell whether a device has all methods and readings that a program uses of it."""
-    return all(map(device.method, wanted.methods)) and all(map(device.property, wanted.readings))
+    """Tell whether a device has any of the methods that a program uses of it, if it uses any."""
+    return not wanted.methods or any(map(device.method, wanted.methods))
 
 
 def with_crew(surroundings: Surroundings, roles: Sequence[Role]) -> Surroundings:

@@ -155,11 +155,25 @@ CHOSEN = f'self.m = ctx.parameter("m", "{OVEN}", Device)'
     f'{ORDER}\nif self.m.read("temperature") > 40:\n    self.say()',
     f'self.use(machine=self.m)\n{ORDER}',
 ])  # fmt: skip
-def test_of_a_device_that_people_choose_only_those_count_that_can_do_all_that_is_done_with_it(body: str) -> None:
+def test_of_devices_that_people_choose_those_do_not_count_that_can_do_nothing_of_what_is_done(
+    body: str,
+) -> None:
     use = TELL.replace("tell", "use")
     functions = SAY + (use if "self.use" in body else "")
     assert told(body, functions, with_thermometer(), CHOSEN) == []
     assert told(body, functions, site("MIN", "K"), CHOSEN) == ["units_differ"]
+
+
+def test_who_can_do_a_part_of_what_is_done_with_a_device_that_people_choose_counts_with_its_readings() -> None:
+    where = site("MIN", "K")
+    twin = where.devices[TWIN]
+    less = replace(twin.description, methods=tuple(each for each in twin.description.methods if each.name != "beep"))
+    oven = where.devices[OVEN]
+    beep = replace(oven.description.methods[0], name="beep", parameters=())
+    more = replace(oven.description, methods=(*oven.description.methods, beep))
+    devices = {**where.devices, TWIN: replace(twin, description=less), OVEN: replace(oven, description=more)}
+    body = f'{ORDER}\nself.m.operate("beep")\nif self.m.read("temperature") > 40:\n    self.say()'
+    assert "units_differ" in told(body, SAY, replace(where, devices=devices), CHOSEN)
 
 
 def test_a_machine_that_people_may_choose_is_never_told_a_number_in_another_unit() -> None:
