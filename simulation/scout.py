@@ -88,7 +88,7 @@ def describe_scout(plan: ScoutPlan, start: Pose) -> Description:
 class ScoutActor(Robot):
     """What the robot does with commands: it explores, or drives where it is told to on the map that it has made.
 
-    Exploring that was cancelled, or that a narrow place ended, goes on with its map; one that is over is new.
+    Exploring that was cancelled or has failed goes on with its map; after one that is done it begins a new one.
     """
 
     def __init__(
@@ -123,7 +123,7 @@ class ScoutActor(Robot):
             return super()._take_on(t_s, method, arguments, command)
         if self.busy:
             return f"{self.description.name} drives. Wait until it stands, or cancel that."
-        if not self.expedition.go_on() and self.expedition.is_over:
+        if not self.expedition.go_on():
             self._begin_anew()
         self._exploring = command
         self._say(t_s, AckMessage(command, "ACCEPTED"))

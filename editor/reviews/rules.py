@@ -40,6 +40,8 @@ def set_rule(*, site: str, approvals: int | None = None, least_role: LeastRole |
             before.approvals if approvals is None else approvals,
             before.least_role if least_role is None else least_role,
         )
+        if rule == before:
+            return rule
         row.approvals, row.least_role = rule.approvals, rule.least_role
         row.save(update_fields=["approvals", "least_role"])
         facts = {"count": rule.approvals, "role": rule.least_role}

@@ -35,7 +35,7 @@ def _works(device: registry.DeviceView, paces: Mapping[str, float] | None) -> di
     """Return a device as a rehearsal meets it: what it is called makes no difference there, its measured paces do."""
     told = {name: value for name, value in description_to_json(device.at_home).items() if name != "name"}
     more: dict[str, Any] = {"paces": paces} if paces else {}
-    return told | more | ({"idless": True} if device.only_done_flag else {})
+    return told | more | ({"idless": True} if device.is_of_paper else {})
 
 
 def what_changed(then: Digests, now: Digests) -> dict[str, Any] | None:

@@ -17,7 +17,7 @@ from execution import database
 from execution.errors import NotPossibleNow, NotReady
 from execution.floor.stops import get_stop
 from execution.machine.evaluation import EvaluationError, bound_roles, is_true
-from execution.machine.needs import Facts, needs_of
+from execution.machine.needs import needs_of
 from execution.models import ArmedProgram, Run
 from execution.runs.facts import site_facts
 from execution.runs.programs import Prepared
@@ -27,7 +27,26 @@ from registry import services as registry
 
 log = logging.getLogger(__name__)
 PLANS_KEPT = 64
-_plans: OrderedDict[tuple[UUID, datetime], Plan] = OrderedDict()
+_watched: OrderedDict[tuple[UUID, datetime], _Watched] = OrderedDict()
+
+
+class _Watched:
+    """A plan with all that its conditions ask of the site, as far as the plan alone tells it. Raises what it may."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.starters = [(number, event) for number, event in enumerate(plan.events) if event.starts == "run"]
+        self._parameters, self._needs, self._bound = plan.parameters, needs_of(plan), bound_roles(plan)
+        self._zones = {zone.id: zone.points for zone in plan.zones}
+
+    def look(self, site: str, now: datetime) -> dict[str, bool]:
+        """Return which of the conditions that start the program hold; one that cannot be worked out does not."""
+        facts, truths = site_facts(self._needs, site, now) | self._bound, {}
+        for number, event in self.starters:
+            try:
+                truths[str(number)] = is_true(event.condition, self._parameters, facts, self._zones)
+            except EvaluationError:
+                truths[str(number)] = False
+        return truths
 
 
 def list_armed(*, site: str) -> tuple[ArmedView, ...]:
@@ -46,8 +65,8 @@ def arm_program(*, prepared: Prepared, by: str, fence: int | None = None) -> Arm
         editor.NotApproved: approvals that the site demands are missing.
         NotPossibleNow: the site is stopped.
     """
-    plan = plan_from_json(prepared.plan)
-    if not _starters(plan):
+    watched = _Watched(plan_from_json(prepared.plan))
+    if not watched.starters:
         detail = "Nothing starts this program by itself. Add a step “When …” that starts a run."
         raise NotReady(detail, {"why": "never_starts"})
     stop = get_stop(site=prepared.site)
@@ -55,7 +74,7 @@ def arm_program(*, prepared: Prepared, by: str, fence: int | None = None) -> Arm
         raise NotPossibleNow("The site is stopped. Reset the stop before you arm a program.", {"why": "stopped"})
     now = datetime.now(UTC)
     whole = {**asdict(prepared), "program": str(prepared.program)}
-    truths = _look(plan, _facts(plan, prepared.site, now))
+    truths = watched.look(prepared.site, now)
     values = {
         "site_id": registry.get_site_id(site=prepared.site),
         "prepared": whole,
@@ -117,15 +136,15 @@ def _look_at(row: ArmedProgram, now: datetime) -> bool:
     One that cannot be read is disarmed; what looking at the site raises may pass, so it stays armed.
     """
     try:
-        plan, prepared = _plan(row), Prepared(**{**row.prepared, "program": row.program})
+        watched, prepared = _watch(row), Prepared(**{**row.prepared, "program": row.program})
     except Exception:  # it was armed by another version of VIPO, say: it would never start, and nobody would know
         log.exception("The armed program %s cannot be read and is disarmed.", row.program)
         _disarm(row, "armed_run_unreadable")
         return False
-    truths = _look(plan, _facts(plan, row.site.slug, now))
+    truths = watched.look(row.site.slug, now)
     if truths == row.truths:
         return False
-    due = next((e for number, e in _starters(plan) if truths[str(number)] and not row.truths.get(str(number))), None)
+    due = next((e for number, e in watched.starters if truths[str(number)] and not row.truths.get(str(number))), None)
     try:
         with transaction.atomic():
             mine = ArmedProgram.objects.filter(program=row.program, epoch=row.epoch, at=row.at)
@@ -172,30 +191,10 @@ def _is_under_way(program: UUID, now: datetime) -> bool:
     return runs.exclude(state=None, not_before__gt=now).exists()
 
 
-def _starters(plan: Plan) -> list[tuple[int, EventEntry]]:
-    return [(number, event) for number, event in enumerate(plan.events) if event.starts == "run"]
-
-
-def _look(plan: Plan, facts: Facts) -> dict[str, bool]:
-    """Return which of the conditions that start the program hold; one that cannot be worked out does not."""
-    zones = {zone.id: zone.points for zone in plan.zones}
-    truths = {}
-    for number, event in _starters(plan):
-        try:
-            truths[str(number)] = is_true(event.condition, plan.parameters, facts, zones)
-        except EvaluationError:
-            truths[str(number)] = False
-    return truths
-
-
-def _facts(plan: Plan, site: str, now: datetime) -> Facts:
-    return site_facts(needs_of(plan), site, now) | bound_roles(plan)
-
-
-def _plan(row: ArmedProgram) -> Plan:
+def _watch(row: ArmedProgram) -> _Watched:
     key = (row.program, row.at)
-    if key not in _plans:
-        _plans[key] = plan_from_json(row.prepared["plan"])
-        while len(_plans) > PLANS_KEPT:
-            _plans.popitem(last=False)
-    return _plans[key]
+    if key not in _watched:
+        _watched[key] = _Watched(plan_from_json(row.prepared["plan"]))
+        while len(_watched) > PLANS_KEPT:
+            _watched.popitem(last=False)
+    return _watched[key]

@@ -27,7 +27,8 @@ class DeviceView:
     """A device as it is now: `canonical` has the name and place that hold, `readings` its properties' values.
 
     `has_key` tells whether it can come in with a key of its own, `dropped` how many of its messages were not taken,
-    `only_done_flag` that it describes itself by the paper's message and so may answer no command but by `done`;
+    `is_of_paper` that it describes itself by the paper's message and so knows no command by its id, `only_done_flag`
+    that whoever plays it now may therefore answer no command but by `done`;
     `stand_in` tells that it is simulated in place of the real one, and `stands_at` where a real robot is meanwhile;
     `asks` are the methods that nobody may call before an admin has confirmed their topics. `home` is where a robot
     belongs, by its description or where people put it.
@@ -48,11 +49,16 @@ class DeviceView:
     last_seen_at: datetime | None = None
     has_key: bool = False
     dropped: int = 0
-    only_done_flag: bool = False
+    is_of_paper: bool = False
     stand_in: bool = False
     stands_at: Pose | None = None
     asks: tuple[MethodSpec, ...] = ()
     home: Pose | None = None
+
+    @property
+    def only_done_flag(self) -> bool:
+        """Whether it answers by `done` alone: a stand-in answers each command."""
+        return self.is_of_paper and not self.stand_in
 
     @property
     def whole(self) -> Description:
@@ -105,7 +111,7 @@ def view_of(device: Device, site: str) -> DeviceView:
         last_seen_at=device.last_seen_at,
         has_key=bool(device.credential_hash),
         dropped=device.dropped,
-        only_done_flag=device.source_type == CONTENT_TYPES["paper"] and not device.stand_in,
+        is_of_paper=device.source_type == CONTENT_TYPES["paper"],
         stand_in=device.stand_in,
         stands_at=place_of_real(canonical.kind, device.aside),
         asks=asks,

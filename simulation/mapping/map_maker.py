@@ -200,7 +200,10 @@ class MapMaker:
         goal = choose_goal(paths, self.robot.radius_m)
         if goal is not None:
             return _Course(list(goal.path), goal)
-        if self.is_barred or find_frontiers(ground) is None:
+        if find_frontiers(ground) is None:
+            self.is_barred = False  # what was behind a narrow place has been seen from elsewhere
+            return None
+        if self.is_barred:
             return None
         ways = NarrowWays(self.occupancy, ground, (self.pose.x, self.pose.y), self.robot.radius_m)
         goal = ways.goal()

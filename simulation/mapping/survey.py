@@ -86,6 +86,7 @@ class Expedition:
         self.maker = MapMaker(plan.robot, believed or start, plan.grid.resolution_m, anchor)
         self._start = self.pose = start
         self._ticks, self._speed, self._turn = 0, 0.0, 0.0
+        self._until_s = plan.longest_s
         self.stands_before = False
         self._driven_m, self._bumps = 0.0, 0
         self._errors = (0.0, 0.0)
@@ -99,13 +100,15 @@ class Expedition:
     @property
     def is_over(self) -> bool:
         """True when the map is made, the robot cannot make more of it, or the time is over."""
-        return self.maker.is_done or self.time_s >= self._plan.longest_s
+        return self.maker.is_done or self.time_s >= self._until_s
 
     def go_on(self) -> bool:
-        """Try anew, with the same map, what a narrow place barred the robot from; False when nothing did."""
-        if not self.maker.is_barred or self.time_s >= self._plan.longest_s:
+        """Explore on with the same map, for as long as at first; False when the map is whole."""
+        if self.maker.is_whole:
             return False
-        self.maker.go_on()
+        self._until_s = self.time_s + self._plan.longest_s
+        if self.maker.is_barred:
+            self.maker.go_on()
         return True
 
     def put_in_the_way(self, obstacles: Sequence[Obstacle]) -> None:

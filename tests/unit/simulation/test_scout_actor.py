@@ -172,9 +172,16 @@ def test_a_scout_that_does_not_get_through_fails_and_goes_on_with_its_map_once_i
     assert score(before.maker.grid(), TrueFloor(floor), start).iou >= 0.97
 
 
-def test_a_scout_whose_time_is_over_does_not_say_that_its_map_is_whole() -> None:
+def test_a_scout_whose_time_is_over_does_not_say_that_its_map_is_whole_and_goes_on_with_it() -> None:
     scout = Driven(hall_with_a_bay(0.7)[0], Pose(1.0, 2.0), longest_s=5.0)
+    begun = scout.actor.expedition
     scout.tell("map", "explore")
     scout.rest()
     why = "The time was over before Scout had seen all that it can reach. "
     assert scout.said("map")[-1] == ("FAILED", why + "Drive it to what is left, and let it explore again.")
+    for number in range(60):
+        scout.tell(f"on{number}", "explore")
+        scout.rest()
+        if scout.said(f"on{number}")[-1][0] == "DONE":
+            break
+    assert (scout.actor.expedition, begun.maker.is_whole) == (begun, True)

@@ -39,14 +39,17 @@ def is_swept() -> bool:
     return not Device.objects.get(id="robot01").online
 
 
-@pytest.mark.parametrize("change", [{"plan": {"format": 99}}, {"unknown": 1}])
+ODD_ZONE = {"id": ["no", "id"], "name": "Odd", "rule": "", "points": [], "speed_m_s": None}
+
+
+@pytest.mark.parametrize("change", [{"plan": {"format": 99}}, {"unknown": 1}, {"plan": {"zones": [ODD_ZONE]}}])
 def test_an_armed_program_that_cannot_be_read_is_disarmed_alone_and_the_record_says_so(
     factory: Any, change: dict[str, Any]
 ) -> None:
     heat_oven(20)
     odd, good = arm("Odd"), arm("Good")
     row = ArmedProgram.objects.get(program=odd)
-    row.prepared |= change
+    row.prepared |= {**change, "plan": row.prepared["plan"] | change.get("plan", {})}
     row.at += timedelta(seconds=1)  # nothing of it is known in this process
     row.save()
     heat_oven(90)
