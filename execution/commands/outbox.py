@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import logging
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime, timedelta
 from functools import reduce
@@ -115,8 +115,9 @@ def record_acks(*, answers: Sequence[Answer], at: datetime, durable: bool = Fals
         for row, said in heard:
             _follow(row, said, at)
     fault_point("after_answer")
-    if any(row.method == "cancel" and said.status == "DONE" for row, said in heard):
-        end_commands_of_runs_over(at)  # in transactions of its own: answers lock their commands in one order
+    called_off = {row.run for row, said in heard if row.method == "cancel" and said.status == "DONE" and row.run}
+    if called_off:  # in transactions of its own: answers lock their commands in one order
+        end_commands_of_runs_over(at, runs=called_off)
     taken = {id(said) for _, said in heard}
     return [id(answer) in taken for answer in answers]
 
@@ -277,15 +278,17 @@ def end_commands_of_those_out(now: datetime) -> None:
                 _end(row, OUT.format(device=row.device), now)
 
 
-def end_commands_of_runs_over(now: datetime) -> None:
+def end_commands_of_runs_over(now: datetime, *, runs: Collection[UUID] | None = None) -> None:
     """End as cancelled what no device has been told of a run that is over: it is told no more, so none will answer.
 
+    Of these runs, or of all.
     A device was told nothing by a command that never went out, or if it has done its cancel without a word of it.
     Pieces of path still go out, so that the robot settles, unless everything was stopped since: as `claim` has it.
     """
     over = Run.objects.filter(id=OuterRef("run")).exclude(status__in=Run.OPEN)
     stopped_since = over.filter(fence__lt=F("site__stop_latch__pressed"))
     rows = Command.objects.filter(status__in=UNANSWERED).exclude(method__in=CONTROLS)
+    rows = rows if runs is None else rows.filter(run__in=runs)
     kept_back = dict(rows.filter(Q(Exists(over), piece=False) | Exists(stopped_since)).values_list("id", "run"))
     if not kept_back:
         return

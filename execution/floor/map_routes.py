@@ -79,7 +79,8 @@ def _replaced(site: str, headers: Mapping[str, str]) -> int:
     if not tag and headers.get("If-None-Match", "").strip() != "*":
         raise MapTagNeeded("Say in If-Match which map this replaces, by its ETag, or If-None-Match: * for none.")
     present = registry.find_map(site=site)
-    if tag != (present.tag if present else ""):
+    # The second is the tag of the version before: a page that was opened then may have a painted map to save.
+    if tag not in ((present.tag, f'"{site}-{present.version}"') if present else ("",)):
         raise _overtaken()
     return present.version if present else 0
 

@@ -139,6 +139,11 @@ def _span(values: list[float]) -> float:
     return max(values) - min(values)
 
 
+def _is_lost_block(code: int, message: str) -> bool:
+    """Tell whether ezdxf has taken out a block that is nowhere; it has the same code for dimensions and styles."""
+    return code == AuditError.UNDEFINED_BLOCK and message.startswith("Deleted entity INSERT")
+
+
 def read_drawing(data: bytes) -> dict[str, Any]:
     """Return what is drawn in a DXF file, and how many metres its unit is (None: it does not say). Raises Refused."""
     if data[:4] == b"AC10":
@@ -153,7 +158,7 @@ def read_drawing(data: bytes) -> dict[str, Any]:
     except (DXFError, OSError, ValueError, TypeError, LookupError, AttributeError, ArithmeticError) as error:
         raise Refused(broken) from error
     reader = Reader(drawing)
-    if nowhere := sum(1 for fix in audit.fixes if fix.code == AuditError.UNDEFINED_BLOCK):
+    if nowhere := sum(1 for fix in audit.fixes if _is_lost_block(fix.code, fix.message)):
         reader.skipped["INSERT"] = nowhere  # the reader has taken them out already
     reader.take(drawing.modelspace())
     if not any(layer.lines for layer in reader.layers.values()):

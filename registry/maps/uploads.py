@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -23,7 +24,10 @@ from registry.sites.views import SiteView
 
 READING_PATIENCE_S = 5.0
 reading_slots = Slots(in_all=2, of_site=2, of_person=1, most_waiting=1)
-"""Maps that are read, or held against a site's, at once."""
+"""Maps that are read at once."""
+COMPARING_PATIENCE_S = 15.0
+comparing_slots = Slots(in_all=1, of_site=1, of_person=1, most_waiting=1)
+"""Maps that are held against a site's at once: two of the largest have no room beside each other."""
 Made = TypeVar("Made")
 if TYPE_CHECKING:
     Upload = UploadedFile[Any]
@@ -77,11 +81,9 @@ def look_at_upload(*, site: str, files: MapFiles, by: User) -> tuple[Grid, int, 
     Raises BadMap, TooManyUploads, NotAMember.
     """
 
-    def look() -> tuple[Grid, int, MapDifference]:
-        grid = _read(files)
+    grid = read_upload(files=files, by=by)
+    with _comparing(site, by):
         return (grid, *compare_with_site(site=site, grid=grid))
-
-    return in_turn(by, look)
 
 
 def look_at_robot_map(*, site: str, device_id: str, by: User) -> tuple[int, int, MapDifference]:
@@ -89,7 +91,13 @@ def look_at_robot_map(*, site: str, device_id: str, by: User) -> tuple[int, int,
 
     Raises NoSuchDevice, NoRobotMap, TooManyUploads.
     """
-    return in_turn(by, lambda: compare_robot_map(site=site, device_id=device_id))
+    with _comparing(site, by):
+        return compare_robot_map(site=site, device_id=device_id)
+
+
+def _comparing(site: str, by: User) -> AbstractContextManager[None]:
+    refusal = TooManyUploads("Other maps are being compared, yours or others'. Try again in a moment.")
+    return comparing_slots.held(Claim(by.pk, site), refusal, patience_s=COMPARING_PATIENCE_S)
 
 
 def in_turn(by: User, work: Callable[[], Made]) -> Made:

@@ -298,6 +298,12 @@ def test_who_changes_the_map_must_say_which(factory):
     assert (none.status_code, SiteMap.objects.count()) == (412, 1)
 
 
+def test_a_page_of_the_version_before_names_the_map_by_its_number(factory):
+    client = join_and_sign_in("admin", SITE)
+    assert bring(client, widened(), tag=f'"{SITE}-2"').status_code == 412
+    assert bring(client, widened(), tag=f'"{SITE}-1"').status_code == 201
+
+
 def test_a_site_without_a_map_gets_its_first(factory):
     client = join_and_sign_in("admin", SITE)
     SiteMap.objects.all().delete()
@@ -352,16 +358,18 @@ def test_a_robots_map_of_the_same_number_after_a_backup_is_another(factory):
     assert (again.status_code, gzip.decompress(again.content)) == (200, PLAN.cells)
 
 
-def test_one_map_at_a_time_is_held_against_the_sites_for_a_person(factory, monkeypatch):
-    monkeypatch.setattr(uploads, "READING_PATIENCE_S", 0.0)
+def test_one_map_at_a_time_is_held_against_the_sites_and_keeps_nobody_from_bringing_one(factory, monkeypatch):
+    monkeypatch.setattr(uploads, "COMPARING_PATIENCE_S", 0.0)
     say_map(widened())
     client = join_and_sign_in("viewer", SITE)
     difference = f"/api/sites/{SITE}/devices/robot01/map/difference"
-    claim = registry.Claim(client.get("/api/me").json()["user"]["id"])
-    assert uploads.reading_slots.take(claim)
+    somebody = registry.Claim(0, "another-site")
+    assert uploads.comparing_slots.take(somebody)
     try:
         refused = client.get(difference)
+        brought = bring(join_and_sign_in("admin", SITE), widened())
     finally:
-        uploads.reading_slots.give_back(claim)
+        uploads.comparing_slots.give_back(somebody)
     assert (refused.status_code, refused.json()["code"]) == (429, "too_many_uploads")
+    assert brought.status_code == 201
     assert client.get(difference).json()["version"] == 1

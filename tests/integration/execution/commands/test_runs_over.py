@@ -84,8 +84,17 @@ def test_the_answer_to_a_cancel_frees_a_device_that_never_heard_what_it_cancels(
     now = datetime.now(UTC)
     assert services.record_ack(device=OVEN, command_id=cancel, status="RUNNING", why="", result={}, at=now)
     assert command(run).status == "pending"
+    mix = Instruction(Call(PlaceRef(device="paintMixer02"), "mixPaint", {"time": Constant(1)}), "mix")
+    other = factory.start(Plan((mix, Instruction(End()))))
+    factory.work()
+    Run.objects.filter(id=other).update(status="cancelled")
     assert services.record_ack(device=OVEN, command_id=cancel, status="DONE", why="", result={}, at=now)
-    assert command(run).status == "cancelled"
+    statuses = (
+        Command.objects.exclude(method__in=("pause", "cancel")).order_by("position").values_list("status", flat=True)
+    )
+    assert list(statuses) == ["cancelled", "pending"], "other runs are the ticker's"
+    end_commands_of_runs_over(now)
+    assert list(statuses.all()) == ["cancelled", "cancelled"]
 
 
 def test_what_never_went_out_is_ended_with_its_run_and_its_device_is_free_at_once(factory):

@@ -1,4 +1,4 @@
-"""A gateway claims a command at the moment at which it is ended with its run: it goes out or is ended, never both."""
+"""A gateway claims a command that never went out when it is ended with its run: it goes out or is ended, never both."""
 
 from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime

@@ -84,6 +84,7 @@ def test_a_block_of_another_file_and_one_that_is_nowhere_are_counted_as_left_out
     space.add_blockref("NOWHERE", (0, 0))
     space.add_blockref("NOWHERE", (5, 0))
     space.add_line((0, 0), (5, 0))
+    space.add_linear_dim((0, 1), (0, 0), (5, 0))  # it has no picture of its own, which is no block
     assert read_drawing(packed(drawing))["skipped"] == {"XREF": 1, "INSERT": 2}
 
 

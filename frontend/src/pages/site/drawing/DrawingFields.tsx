@@ -3,7 +3,7 @@ import { Checkbox, NativeSelect, Switch } from "@mantine/core";
 import { useTranslation } from "react-i18next";
 import { NumberField } from "@/design/NumberField";
 import { formatNumber, withUnit } from "@/i18n/format";
-import { isTooFine, sizeOf, UNITS, type Drawing, type DrawingReading } from "./drawing";
+import { isTooFine, sizeOf, skippedOf, UNITS, type Drawing, type DrawingReading } from "./drawing";
 import styles from "./drawing.module.css";
 
 interface FieldsProps {
@@ -16,7 +16,7 @@ export function DrawingFields({ drawing, reading, change }: FieldsProps) {
   const { t } = useTranslation();
   const size = sizeOf(drawing, reading);
   const metres = (value: number) => withUnit(formatNumber(value, 1), "m");
-  const skipped = Object.values(drawing.skipped).reduce((sum, count) => sum + count, 0);
+  const { blocks, others } = skippedOf(drawing);
   return (
     <div className={styles.fields}>
       <NativeSelect
@@ -62,7 +62,8 @@ export function DrawingFields({ drawing, reading, change }: FieldsProps) {
         checked={reading.outsideUnknown}
         onChange={(event) => change({ ...reading, outsideUnknown: event.currentTarget.checked })}
       />
-      {skipped ? <p>{t("mapImport.drawing.skipped", { count: skipped })}</p> : null}
+      {blocks ? <p>{t("mapImport.drawing.lost", { count: blocks })}</p> : null}
+      {others ? <p>{t("mapImport.drawing.skipped", { count: others })}</p> : null}
     </div>
   );
 }

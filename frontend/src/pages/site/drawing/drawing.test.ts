@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { CellMap } from "@/map/floor/rosFiles";
-import { firstReading, isTooFine, mapFromDrawing, sizeOf, type Drawing } from "./drawing";
+import { firstReading, isTooFine, mapFromDrawing, sizeOf, skippedOf, type Drawing } from "./drawing";
 
 const ROOM: Drawing = {
   metres: 0.001,
@@ -15,6 +15,12 @@ const reading = { ...firstReading(ROOM), cell: 0.1 };
 function at({ width, resolution_m: side, origin, cells }: CellMap, x: number, y: number): number | undefined {
   return cells[Math.floor((y - origin.y) / side) * width + Math.floor((x - origin.x) / side)];
 }
+
+test("blocks that are left out, in which walls may be, are told apart from what is no line", () => {
+  const skipped = { XREF: 1, INSERT: 2, TEXT: 4, HATCH: 8 };
+  expect(skippedOf({ ...ROOM, skipped })).toEqual({ blocks: 3, others: 12 });
+  expect(skippedOf(ROOM)).toEqual({ blocks: 0, others: 0 });
+});
 
 test("what is hidden in the drawing is not chosen at first, and the unit is the drawing's", () => {
   expect(reading.layers).toEqual(["WALLS"]);

@@ -14,7 +14,7 @@ export interface Drawing {
   /** Metres of its unit; null: the drawing does not say. */
   readonly metres: number | null;
   readonly layers: readonly Layer[];
-  /** How many parts of which kind are no lines. */
+  /** How many parts of which kind are left out: blocks of another file (XREF) or of none (INSERT), and what is no line. */
   readonly skipped: Readonly<Record<string, number>>;
 }
 
@@ -34,6 +34,15 @@ const MOST_SIDE = 4096;
 const MARGIN = 0.5;
 /** Coordinates of a country's survey: a map begins at zero instead. */
 const FARTHEST = 100_000;
+
+const BLOCKS = ["XREF", "INSERT"];
+
+/** How many blocks are left out, in which walls may be, and how many parts that are no lines. */
+export function skippedOf({ skipped }: Drawing): { blocks: number; others: number } {
+  const sum = (isMeant: (kind: string) => boolean) =>
+    Object.entries(skipped).reduce((found, [kind, count]) => found + (isMeant(kind) ? count : 0), 0);
+  return { blocks: sum((kind) => BLOCKS.includes(kind)), others: sum((kind) => !BLOCKS.includes(kind)) };
+}
 
 /** A drawing as it is first looked at: what is hidden in it stays out. */
 export function firstReading({ metres, layers }: Drawing): DrawingReading {
