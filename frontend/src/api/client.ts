@@ -22,6 +22,12 @@ export class ApiProblem extends Error {
   }
 }
 
+/** Ask anew so often (ms), until the server says that this person may not know it, or that it is gone. */
+export const untilRefused = (everyMs: number) => (query: { state: { error: Error | null } }) => {
+  const { error } = query.state;
+  return error instanceof ApiProblem && [403, 404].includes(error.status) ? false : everyMs;
+};
+
 interface ProblemBody {
   code?: string;
   detail?: string;

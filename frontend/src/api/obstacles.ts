@@ -25,12 +25,16 @@ function send(slug: string, change: ObstacleChange): Promise<Obstacle | undefine
   }
 }
 
-/** Change what lies on the floor; whatever comes of it, the map is fetched anew. Changes go out one after another. */
-export function useChangeObstacles(slug: string) {
+/**
+ * Change what lies on the floor; whatever comes of it, the map is fetched anew. Changes go out one after another. A
+ * refusal is told also where nobody shows the obstacle any more.
+ */
+export function useChangeObstacles(slug: string, onRefused: (error: Error) => void) {
   const queries = useQueryClient();
   return useMutation({
     scope: { id: `obstacles ${slug}` },
     mutationFn: (change: ObstacleChange) => send(slug, change),
+    onError: onRefused,
     onSettled: () => queries.invalidateQueries({ queryKey: keys.map(slug), exact: false }),
   });
 }

@@ -3,7 +3,9 @@ import { QueryClientProvider } from "@tanstack/react-query";
 import { cleanup, renderHook, waitFor } from "@testing-library/react";
 import type { ReactNode } from "react";
 import { afterEach, expect, test, vi } from "vitest";
+import { isNeeded } from "@/offline/kept";
 import { makeQueryClient, useSiteMap } from "./queries";
+import { areOf } from "./wholeMap";
 
 afterEach(() => {
   cleanup();
@@ -58,7 +60,22 @@ test("so is one that is saved while a newer one than the known is fetched", asyn
   await shown.current.refetch();
   await waitFor(() => expect(shown.current.data?.version).toBe(2));
   expect(shown.current.data?.cells).toEqual(new Uint8Array([2]));
-  expect(asked).toEqual(["/map", "/map/versions/2/cells"]);
+  expect(asked).toEqual(["/map", "/map/cells", "/map/versions/2/cells"]);
+});
+
+test("a newer map is fetched from where the browser keeps one for the time without its server", async () => {
+  const { asked, saved } = mapServer({});
+  const shown = openMap();
+  await waitFor(() => expect(shown.current.data).toBeDefined());
+  saved.version = 2;
+  await shown.current.refetch();
+  await waitFor(() => expect(shown.current.data?.cells).toEqual(new Uint8Array([2])));
+  expect(asked.filter((path) => !isNeeded(new URL(`http://vipo/api/sites/hall${path}`)))).toEqual([]);
+});
+
+test("a map that was kept by the version before is shown with its cells", () => {
+  expect(areOf({ version: 3 }, 'W/"hall-3"')).toBe(true);
+  expect(areOf({ version: 3 }, '"hall-13"')).toBe(false);
 });
 
 test("a map of the same number after a backup came back is not shown with the cells of the lost one", async () => {

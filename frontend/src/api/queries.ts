@@ -1,6 +1,6 @@
 /** What screens read from the server, kept by TanStack Query; the live socket writes into the same caches. */
 import { keepPreviousData, QueryClient, skipToken, useInfiniteQuery, useQuery } from "@tanstack/react-query";
-import { api, ApiProblem, rememberCsrf } from "./client";
+import { api, ApiProblem, rememberCsrf, untilRefused } from "./client";
 import type {
   ArmedProgram,
   Comparison,
@@ -111,13 +111,11 @@ async function getMe(): Promise<Me> {
 async function getMap(slug: string, known: SiteMap | undefined): Promise<SiteMap> {
   const path = `/sites/${slug}/map`;
   const getInfo = () => api.get<SiteMapInfo>(path);
-  const getCells = (version: number) => api.bytes(`${path}/versions/${version}/cells`);
-  if (known) {
-    const info = await getInfo();
-    return { ...info, cells: info.tag === known.tag ? known.cells : await getCells(info.version) };
-  }
-  const [info, { tag, bytes }] = await Promise.all([getInfo(), api.tagged(`${path}/cells`)]);
-  return { ...info, cells: areOf(info, tag) ? bytes : await getCells(info.version) };
+  const getNewest = () => api.tagged(`${path}/cells`); // kept for the time without a server, as a version's are not
+  const [info, newest] = known ? [await getInfo(), null] : await Promise.all([getInfo(), getNewest()]);
+  if (known && info.tag === known.tag) return { ...info, cells: known.cells };
+  const { tag, bytes } = newest ?? (await getNewest());
+  return { ...info, cells: areOf(info, tag) ? bytes : await api.bytes(`${path}/versions/${info.version}/cells`) };
 }
 
 /** The whole journal of a run; the server gives a thousand lines at once. */
@@ -149,7 +147,7 @@ function useWatch<T>(key: readonly unknown[], path: string | null, everyMs: numb
   return useQuery({
     queryKey: key,
     queryFn: path === null ? skipToken : () => api.get<T>(path),
-    refetchInterval: everyMs,
+    refetchInterval: untilRefused(everyMs),
     staleTime: 0,
   });
 }

@@ -25,7 +25,7 @@ function growing(times: number, tagged = (tag: string): string | null => tag) {
 
 test("a map that is followed by another between the two answers is fetched anew until both are of one", async () => {
   const asked = growing(2);
-  const map = await getWholeMap<{ tag: string; width: number; height: number }>(PATH);
+  const map = await getWholeMap<{ version: number; width: number; height: number }>(PATH);
   expect([map.width, map.cells.length]).toEqual([3, 3]);
   expect(asked).toHaveLength(6);
 });
@@ -33,7 +33,7 @@ test("a map that is followed by another between the two answers is fetched anew 
 test("one that does not change is asked for once, whether or not a proxy has touched its tag", async () => {
   for (const tagged of [(tag: string) => tag, (tag: string) => `W/${tag}`, () => null]) {
     const asked = growing(0, tagged);
-    expect((await getWholeMap<{ tag: string }>(PATH)).cells).toHaveLength(1);
+    expect((await getWholeMap<{ version: number }>(PATH)).cells).toHaveLength(1);
     expect(asked).toEqual([`/api${PATH}`, `/api${PATH}/cells`]);
   }
 });

@@ -76,8 +76,32 @@ test("a name that the program gives to another device is another one in what is 
     '        self.curing_oven_2 = ctx.get("oven02")',
   ]);
   expect(scriptWith(pasted, { ...PRINTED, script: text?.join("\n") ?? "" }, null, [OVEN])).not.toMatch(/oven_3/);
-  const same = scriptWith(PRINTED.script, PRINTED, "w3", [OVEN]);
-  expect(same).not.toMatch(/oven_2/);
+});
+
+test("a name of the same device, of any robot or of a parameter is the program's own, however it is written", () => {
+  const given = [
+    'self.curing_oven = ctx.get("curingOven01")',
+    'self.robot = ctx.get("robot02")',
+    'self.rounds = ctx.parameter("rounds", 5, Number)',
+    'self.ramp = ctx.zone("z1", [(0, 0), (1, 0), (1, 1)])',
+  ];
+  const run = (lines: readonly string[]) =>
+    PRINTED.script.replace(/ +self\.curing_oven = .*\n/, lines.map((line) => `        ${line}\n`).join(""));
+  const theirs = [
+    "self.curing_oven = ctx.get('curingOven01')  # the (old) oven",
+    "self.robot = ctx.any()",
+    'self.rounds = ctx.parameter("rounds", 2, Number)',
+    'self.ramp = ctx.zone("z1", [(0, 0), (2, 0), (1, 1)])',
+  ];
+  const body = "        self.robot.move(self.ramp)\n        self.wait(self.rounds)\n        if self.curing_oven";
+  const text = scriptWith(
+    run(theirs).replace("        if self.curing_oven", body),
+    { ...PRINTED, script: run(given) },
+    null,
+    [OVEN],
+  );
+  expect(text).not.toMatch(/_2/);
+  expect(text).toContain("self.robot.move(self.ramp)");
 });
 
 test("an empty text is nothing to paste", () => {

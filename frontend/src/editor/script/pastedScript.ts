@@ -44,17 +44,24 @@ function givenIn(script: string): Map<string, string> {
   return new Map([...script.matchAll(GIVEN)].map(([, name, what]) => [name ?? "", what ?? ""]));
 }
 
+/** What a name stands for whatever else is said of it: `get oven01`; nothing for any robot or a parameter. */
+function meantBy(what: string | undefined): string | null {
+  const said = /^ctx\.(get|place|zone)\(\s*["']([^"'\n]+)["']/.exec(what ?? "");
+  return said ? `${said[1] ?? ""} ${said[2] ?? ""}` : null;
+}
+
 /**
- * The pasted lines with another name for what they mean by one that the program gives to something else: the name by
- * which the program has the same, or a fresh one. So each step goes on driving its robot.
+ * The pasted lines with another name for the device, place or zone that they mean by one that the program gives to
+ * something else: the name by which the program has the same, or a fresh one. So each step goes on driving its robot.
  */
 function withOwnNames(pasted: string, script: string): string {
   const [ours, theirs] = [givenIn(script), givenIn(pasted)];
   const taken = new Set([...`${script}\n${pasted}`.matchAll(NAMED)].map(([, name]) => name));
   const others = new Map<string, string>();
   for (const [name, what] of theirs) {
-    if (!ours.has(name) || ours.get(name) === what) continue;
-    const same = [...ours].find(([, each]) => each === what)?.[0];
+    const meant = meantBy(what);
+    if (meant === null || !ours.has(name) || meantBy(ours.get(name)) === meant) continue;
+    const same = [...ours].find(([, each]) => meantBy(each) === meant)?.[0];
     let number = 2;
     while (taken.has(`${name}_${number}`)) number += 1;
     const other = same ?? `${name}_${number}`;

@@ -81,6 +81,7 @@ test("routes are planned anew on another map and for other zones that lead robot
     },
   ].map(floorMark);
   expect(marks.slice(0, 2)).toEqual(["1", "8"]);
+  expect(floorMark({ ...plan, tag: '"hall-1-2"' })).not.toBe(floorMark({ ...plan, tag: '"hall-1-1"' }));
   expect(new Set(marks).size).toBe(4);
   expect(floorMark({ ...plan, zones: [{ ...zone, name: "Other" }] })).toBe(marks[2]);
   expect(floorMark({ ...plan, zones: [{ ...zone, rule: "slow", speed_m_s: 0.3 }] })).toBe("1");

@@ -37,6 +37,8 @@ export interface MapObstacle {
 /** One version of a site's map; `cells` row by row from the bottom row: 0 free, 100 wall, 255 unknown. */
 export interface FloorPlan {
   readonly version: number;
+  /** Another one for another map of the same number, as after a backup came back; not of a recorded floor. */
+  readonly tag?: string;
   readonly width: number;
   readonly height: number;
   readonly resolution_m: number;
@@ -147,7 +149,7 @@ export function floorMark(plan: FloorPlan | null | undefined): string | undefine
   const leading = (plan.zones ?? [])
     .filter(({ rule }) => LEADING.includes(rule))
     .map(({ rule, points, heading_deg }) => [rule, points, heading_deg]);
-  const mark = String(plan.version) + (leading.length > 0 ? `-${hashOf(JSON.stringify(leading))}` : "");
+  const mark = (plan.tag ?? String(plan.version)) + (leading.length > 0 ? `-${hashOf(JSON.stringify(leading))}` : "");
   marks.set(plan, mark);
   return mark;
 }

@@ -88,6 +88,8 @@ export function useDragging({ at, setDraft, keep }: DraftPoint) {
 /** Send how it is now; it is told when that is refused, and when it is over. */
 type Send<Value> = (to: Value, done: { onError: () => void; onSettled: () => void }) => void;
 
+const UNSEEN = { onError: () => {}, onSettled: () => {} };
+
 export interface Draft<Value> {
   /** How it is shown. */
   at: Value;
@@ -101,7 +103,8 @@ export interface Draft<Value> {
 /**
  * How a thing is for the one who changes it, until the server says the same.
  *
- * What is changed while an earlier change is being kept (`isSending`) stays, and is kept next.
+ * What is changed while an earlier change is being kept (`isSending`) stays, and is kept next, also where it is shown no
+ * more by then: `send` sends one after the other.
  */
 export function useDraft<Value>(
   kept: Value,
@@ -124,6 +127,13 @@ export function useDraft<Value>(
     const takeBack = () => setDraft((last) => (last && !isAlike(last, to) ? last : null));
     send(to, { onError: takeBack, onSettled: goOn });
   };
+  const leave = useRef(() => {});
+  useEffect(() => {
+    leave.current = () => {
+      if (next.current && sent.current && !isAlike(next.current, sent.current)) send(next.current, UNSEEN);
+    };
+  });
+  useEffect(() => () => leave.current(), []);
   const keep = (given?: Value) => {
     const to = given ?? draft;
     if (!to) return;

@@ -1,6 +1,6 @@
 /** The people of a site: members, invitations, who may do what, and what was done; read and changed. */
 import { useInfiniteQuery, useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
-import { api } from "@/api/client";
+import { api, untilRefused } from "@/api/client";
 import type {
   AuditEntry,
   Deed,
@@ -25,7 +25,7 @@ export const useMembers = (slug: string) =>
   useQuery({
     queryKey: [...keyOf(slug), "members"],
     queryFn: () => api.get<Member[]>(`${siteOf(slug)}/members`),
-    refetchInterval: EVERY_MS,
+    refetchInterval: untilRefused(EVERY_MS),
   });
 
 /** A member with what ends when they are removed; always asked for anew. */
@@ -41,7 +41,7 @@ export const useInvitations = (slug: string) =>
   useQuery({
     queryKey: [...keyOf(slug), "invitations"],
     queryFn: () => api.get<InvitationList>(`${siteOf(slug)}/invitations`),
-    refetchInterval: EVERY_MS,
+    refetchInterval: untilRefused(EVERY_MS),
   });
 
 export const useFactorRule = (slug: string) =>
@@ -83,7 +83,7 @@ export const useAudit = (slug: string, filter: AuditFilter) =>
     queryFn: ({ pageParam }) => api.part<AuditEntry>(pageParam),
     initialPageParam: `${siteOf(slug)}/audit?limit=${PART}&${ofKind(filter)}`,
     getNextPageParam: (last) => last.next,
-    refetchInterval: EVERY_MS,
+    refetchInterval: untilRefused(EVERY_MS),
   });
 
 /** Something that is changed about the people of a site; all of it is read anew afterwards. */
@@ -110,7 +110,7 @@ export const useWallScreens = (slug: string) =>
   useQuery({
     queryKey: [...keyOf(slug), "wallScreens"],
     queryFn: () => api.get<WallScreen[]>(`${siteOf(slug)}/wall-screens`),
-    refetchInterval: EVERY_MS,
+    refetchInterval: untilRefused(EVERY_MS),
   });
 export const useMakeWallScreen = (slug: string) =>
   useChange(slug, (wanted: NewWallScreen) => api.post<MadeWallScreen>(`${siteOf(slug)}/wall-screens`, wanted));

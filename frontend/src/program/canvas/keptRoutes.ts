@@ -38,5 +38,5 @@ async function read<Answer>(cache: Cache, site: string, floor: string | undefine
 
 /** No address of the server's. */
 function addressOf(site: string, floor: string | undefined): string {
-  return `/kept/routes/${encodeURIComponent(site)}/${floor ?? ""}`;
+  return `/kept/routes/${encodeURIComponent(site)}/${encodeURIComponent(floor ?? "")}`;
 }

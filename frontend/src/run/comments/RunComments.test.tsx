@@ -73,4 +73,6 @@ test("a form about another moment stays open when what was sent before has arriv
   fireEvent.click(screen.getByText("Later"));
   act(() => sent[0]?.());
   await waitFor(() => expect(screen.getByLabelText<HTMLTextAreaElement>("Comment on 0:20").value).toBe(""));
+  await act(async () => {}); // what comes of the answer is over
+  expect(screen.getByLabelText("Comment on 0:20")).toBeDefined();
 });

@@ -1,8 +1,9 @@
 // @vitest-environment jsdom
 import { MantineProvider } from "@mantine/core";
-import { Notifications } from "@mantine/notifications";
+import { notifications, Notifications } from "@mantine/notifications";
 import { QueryClientProvider } from "@tanstack/react-query";
 import { act, cleanup, fireEvent, render, screen, waitFor } from "@testing-library/react";
+import { useState } from "react";
 import { afterEach, beforeAll, expect, test, vi } from "vitest";
 import { makeQueryClient } from "@/api/queries";
 import type { SiteMap } from "@/api/types";
@@ -21,6 +22,7 @@ beforeAll(async () => {
 });
 afterEach(() => {
   cleanup();
+  notifications.clean();
   vi.unstubAllGlobals();
 });
 
@@ -36,11 +38,13 @@ const MAP = {
 } as unknown as SiteMap;
 
 function Floor() {
+  const [isOver, end] = useState(false);
   const editing = useObstacles("hall");
   return (
-    <svg>
-      <ObstacleHandles slug="hall" map={MAP} editing={editing} />
-    </svg>
+    <>
+      <button onClick={() => end(true)}>Done</button>
+      <svg>{isOver ? null : <ObstacleHandles slug="hall" map={MAP} editing={editing} />}</svg>
+    </>
   );
 }
 
@@ -78,6 +82,15 @@ test("an obstacle that is moved while another is being sent is sent after it", a
     'PUT 1 {"x":2.1,"y":2,"size_m":0.5}',
     'PUT 2 {"x":6.1,"y":6,"size_m":0.3}',
   ]);
+});
+
+test("a move that is refused is told also where obstacles are not changed any more", async () => {
+  const waiting = begun();
+  moved(/50.cm/);
+  await waitFor(() => expect(waiting).toHaveLength(1));
+  fireEvent.click(screen.getByText("Done"));
+  await act(() => Promise.resolve(waiting[0]?.answer(422)));
+  expect(await screen.findByRole("alert")).toBeTruthy();
 });
 
 test("an obstacle whose move is refused goes back, and that is told", async () => {

@@ -38,13 +38,10 @@ interface MovableObstacleProps extends HandlesProps {
 
 function MovableObstacle({ slug, map, obstacle, editing }: MovableObstacleProps) {
   const { t } = useTranslation();
-  const change = useChangeObstacles(slug);
+  const change = useChangeObstacles(slug, (error) => tellRefusal(error, t));
   const { id, size_m } = obstacle;
   const draft = useDraftPoint(map, [obstacle.x, obstacle.y], change.isPending, ([x, y], done) =>
-    change.mutate(
-      { do: "move", id, obstacle: { x, y, size_m } },
-      { ...done, onError: (error) => (done.onError(), tellRefusal(error, t)) },
-    ),
+    change.mutate({ do: "move", id, obstacle: { x, y, size_m } }, done),
   );
   const { at, keep } = draft;
   const pixel = toPixels(at);

@@ -74,6 +74,17 @@ test("a second change waits for the first and is sent then", async () => {
   expect(hook.result.current.points).toEqual(triangle(3));
 });
 
+test("a second change is sent also where the zone is not shown any more when the first is answered", async () => {
+  const { waiting, hook, sent } = begun();
+  act(() => hook.result.current.keep(triangle(2)));
+  await sent(1);
+  act(() => hook.result.current.keep(triangle(3)));
+  hook.unmount();
+  await act(() => Promise.resolve(waiting[0]?.answer(200)));
+  await sent(2);
+  expect(waiting[1]?.sent).toEqual(triangle(3));
+});
+
 test("a refused change is taken back, and what was changed since then is not", async () => {
   const { waiting, hook, sent } = begun();
   act(() => hook.result.current.keep(triangle(2)));

@@ -1,6 +1,6 @@
 /** What was set aside at a site: read over and over, tried again or dropped. */
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
-import { api } from "@/api/client";
+import { api, untilRefused } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { DeadLetter } from "@/api/types";
 
@@ -15,7 +15,7 @@ export const useOpenLetters = (slug: string) =>
   useQuery({
     queryKey: keyOf(slug),
     queryFn: () => api.get<DeadLetter[]>(`/sites/${encodeURIComponent(slug)}/dead-letters?state=open`),
-    refetchInterval: EVERY_MS,
+    refetchInterval: untilRefused(EVERY_MS),
     staleTime: 0,
   });
 
