@@ -203,8 +203,10 @@ def test_a_site_is_simulated_only_where_no_approved_device_is_real(hall: str) ->
 def test_the_map_comes_as_facts_cells_and_ros_files(hall: str) -> None:
     services.save_places(site="hall", places=[services.PlaceView("dock1", "Dock 1", "dock", 1.0, 2.0, 0.5)])
     client = signed_in("viewer")
+    cells = client.get("/api/sites/hall/map/cells")
     assert client.get("/api/sites/hall/map").json() == {
         "version": 1,
+        "tag": cells["ETag"],
         "width": 4,
         "height": 3,
         "resolution_m": 1.0,
@@ -214,7 +216,6 @@ def test_the_map_comes_as_facts_cells_and_ros_files(hall: str) -> None:
         "zones": [],
         "obstacles": [],
     }
-    cells = client.get("/api/sites/hall/map/cells")
     assert gzip.decompress(cells.content) == bytes([0] * 8 + [100] * 3 + [255])
     again = client.get("/api/sites/hall/map/cells", headers={"If-None-Match": cells["ETag"]})
     assert (again.status_code, again.content) == (304, b"")
