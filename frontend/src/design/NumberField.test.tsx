@@ -3,8 +3,8 @@ import { MantineProvider } from "@mantine/core";
 import { act, cleanup, render, screen } from "@testing-library/react";
 import i18next from "i18next";
 import { useState } from "react";
+import { initReactI18next } from "react-i18next";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import { startI18n } from "@/i18n";
 import { NumberField } from "./NumberField";
 
 const told = vi.fn();
@@ -29,7 +29,8 @@ function Form() {
 beforeEach(async () => {
   const media = { matches: false, addEventListener: () => undefined, removeEventListener: () => undefined };
   vi.stubGlobal("matchMedia", () => media);
-  await startI18n(); // not with texts of its own: files share what is loaded
+  // Files share what is loaded: the texts of another one stay.
+  if (!i18next.isInitialized) await i18next.use(initReactI18next).init({ lng: "en", resources: {} });
   await i18next.changeLanguage("en");
 });
 afterEach(async () => {
