@@ -40,6 +40,9 @@ def test_devices_that_know_no_command_by_its_id_are_named_in_rehearsals_and_test
     jobs = Rehearsal.objects.values_list("job", flat=True)
     assert [job["scene"]["idless"] for job in jobs] == [["paintMixer02"]] * 2
     with_it = digests_of(SITE)
+    Device.objects.filter(pk="paintMixer02").update(stand_in=True)
+    assert what_changed(with_it, digests_of(SITE)) is None, "a test is carried out with the real one's ways"
+    Device.objects.filter(pk="paintMixer02").update(stand_in=False)
     Device.objects.filter(pk="paintMixer02").update(source_type=CONTENT_TYPES["turtle"])
     assert what_changed(with_it, digests_of(SITE)) == {"what": "devices", "devices": ["paintMixer02"]}
 
