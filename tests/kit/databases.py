@@ -12,6 +12,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
@@ -21,7 +22,7 @@ import psycopg
 import pytest
 import redis
 from django.contrib.contenttypes.management import create_contenttypes
-from django.db import connections
+from django.db import connection, connections
 from django.db.backends.postgresql.operations import DatabaseOperations as PostgresOperations
 from django.db.models.signals import post_migrate
 from psycopg import sql
@@ -136,3 +137,31 @@ def on_database(**changes: Any) -> Iterator[None]:
         connections["default"].close()
         connections.databases["default"] = described
         connections["default"] = kept
+
+
+Aside = Callable[..., Future[Any]]
+
+
+@pytest.fixture
+def aside() -> Iterator[Aside]:
+    """Do something in a database session of its own: a function with what it is given; up to four at once."""
+    with ThreadPoolExecutor(4) as pool:
+
+        def do(work: Callable[..., Any], *given: Any) -> Future[Any]:
+            def work_and_close() -> Any:
+                try:
+                    return work(*given)
+                finally:
+                    connections.close_all()
+
+            return pool.submit(work_and_close)
+
+        yield do
+
+
+def one_waits() -> bool:
+    """Tell whether a session waits for what another one holds; PostgreSQL alone."""
+    with connection.cursor() as cursor:
+        # Not pg_stat_activity, which a transaction reads once.
+        cursor.execute("SELECT count(*) FROM pg_locks WHERE NOT granted")
+        return bool(cursor.fetchone()[0])

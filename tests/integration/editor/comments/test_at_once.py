@@ -9,7 +9,7 @@ from typing import Any
 from uuid import UUID
 
 import pytest
-from django.db import connection, connections, transaction
+from django.db import connections, transaction
 from pytest_django import DjangoDbBlocker
 
 from editor import services as editor
@@ -18,7 +18,7 @@ from editor.comments.anchors import Anchor
 from editor.errors import NoSuchProgram
 from editor.models import Comment, CommentThread, ThreadReading
 from registry import services as registry
-from tests.kit.databases import on_database
+from tests.kit.databases import on_database, one_waits
 from tests.kit.programs import document, step
 from tests.kit.sign_in import add_person, find_person
 from tests.kit.waiting import wait_for
@@ -66,13 +66,6 @@ def change(program: UUID, thread: threads.ThreadView) -> None:
 def delete(program: UUID, thread: threads.ThreadView) -> None:
     comment = thread.comments[0].id
     threads.delete_comment(program=program, comment=comment, user=find_person("ann"), is_admin=False)
-
-
-def one_waits() -> bool:
-    """Tell whether a session waits for what this one holds."""
-    with connection.cursor() as cursor:
-        cursor.execute("SELECT count(*) FROM pg_locks WHERE NOT granted")
-        return bool(cursor.fetchone()[0])
 
 
 def carry_out(first: Act, then: Act, thread: tuple[UUID, threads.ThreadView]) -> str:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
-from typing import Any
 
 import pytest
-from django.db import connection, connections, transaction
+from django.db import transaction
 from pytest_django import DjangoDbBlocker
 
 from editor import services as editor
@@ -18,7 +16,7 @@ from execution.models import Run
 from execution.runs.programs import prepare
 from registry import services as registry
 from tests.integration.execution.reviews.conftest import PEOPLE, Team
-from tests.kit.databases import on_database
+from tests.kit.databases import Aside, on_database, one_waits
 from tests.kit.programs import SITE, document, step
 from tests.kit.sign_in import add_person, find_person
 from tests.kit.waiting import wait_for
@@ -42,31 +40,6 @@ def team(database_url: str, django_db_blocker: DjangoDbBlocker) -> Iterator[Team
         yield team
 
 
-@pytest.fixture
-def aside() -> Iterator[Callable[[Callable[[], Any]], Future[Any]]]:
-    """Do something in a session of its own."""
-    with ThreadPoolExecutor(2) as pool:
-
-        def do(work: Callable[[], Any]) -> Future[Any]:
-            def work_and_close() -> Any:
-                try:
-                    return work()
-                finally:
-                    connections.close_all()
-
-            return pool.submit(work_and_close)
-
-        yield do
-
-
-def one_waits() -> bool:
-    """Tell whether a session waits for what this one holds."""
-    with connection.cursor() as cursor:
-        # Not pg_stat_activity, which a transaction reads once.
-        cursor.execute("SELECT count(*) FROM pg_locks WHERE NOT granted")
-        return bool(cursor.fetchone()[0])
-
-
 def start(team: Team) -> str:
     """Start a run as the API does; return how that ended."""
     prepared = prepare(program_id=team.program, user=find_person("olga"), parameters={})
@@ -85,9 +58,7 @@ def demand_more(team: Team) -> None:
     set_rule(site=SITE, approvals=2)
 
 
-def test_two_admins_who_choose_a_part_of_the_rule_at_once_turn_nothing_back(
-    team: Team, aside: Callable[[Callable[[], Any]], Future[Any]]
-) -> None:
+def test_two_admins_who_choose_a_part_of_the_rule_at_once_turn_nothing_back(team: Team, aside: Aside) -> None:
     with transaction.atomic():
         set_rule(site=SITE, approvals=2)
         choosing = aside(lambda: set_rule(site=SITE, least_role="admin"))
@@ -97,7 +68,7 @@ def test_two_admins_who_choose_a_part_of_the_rule_at_once_turn_nothing_back(
 
 @pytest.mark.parametrize("change", [withdraw, demand_more], ids=lambda change: change.__name__)
 def test_a_start_waits_for_a_change_that_is_being_made_and_heeds_it(
-    team: Team, aside: Callable[[Callable[[], Any]], Future[Any]], change: Callable[[Team], None]
+    team: Team, aside: Aside, change: Callable[[Team], None]
 ) -> None:
     with transaction.atomic():
         change(team)
@@ -110,7 +81,7 @@ def test_a_start_waits_for_a_change_that_is_being_made_and_heeds_it(
 
 @pytest.mark.parametrize("change", [withdraw, demand_more], ids=lambda change: change.__name__)
 def test_a_change_waits_for_a_start_that_was_let_through(
-    team: Team, aside: Callable[[Callable[[], Any]], Future[Any]], change: Callable[[Team], None]
+    team: Team, aside: Aside, change: Callable[[Team], None]
 ) -> None:
     with transaction.atomic():
         assert start(team) == "started"

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from django.db import connection, connections, transaction
+from django.db import transaction
 from pytest_django import DjangoDbBlocker
 
 from execution import services
@@ -17,7 +16,7 @@ from execution.stand_ins.switches import simulate_device
 from registry import services as registry
 from registry.models import AuditLine, Device, Site
 from tests.kit import demo_floor
-from tests.kit.databases import on_database
+from tests.kit.databases import Aside, on_database, one_waits
 from tests.kit.programs import SITE
 from tests.kit.waiting import wait_for
 from vipo_device.protocol.description import description_to_json
@@ -36,33 +35,6 @@ def hall(database_url: str, django_db_blocker: DjangoDbBlocker) -> Iterator[None
         site = Site.objects.get(slug=SITE)
         Device.objects.create(id=MIXER, site=site, lifecycle="approved", description=described, online=True)
         yield
-
-
-@pytest.fixture
-def aside() -> Iterator[Callable[[Callable[[], Any]], Future[Any]]]:
-    """Do something in a session of its own."""
-    with ThreadPoolExecutor(4) as pool:
-
-        def do(work: Callable[[], Any]) -> Future[Any]:
-            def work_and_close() -> Any:
-                try:
-                    return work()
-                finally:
-                    connections.close_all()
-
-            return pool.submit(work_and_close)
-
-        yield do
-
-
-Aside = Callable[[Callable[[], Any]], Future[Any]]
-
-
-def one_waits() -> bool:
-    """Tell whether a session waits for what this one holds."""
-    with connection.cursor() as cursor:
-        cursor.execute("SELECT count(*) FROM pg_locks WHERE NOT granted")
-        return bool(cursor.fetchone()[0])
 
 
 def switch(*, simulated: bool = True) -> registry.DeviceView:

@@ -1,16 +1,16 @@
 """A gateway claims a command that never went out when it is ended with its run: it goes out or is ended, never both."""
 
-from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime
 
 import pytest
-from django.db import connection, transaction
+from django.db import transaction
 
 from editor.language.expressions.nodes import Constant, PlaceRef
 from editor.language.plan.instructions import Call, End, Instruction, Plan
 from execution import services
 from execution.commands.outbox import end_commands_of_runs_over
 from execution.models import Command, Run
+from tests.kit.databases import one_waits
 from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.servers
@@ -26,23 +26,6 @@ def command(factory):
     return Command.objects.get(run=run)
 
 
-@pytest.fixture
-def aside():
-    """Do something in a session of its own."""
-    with ThreadPoolExecutor(1) as pool:
-
-        def do(work, *given):
-            def work_and_close():
-                try:
-                    return work(*given)
-                finally:
-                    connection.close()
-
-            return pool.submit(work_and_close)
-
-        yield do
-
-
 def claimed():
     return [each.id for each in services.claim_commands(limit=100)]
 
@@ -50,14 +33,6 @@ def claimed():
 def end_with_run(command):
     Run.objects.filter(id=command.run).update(status="cancelled")
     end_commands_of_runs_over(datetime.now(UTC))
-
-
-def one_waits():
-    """Tell whether a session waits for what this one holds."""
-    with connection.cursor() as cursor:
-        # Not pg_stat_activity, which a transaction reads once.
-        cursor.execute("SELECT count(*) FROM pg_locks WHERE NOT granted")
-        return bool(cursor.fetchone()[0])
 
 
 def test_what_a_gateway_claims_at_this_moment_is_not_ended_with_its_run(command, aside):
