@@ -64,6 +64,7 @@ module.exports = {
     inner("program", "src/program", PROGRAM, "^src/program/(kinds|surroundings|operation)\\.ts$"),
     ...layers("map", "src/map", MAP),
     inner("map", "src/map", MAP, "^src/map/PathLine\\.tsx$"),
+    { name: "testing-only-in-tests", severity: "error", from: { pathNot: "^src/testing/|\\.test\\.tsx?$" }, to: { path: "^src/testing/" } },
     { name: "three-only-in-scene3d", severity: "error", from: { pathNot: "^src/scene3d" }, to: { path: "node_modules/(three|@react-three)" } },
     { name: "yjs-only-in-shared", severity: "error", from: { pathNot: "^src/editor/(shared|edits/concurrency\\.test\\.ts|script/difference\\.test\\.ts)" }, to: { path: "node_modules/(yjs|y-websocket|y-indexeddb)" } },
   ],

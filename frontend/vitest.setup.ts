@@ -1,5 +1,21 @@
 import { afterAll, beforeAll, vi } from "vitest";
 
+/** What a browser has and jsdom lacks: pages ask for it while they are loaded. Nothing matches, and nothing has a size. */
+if (typeof document !== "undefined") {
+  const nothing = () => undefined;
+  const silent = { addEventListener: nothing, removeEventListener: nothing };
+  Object.assign(globalThis, {
+    matchMedia: () => ({ matches: false, ...silent }),
+    ResizeObserver: class {
+      observe() {}
+      unobserve() {}
+      disconnect() {}
+    },
+  });
+  Object.defineProperty(document, "fonts", { configurable: true, value: silent });
+  Element.prototype.scrollIntoView = nothing;
+}
+
 /** Files of tests share a browser, so that each need not make its own: what one leaves there, the next does not find. */
 beforeAll(() => {
   if (typeof localStorage === "undefined") return;

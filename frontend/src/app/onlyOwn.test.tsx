@@ -1,17 +1,15 @@
 // @vitest-environment jsdom
-import { MantineProvider } from "@mantine/core";
-import { QueryClientProvider, type QueryClient } from "@tanstack/react-query";
-import { act, cleanup, fireEvent, render, screen } from "@testing-library/react";
-import { createMemoryRouter, RouterProvider } from "react-router-dom";
+import { type QueryClient } from "@tanstack/react-query";
+import { act, fireEvent, screen } from "@testing-library/react";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient, useMe } from "@/api/queries";
 import type { Device } from "@/api/types";
-import { loadScreenTexts, startI18n } from "@/i18n";
 import { forgetLive, useSiteLive } from "@/live/site";
 import { EMPTY, useLiveStore } from "@/live/store";
 import { useShownKey } from "@/pages/devices/keys/shownKey";
 import { useMembers } from "@/pages/settings/people";
 import { SignInPage } from "@/pages/signin/SignInPage";
+import { showAt, testsPages } from "@/testing/page";
 import { forgetOthers } from "./onlyOwn";
 import { RequireUser } from "./RequireUser";
 
@@ -51,13 +49,11 @@ function People() {
   return <main>{`${useMe().data?.user?.name} sees ${names}`}</main>;
 }
 
+testsPages();
 beforeEach(async () => {
   vi.stubGlobal("WebSocket", Line);
   vi.stubGlobal("fetch", (path: string) => Promise.resolve(answer(path)));
-  vi.stubGlobal("matchMedia", () => ({ matches: false, addEventListener() {}, removeEventListener() {} }));
   vi.stubGlobal("indexedDB", { databases: () => Promise.resolve([]) });
-  await startI18n();
-  await loadScreenTexts();
   [Line.all, signedIn] = [[], "Anna"];
   useLiveStore.setState(EMPTY);
   await openPage();
@@ -65,27 +61,14 @@ beforeEach(async () => {
   useShownKey.getState().show(KEY);
 });
 afterEach(() => {
-  cleanup();
   forgetLive(false);
 });
 
 async function openPage() {
   queries = makeQueryClient();
   forgetOthers(queries);
-  const router = createMemoryRouter(
-    [
-      { path: "/sign-in", element: <SignInPage /> },
-      { element: <RequireUser />, children: [{ path: "/people", element: <People /> }] },
-    ],
-    { initialEntries: ["/people"] },
-  );
-  render(
-    <QueryClientProvider client={queries}>
-      <MantineProvider env="test">
-        <RouterProvider router={router} />
-      </MantineProvider>
-    </QueryClientProvider>,
-  );
+  const people = { element: <RequireUser />, children: [{ path: "/people", element: <People /> }] };
+  showAt("/people", [{ path: "/sign-in", element: <SignInPage /> }, people], queries);
   await expect.poll(text).toBe("Anna sees Carla");
 }
 

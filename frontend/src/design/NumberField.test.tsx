@@ -27,8 +27,6 @@ function Form() {
 }
 
 beforeEach(async () => {
-  const media = { matches: false, addEventListener: () => undefined, removeEventListener: () => undefined };
-  vi.stubGlobal("matchMedia", () => media);
   // Files share what is loaded: the texts of another one stay.
   if (!i18next.isInitialized) await i18next.use(initReactI18next).init({ lng: "en", resources: {} });
   await i18next.changeLanguage("en");

@@ -1,16 +1,10 @@
 // @vitest-environment jsdom
 import { MantineProvider } from "@mantine/core";
 import { cleanup, fireEvent, render, screen } from "@testing-library/react";
-import { afterEach, beforeAll, expect, test, vi } from "vitest";
+import { afterEach, beforeAll, expect, test } from "vitest";
 import type { RunEvent } from "@/api/types";
 import { startI18n } from "@/i18n";
 import { Journal } from "./RunSteps";
-
-vi.hoisted(() => {
-  const nothing = () => undefined;
-  const matchMedia = () => ({ matches: false, addEventListener: nothing, removeEventListener: nothing });
-  Object.assign(globalThis, { matchMedia });
-});
 
 beforeAll(() => startI18n());
 afterEach(cleanup);

@@ -1,12 +1,10 @@
 // @vitest-environment jsdom
-import { MantineProvider } from "@mantine/core";
-import { QueryClientProvider } from "@tanstack/react-query";
-import { act, cleanup, render, screen } from "@testing-library/react";
-import { createMemoryRouter, RouterProvider } from "react-router-dom";
+import { act, screen } from "@testing-library/react";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient } from "@/api/queries";
-import { startI18n } from "@/i18n";
 import { forgetLive } from "@/live/site";
+import { showAt, testsPages } from "@/testing/page";
+import { PageShell } from "./PageShell";
 
 /** A line to a server that the test plays. */
 class Line {
@@ -19,42 +17,32 @@ class Line {
   close() {}
 }
 
-beforeEach(async () => {
+testsPages();
+beforeEach(() => {
   Line.all = [];
   vi.stubGlobal("WebSocket", Line);
-  vi.stubGlobal("matchMedia", () => ({ matches: false, addEventListener() {}, removeEventListener() {} }));
   vi.stubGlobal("fetch", () => Promise.resolve(Response.json([])));
-  await startI18n();
 });
 afterEach(() => {
   vi.useRealTimers();
-  cleanup();
   forgetLive(false);
 });
 
 const siteOf = (slug: string) => ({ slug, name: "Hall", role: "admin", stop: { active: false } });
 
 /** A page of a site with all that its bars ask for, while its line is live. */
-async function openPage(slug: string) {
-  const { PageShell } = await import("./PageShell"); // the theme asks for the window's when it is loaded
+function openPage(slug: string) {
   const queries = makeQueryClient();
   queries.setQueryData(keys.me, { csrf: "", demo_accounts: [], user: { id: 1, name: "Anna", initials: "A" } });
   queries.setQueryData(keys.site(slug), siteOf(slug));
   const element = <PageShell title="People">Carla</PageShell>;
-  const router = createMemoryRouter([{ path: "/sites/:slug", element }], { initialEntries: [`/sites/${slug}`] });
-  render(
-    <QueryClientProvider client={queries}>
-      <MantineProvider env="test">
-        <RouterProvider router={router} />
-      </MantineProvider>
-    </QueryClientProvider>,
-  );
+  showAt(`/sites/${slug}`, [{ path: "/sites/:slug", element }], queries);
   act(() => Line.all[0]?.onmessage?.({ data: JSON.stringify({ type: "hello", site: slug }) }));
   expect(screen.getByRole("main").textContent).toBe("Carla");
 }
 
-test("the page of a site closes when its member is removed, and says why", async () => {
-  await openPage("hall");
+test("the page of a site closes when its member is removed, and says why", () => {
+  openPage("hall");
   act(() => Line.all[0]?.onclose?.({ code: 4403 }));
   expect(screen.getByRole("main").textContent).toContain("You are no member of this site any more");
   expect(screen.getByRole("main").textContent).not.toContain("Carla");
@@ -67,7 +55,7 @@ test("after that the page asks nothing more about the site", async () => {
     asked.push(path);
     return Promise.resolve(Response.json(path === "/api/sites/barn" ? siteOf("barn") : []));
   });
-  await openPage("barn");
+  openPage("barn");
   await act(() => vi.advanceTimersByTimeAsync(12_000));
   expect(asked.filter((path) => path === "/api/sites/barn/findings")).toHaveLength(3);
   asked.length = 0;
@@ -76,8 +64,8 @@ test("after that the page asks nothing more about the site", async () => {
   expect(asked).toEqual(["/api/sites"]);
 });
 
-test("a page of which too many are open stays, and says that it is told nothing new", async () => {
-  await openPage("shed");
+test("a page of which too many are open stays, and says that it is told nothing new", () => {
+  openPage("shed");
   act(() => Line.all[0]?.onclose?.({ code: 4429 }));
   expect(screen.getByRole("main").textContent).toBe("Carla");
   expect(screen.getByText(/^So many pages of this site are open/)).toBeDefined();

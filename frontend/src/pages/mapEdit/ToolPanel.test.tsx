@@ -1,28 +1,14 @@
 // @vitest-environment jsdom
 import { MantineProvider } from "@mantine/core";
-import { cleanup, fireEvent, render, screen } from "@testing-library/react";
-import { afterEach, beforeAll, expect, test, vi } from "vitest";
-import { loadScreenTexts, startI18n } from "@/i18n";
+import { fireEvent, render, screen } from "@testing-library/react";
+import { expect, test } from "vitest";
 import type { CellMap } from "@/map/floor/rosFiles";
+import { testsPages } from "@/testing/page";
 import { drawn } from "./cells/drawn";
 import { FIRST_SETTINGS } from "./tools";
 import { ToolPanel } from "./ToolPanel";
 
-vi.hoisted(() => {
-  Object.assign(globalThis, {
-    matchMedia: () => ({ matches: false, addEventListener() {}, removeEventListener() {} }),
-    ResizeObserver: class {
-      observe() {}
-      unobserve() {}
-      disconnect() {}
-    },
-  });
-});
-beforeAll(async () => {
-  await startI18n();
-  await loadScreenTexts();
-});
-afterEach(cleanup);
+testsPages();
 
 const LONG: CellMap = { ...drawn("#"), width: 4096, height: 300, cells: new Uint8Array(4096 * 300) };
 

@@ -1,11 +1,11 @@
 // @vitest-environment jsdom
 import { MantineProvider } from "@mantine/core";
 import { QueryClientProvider } from "@tanstack/react-query";
-import { cleanup, fireEvent, render, screen } from "@testing-library/react";
-import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { fireEvent, render, screen } from "@testing-library/react";
+import { beforeEach, expect, test, vi } from "vitest";
 import { makeQueryClient } from "@/api/queries";
 import type { Retention } from "@/api/types";
-import { loadScreenTexts, startI18n } from "@/i18n";
+import { testsPages } from "@/testing/page";
 import { Times } from "./Times";
 
 type Days = Record<"runs" | "rehearsals" | "calls", number | null>;
@@ -16,17 +16,14 @@ const retentionOf = (chosen: Days) =>
     keeping: Object.entries(chosen).map(([kind, each]) => ({ kind, chosen: each, days: 9, server: 9 })),
   }) as Retention;
 
-beforeEach(async () => {
-  vi.stubGlobal("matchMedia", () => ({ matches: false, addEventListener() {}, removeEventListener() {} }));
+testsPages();
+beforeEach(() => {
   vi.stubGlobal("fetch", (_: string, init: RequestInit) => {
     if (init.method === "PUT") days = { ...days, ...(JSON.parse(init.body as string) as Partial<Days>) };
     return Promise.resolve(Response.json(retentionOf(days)));
   });
-  await startI18n();
-  await loadScreenTexts();
   days = { runs: 30, rehearsals: null, calls: 7 };
 });
-afterEach(cleanup);
 
 const page = (queries = makeQueryClient()) => (
   <QueryClientProvider client={queries}>

@@ -1,12 +1,9 @@
 // @vitest-environment jsdom
-import { MantineProvider } from "@mantine/core";
-import { QueryClientProvider } from "@tanstack/react-query";
-import { act, cleanup, fireEvent, render, screen } from "@testing-library/react";
-import { createMemoryRouter, RouterProvider } from "react-router-dom";
+import { act, fireEvent, screen } from "@testing-library/react";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import { makeQueryClient } from "@/api/queries";
-import { loadScreenTexts, startI18n } from "@/i18n";
 import { forgetLive } from "@/live/site";
+import { showAt, testsPages } from "@/testing/page";
+import { ReviewRulePage } from "./ReviewRulePage";
 
 /** A line to a server that the test plays. */
 class Line {
@@ -33,39 +30,18 @@ function answer(path: string, init: RequestInit) {
   return /^.api.sites.[^/]+$/.test(path) ? SITE : [];
 }
 
-beforeEach(async () => {
+testsPages();
+beforeEach(() => {
   vi.stubGlobal("WebSocket", Line);
   vi.stubGlobal("fetch", (path: string, init: RequestInit) => Promise.resolve(Response.json(answer(path, init))));
-  vi.stubGlobal("matchMedia", () => ({ matches: false, addEventListener() {}, removeEventListener() {} }));
-  vi.stubGlobal(
-    "ResizeObserver",
-    class {
-      observe() {}
-      unobserve() {}
-      disconnect() {}
-    },
-  );
-  await startI18n();
-  await loadScreenTexts();
   [Line.all, rule] = [[], { approvals: 0, least_role: "operator" }];
 });
 afterEach(() => {
-  cleanup();
   forgetLive(false);
 });
 
 async function openForm(slug: string) {
-  const { ReviewRulePage } = await import("./ReviewRulePage"); // the theme asks for the window's when it is loaded
-  const router = createMemoryRouter([{ path: "/sites/:slug/review", element: <ReviewRulePage /> }], {
-    initialEntries: [`/sites/${slug}/review`],
-  });
-  render(
-    <QueryClientProvider client={makeQueryClient()}>
-      <MantineProvider env="test">
-        <RouterProvider router={router} />
-      </MantineProvider>
-    </QueryClientProvider>,
-  );
+  showAt(`/sites/${slug}/review`, [{ path: "/sites/:slug/review", element: <ReviewRulePage /> }]);
   await expect.poll(fields).toHaveLength(2);
 }
 

@@ -3,11 +3,11 @@
 import { MantineProvider } from "@mantine/core";
 import { QueryClient, QueryClientProvider } from "@tanstack/react-query";
 import { act, cleanup, fireEvent, render, screen, waitFor } from "@testing-library/react";
-import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { beforeEach, expect, test, vi } from "vitest";
 import type { ReactNode } from "react";
 import { keys } from "@/api/queries";
 import type { Thread } from "@/api/types";
-import { startI18n } from "@/i18n";
+import { testsPages } from "@/testing/page";
 import { CommentForm } from "./CommentForm";
 import { TalkContext } from "./talk";
 import { ThreadCard } from "./ThreadCard";
@@ -49,19 +49,11 @@ function Form({ about = "Comment", onSend = () => Promise.resolve() }: Sending) 
 const field = (label = "Comment") => screen.getByLabelText<HTMLTextAreaElement>(label);
 const write = (value: string, label?: string) => fireEvent.change(field(label), { target: { value } });
 
-beforeEach(async () => {
-  const media = { matches: false, addEventListener: () => undefined, removeEventListener: () => undefined };
-  vi.stubGlobal("matchMedia", () => media);
-  Object.defineProperty(document, "fonts", { configurable: true, value: media });
-  Element.prototype.scrollIntoView = () => undefined;
-  await startI18n();
+testsPages();
+beforeEach(() => {
   done.mockReset();
   program += 1;
   signIn(7);
-});
-afterEach(() => {
-  cleanup();
-  vi.unstubAllGlobals();
 });
 
 test("what is written is there again once its form is back on the screen, for who wrote it alone", () => {

@@ -1,27 +1,23 @@
 // @vitest-environment jsdom
-import { MantineProvider } from "@mantine/core";
-import { QueryClientProvider } from "@tanstack/react-query";
-import { act, cleanup, fireEvent, render, screen } from "@testing-library/react";
+import { act, fireEvent, screen } from "@testing-library/react";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient } from "@/api/queries";
-import { startI18n } from "@/i18n";
 import { EMPTY, useLiveStore } from "@/live/store";
+import { show, testsPages } from "@/testing/page";
 import { StopAllButton } from "./StopAllButton";
 
 const SITE = { slug: "hall", name: "Hall", stop: { active: true, by: "Bo", at: "" } };
 let sent: string[];
 
-beforeEach(async () => {
+testsPages();
+beforeEach(() => {
   sent = [];
-  vi.stubGlobal("matchMedia", () => ({ matches: false, addEventListener() {}, removeEventListener() {} }));
   vi.stubGlobal("fetch", (path: string, { method }: RequestInit) => {
     if (method === "POST") sent.push(path);
     return Promise.resolve(Response.json(path === "/api/sites/hall" ? SITE : []));
   });
-  await startI18n();
 });
 afterEach(() => {
-  cleanup();
   useLiveStore.setState(EMPTY);
 });
 
@@ -33,13 +29,7 @@ test.each([
   useLiveStore.setState({ ...EMPTY, site: "hall", connection });
   const queries = makeQueryClient();
   queries.setQueryData(keys.site("hall"), SITE);
-  render(
-    <QueryClientProvider client={queries}>
-      <MantineProvider env="test">
-        <StopAllButton slug="hall" />
-      </MantineProvider>
-    </QueryClientProvider>,
-  );
+  show(<StopAllButton slug="hall" />, queries);
   fireEvent.click(screen.getByText("Stopped"));
   await act(() => new Promise<void>((done) => setTimeout(done)));
   expect(sent).toEqual(wanted);

@@ -41,16 +41,6 @@ function Shown() {
 const pressMachine = (device: string) => useUi.getState().fieldPick?.choose(device);
 
 beforeEach(async () => {
-  const media = { matches: false, addEventListener: () => undefined, removeEventListener: () => undefined };
-  vi.stubGlobal("matchMedia", () => media);
-  vi.stubGlobal(
-    "ResizeObserver",
-    class {
-      observe = () => undefined;
-      disconnect = () => undefined;
-      unobserve = () => undefined;
-    },
-  );
   await startI18n();
   document = { ...EMPTY_DOCUMENT, steps: { a: step({ to: { device: "mixer" } }), b: step({}) } };
   resetUi();

@@ -1,30 +1,15 @@
 // @vitest-environment jsdom
-import { MantineProvider } from "@mantine/core";
 import { notifications, Notifications } from "@mantine/notifications";
-import { QueryClientProvider } from "@tanstack/react-query";
-import { act, cleanup, fireEvent, render, screen, waitFor } from "@testing-library/react";
+import { act, fireEvent, screen, waitFor } from "@testing-library/react";
 import { useState } from "react";
-import { afterEach, beforeAll, expect, test, vi } from "vitest";
-import { makeQueryClient } from "@/api/queries";
+import { afterEach, expect, test, vi } from "vitest";
 import type { SiteMap } from "@/api/types";
-import { loadScreenTexts, startI18n } from "@/i18n";
+import { show, testsPages } from "@/testing/page";
 import { ObstacleHandles } from "./ObstacleHandles";
 import { useObstacles } from "./useObstacles";
 
-vi.hoisted(() => {
-  Object.assign(globalThis, {
-    matchMedia: () => ({ matches: false, addEventListener() {}, removeEventListener() {} }),
-  });
-});
-beforeAll(async () => {
-  await startI18n();
-  await loadScreenTexts();
-});
-afterEach(() => {
-  cleanup();
-  notifications.clean();
-  vi.unstubAllGlobals();
-});
+testsPages();
+afterEach(() => notifications.clean());
 
 const MAP = {
   width: 100,
@@ -55,13 +40,11 @@ function begun() {
     const asked = `${method} ${path.split("/").at(-1)} ${body as string}`;
     return new Promise((done) => waiting.push({ asked, answer: (status) => done(new Response("{}", { status })) }));
   });
-  render(
-    <MantineProvider>
+  show(
+    <>
       <Notifications />
-      <QueryClientProvider client={makeQueryClient()}>
-        <Floor />
-      </QueryClientProvider>
-    </MantineProvider>,
+      <Floor />
+    </>,
   );
   return waiting;
 }

@@ -8,11 +8,6 @@ import type { MapZone } from "@/api/types";
 import type { Outline } from "./outline";
 import { useOutlineDraft } from "./useOutlineDraft";
 
-vi.hoisted(() => {
-  Object.assign(globalThis, {
-    matchMedia: () => ({ matches: false, addEventListener() {}, removeEventListener() {} }),
-  });
-});
 afterEach(() => {
   cleanup();
   vi.unstubAllGlobals();

@@ -1,0 +1,40 @@
+import { MantineProvider } from "@mantine/core";
+import { QueryClientProvider, type QueryClient } from "@tanstack/react-query";
+import { cleanup, render, type RenderResult } from "@testing-library/react";
+import type { ReactNode } from "react";
+import { createMemoryRouter, MemoryRouter, RouterProvider, type RouteObject } from "react-router-dom";
+import { afterEach, beforeAll, vi } from "vitest";
+import { makeQueryClient } from "@/api/queries";
+import { loadScreenTexts, startI18n } from "@/i18n";
+
+/** Tests of this file read all texts of the screens, and leave no page and no stubbed global behind. */
+export function testsPages(): void {
+  beforeAll(async () => {
+    await startI18n();
+    await loadScreenTexts();
+  });
+  afterEach(() => {
+    cleanup();
+    vi.unstubAllGlobals();
+  });
+}
+
+function inside(queries: QueryClient, what: ReactNode): ReactNode {
+  return (
+    <QueryClientProvider client={queries}>
+      <MantineProvider env="test">{what}</MantineProvider>
+    </QueryClientProvider>
+  );
+}
+
+/** What an element of a page shows that stands at no address of its own. */
+export function show(what: ReactNode, queries: QueryClient = makeQueryClient()): RenderResult {
+  return render(inside(queries, <MemoryRouter>{what}</MemoryRouter>));
+}
+
+/** What a page shows at an address; `go` leads to another one. */
+export function showAt(address: string, routes: RouteObject[], queries: QueryClient = makeQueryClient()) {
+  const router = createMemoryRouter(routes, { initialEntries: [address] });
+  render(inside(queries, <RouterProvider router={router} />));
+  return { queries, go: (to: string) => router.navigate(to) };
+}
