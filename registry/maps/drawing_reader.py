@@ -163,11 +163,18 @@ def read_drawing(data: bytes) -> dict[str, Any]:
     reader.take(drawing.modelspace())
     if not any(layer.lines for layer in reader.layers.values()):
         is_whole = data.rstrip(END_BYTES).endswith(b"EOF")
-        raise Refused(
-            "The drawing has no lines in its model space. Choose the drawing with the walls." if is_whole else broken
-        )
+        raise Refused(_why_empty(reader) if is_whole else broken)
     unit = drawing.header.get("$INSUNITS", 0)
     return {"metres": METRES.get(unit), "layers": list(_told(reader.layers)), "skipped": dict(reader.skipped)}
+
+
+def _why_empty(reader: Reader) -> str:
+    if lost := reader.skipped["XREF"] + reader.skipped["INSERT"]:
+        return (
+            f"The drawing has no lines in its model space: the blocks there ({lost}) lie in other files or nowhere. "
+            "Bind them into the drawing, and save it again."
+        )
+    return "The drawing has no lines in its model space. Choose the drawing with the walls."
 
 
 def _told(layers: dict[str, Layer]) -> Iterator[dict[str, Any]]:

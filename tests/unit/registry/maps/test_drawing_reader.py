@@ -88,6 +88,15 @@ def test_a_block_of_another_file_and_one_that_is_nowhere_are_counted_as_left_out
     assert read_drawing(packed(drawing))["skipped"] == {"XREF": 1, "INSERT": 2}
 
 
+def test_a_drawing_whose_walls_all_lie_in_other_files_says_so():
+    drawing, space = new()
+    drawing.add_xref_def("hall.dxf", "HALL")
+    space.add_blockref("HALL", (0, 0))
+    space.add_blockref("NOWHERE", (0, 0))
+    with pytest.raises(Refused, match=r"\(2\) lie in other files or nowhere. Bind them into the drawing"):
+        read_drawing(packed(drawing))
+
+
 def test_a_drawing_that_is_cut_off_before_its_lines_is_damaged_one_without_lines_is_not():
     drawing, space = new()
     empty = packed(drawing)
