@@ -65,17 +65,24 @@ def test_a_wrong_password_is_refused_in_a_sentence_and_the_right_one_opens_home(
     page.goto(f"{demo.url}/sign-in")
     account = demo.account("author")
     page.get_by_label("Email address").fill(account.email)
-    page.get_by_label("Password", exact=True).fill("not the password")
+    password = page.get_by_label("Password", exact=True)
+    password.fill("not the password")
+    password.press("Tab")
+    expect(page.get_by_role("button", name="Show the password")).to_be_focused()
+    page.keyboard.press("Space")
+    expect(password).to_have_attribute("type", "text")
     page.get_by_role("button", name="Sign in", exact=True).click()
     expect(page.get_by_role("alert")).to_have_text(re.compile(r"^[A-Z].*(password|e-?mail).*\.$", re.IGNORECASE))
     faults.clear()
-    page.get_by_label("Password", exact=True).fill(account.password)
+    password.fill(account.password)
     page.get_by_role("button", name="Sign in", exact=True).click()
     expect(page.get_by_role("heading", name="Home")).to_be_visible()
     expect(page.get_by_role("heading", name="Painting Factory", exact=True)).to_be_visible()
     page.goto(f"{demo.url}/sites/painting-factory/programs")  # Home shows only those that were edited last
     expect(page.get_by_role("link", name="Paint order", exact=True)).to_be_visible()
     expect(page.get_by_role("link", name="First task", exact=True)).to_be_visible()
+    page.goto(f"{demo.url}/runs/0273d92d-9312")  # a link that was cut off on its way
+    expect(page.get_by_role("heading", name="There is no page at this address")).to_be_visible()
     context.close()
 
 

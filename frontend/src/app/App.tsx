@@ -34,8 +34,8 @@ const AGAIN_MS = 3000;
 export function App() {
   const { t } = useTranslation();
   const scheme = useTheme();
-  const close = t("pages.close");
-  const theme = useMemo(() => makeTheme(close), [close]);
+  const [close, showPassword] = [t("pages.close"), t("pages.showPassword")];
+  const theme = useMemo(() => makeTheme({ close, showPassword }), [close, showPassword]);
   useEffect(() => document.documentElement.setAttribute("data-theme", scheme), [scheme]);
   return (
     <QueryClientProvider client={queries}>

@@ -3,7 +3,7 @@
  * React would wait for 300 ms more.
  */
 import type { ComponentType } from "react";
-import { createBrowserRouter, type RouteObject } from "react-router-dom";
+import { createBrowserRouter, useParams, type RouteObject } from "react-router-dom";
 import { loadScreenTexts } from "@/i18n";
 import { SETTINGS_PAGES } from "@/pages/settings/settingsPages";
 import { RequireUser } from "./RequireUser";
@@ -51,9 +51,18 @@ function route(path: string, file: string): RouteObject[] {
   if (!load) return [];
   const lazy = async () => {
     const [module] = await Promise.all([load(), file === EDITOR ? null : loadScreenTexts()]);
-    return { Component: pick(module, name) };
+    const screen = pick(module, name);
+    return { Component: /\/(programs|runs|history)\/:id/.test(path) ? whereIdIs(screen) : screen };
   };
   return [{ path, lazy }];
+}
+
+/** A screen of a program or run: not at an address that was cut off or mistyped, which none of them has. */
+function whereIdIs(Screen: ComponentType): ComponentType {
+  return function ScreenOfId() {
+    const isId = /^[\da-f]{8}(-[\da-f]{4}){3}-[\da-f]{12}$/i.test(useParams().id ?? "");
+    return isId ? <Screen /> : <RouteProblem />;
+  };
 }
 
 function pick(module: Record<string, ComponentType>, name: string): ComponentType {

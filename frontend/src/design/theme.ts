@@ -31,8 +31,8 @@ const dark: MantineColorsTuple = [
 export const FONT = `"Inter Variable", Inter, system-ui, sans-serif`;
 export const MONO = `"JetBrains Mono", ui-monospace, monospace`;
 
-/** The theme; `close` names the buttons that are only a cross, in the language of the screen. */
-export const makeTheme = (close: string) =>
+/** The theme; the words, in the language of the screen, name buttons that are only a cross or an eye. */
+export const makeTheme = ({ close, showPassword }: { close: string; showPassword: string }) =>
   createTheme({
     fontFamily: FONT,
     fontFamilyMonospace: MONO,
@@ -51,6 +51,9 @@ export const makeTheme = (close: string) =>
       // Named only: each is loaded with the screens and forms that have it.
       Button: { defaultProps: { size: "sm" } },
       TextInput: { defaultProps: { size: "sm" } },
+      PasswordInput: {
+        defaultProps: { visibilityToggleButtonProps: { "aria-label": showPassword, title: showPassword, tabIndex: 0 } },
+      },
       Select: { defaultProps: { size: "sm", checkIconPosition: "right" } },
       Menu: { defaultProps: { shadow: "lg", radius: "lg", withinPortal: true, withInitialFocusPlaceholder: false } },
       Modal: {
