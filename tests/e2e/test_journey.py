@@ -118,6 +118,7 @@ def test_two_people_draw_one_program(sign_in: SignIn) -> None:
     author, admin = sign_in("author"), sign_in("admin")
     for page in (author, admin):
         open_program(page, "First task")
+        expect(page).to_have_title("First task · VIPO")
     draw_task(author)
     shared = chip(admin, f"1, {TASK}")
     expect(shared).to_be_visible()

@@ -5,6 +5,7 @@
 import type { ComponentType } from "react";
 import { createBrowserRouter, useParams, type RouteObject } from "react-router-dom";
 import { loadScreenTexts } from "@/i18n";
+import { SETTINGS } from "@/shell/settings";
 import { SETTINGS_PAGES } from "@/pages/settings/settingsPages";
 import { RequireUser } from "./RequireUser";
 import { RouteProblem } from "./RouteProblem";
@@ -36,7 +37,6 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/map/new", "pages/site/NewMapPage"],
   ["/sites/:slug/map/edit", "pages/mapEdit/MapEditPage"],
   ["/sites/:slug/operations", "pages/operations/OperationsPage"],
-  ...SETTINGS_PAGES.map(({ path, file }): [string, string] => [`/sites/:slug/${path}`, file]),
   ["/programs/:id", EDITOR],
   ["/programs/:id/compare", "compare/CompareScreen"],
   ["/sites/:slug/history/:id", "pages/history/HistoryPage"],
@@ -56,6 +56,11 @@ function route(path: string, file: string): RouteObject[] {
   };
   return [{ path, lazy }];
 }
+
+/** Each marks Settings in the side bar. */
+const settings = SETTINGS_PAGES.flatMap(({ path, file }) =>
+  route(`/sites/:slug/${path}`, file).map((page): RouteObject => ({ ...page, handle: SETTINGS })),
+);
 
 /** A screen of a program or run: not at an address that was cut off or mistyped, which none of them has. */
 function whereIdIs(Screen: ComponentType): ComponentType {
@@ -85,7 +90,11 @@ export function makeRouter() {
     {
       element: <RequireUser />,
       errorElement: <RouteProblem />,
-      children: [...ROUTES.flatMap(([path, file]) => route(path, file)), { path: "*", element: <RouteProblem /> }],
+      children: [
+        ...ROUTES.flatMap(([path, file]) => route(path, file)),
+        ...settings,
+        { path: "*", element: <RouteProblem /> },
+      ],
     },
   ]);
   // A line at the top of the page while the next screen is on its way; see global.css.

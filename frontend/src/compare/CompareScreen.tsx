@@ -1,6 +1,6 @@
 /** Two states of a program compared: on the map, as a list of changes, as scripts beside each other. */
 import { ArrowLeft, History } from "lucide-react";
-import { useEffect, useMemo, useState } from "react";
+import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { Button } from "@mantine/core";
@@ -17,6 +17,7 @@ import {
 } from "@/api/queries";
 import type { Comparison, ConstructChange, Device, Program, RunSummary, Site, Version } from "@/api/types";
 import { Chip } from "@/design/Chip";
+import { useTitle } from "@/design/useTitle";
 import { useSiteLive } from "@/live/site";
 import type { SiteDevice } from "@/program/surroundings";
 import { LoadProblem } from "@/shell/LoadProblem";
@@ -90,9 +91,7 @@ function Loaded({ program, site, versions }: LoadedProps) {
   const { sides, runs, asked, choose } = useSides(program, versions);
   const comparison = useComparison(program.id, asked);
   const devices = useDevices(site.slug).data ?? NO_DEVICES;
-  useEffect(() => {
-    document.title = `${t("compare.title")} · ${program.name} · VIPO`;
-  }, [t, program.name]);
+  useTitle(`${t("compare.title")} · ${program.name}`);
   return (
     <div className={styles.screen}>
       <CompareTop program={program} site={site} />

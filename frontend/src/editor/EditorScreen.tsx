@@ -13,6 +13,7 @@ import { useEditorText, useScene } from "@/program/canvas/useScene";
 import { openKeymap } from "@/shell/keys/keymap";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { floorMark } from "@/map/floor/floor";
+import { useTitle } from "@/design/useTitle";
 import classes from "./editor.module.css";
 import { EditorWorkspace } from "./EditorWorkspace";
 import type { Edit } from "./edits/edits";
@@ -32,6 +33,7 @@ export function EditorScreen() {
   const devices = useDevices(slug);
   const me = useMe();
   useSiteLive(slug);
+  useTitle(program.data?.name);
   const canEdit = site.data?.role === "author" || site.data?.role === "admin";
   const user = me.data?.user ?? null;
   useOwnKeys(user?.id);

@@ -100,6 +100,7 @@ export class SiteFeed {
         for (const device of message.devices) this.#caches.refresh(keys.paces(this.slug, device));
         return this.#caches.refresh(["measurements"]);
       case "programs":
+        this.#caches.refresh(["program"]); // a name, also where it is open
         return this.#caches.refresh(keys.programs(this.slug));
       case "comments":
         return this.#caches.refresh(keys.threads(message.program));

@@ -89,6 +89,13 @@ test("whoever comes back to a site whose line is still there sees its robots, an
   expect(useLiveStore.getState()).toMatchObject({ site: "a", connection: "reconnecting" });
 });
 
+test("another name of a program reaches who has it open", async () => {
+  await show("a");
+  queries.setQueryData(keys.program("p"), { name: "Team" });
+  lineOf("a").say({ type: "programs" });
+  expect(queries.getQueryState(keys.program("p"))?.isInvalidated).toBe(true);
+});
+
 test("from a site to another and back within two seconds", async () => {
   const change = await show("a");
   await change("b");

@@ -12,6 +12,7 @@ import { shownQuestions } from "@/shell/questions/openQuestions";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { Crumb, TopBar } from "@/shell/TopBar";
 import { Chip } from "@/design/Chip";
+import { useTitle } from "@/design/useTitle";
 import { ProgramMap } from "@/program/ProgramMap";
 import { byStep } from "@/device/paces/paces";
 import { StandInMark } from "@/device/standIn/StandInMark";
@@ -205,6 +206,7 @@ export function RunScreen() {
   const run = query.data;
   const site = useSite(run?.site).data;
   useSiteLive(run?.site);
+  useTitle(run && `${t("run.title", { number: run.number })} · ${run.program.name}`);
   if (run) return <Loaded key={run.id} run={run} site={site} />;
   const failed = missing(query);
   return (

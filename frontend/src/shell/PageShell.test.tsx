@@ -5,6 +5,7 @@ import { keys, makeQueryClient } from "@/api/queries";
 import { forgetLive } from "@/live/site";
 import { showAt, testsPages } from "@/testing/page";
 import { PageShell } from "./PageShell";
+import { SETTINGS } from "./settings";
 
 /** A line to a server that the test plays. */
 class Line {
@@ -46,6 +47,16 @@ test("the page of a site closes when its member is removed, and says why", () =>
   act(() => Line.all[0]?.onclose?.({ code: 4403 }));
   expect(screen.getByRole("main").textContent).toContain("You are no member of this site any more");
   expect(screen.getByRole("main").textContent).not.toContain("Carla");
+});
+
+test.each([
+  [{ handle: SETTINGS }, true],
+  [{}, false],
+])("a page of the settings marks them in the side bar, and no other page does", (more, isMarked) => {
+  const element = <PageShell title="Review">rule</PageShell>;
+  showAt("/sites/hall/review", [{ path: "/sites/:slug/review", element, ...more }]);
+  expect(screen.getByText("Settings").closest("a")?.classList.contains("active")).toBe(isMarked);
+  expect(document.title).toBe("Review · VIPO");
 });
 
 test("after that the page asks nothing more about the site", async () => {

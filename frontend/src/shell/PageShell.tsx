@@ -1,6 +1,7 @@
 /** The frame of the management pages: side bar, title bar with Stop all, page, and a pane for details. */
-import { useEffect, type ReactNode } from "react";
+import { type ReactNode } from "react";
 import { useSiteLive } from "@/live/site";
+import { useTitle } from "@/design/useTitle";
 import { LateBell } from "./admissions/LateBell";
 import { AlertsBell } from "./alerts/AlertsBell";
 import { ConnectionStrip } from "./ConnectionStrip";
@@ -28,9 +29,7 @@ export function PageShell({ title, chips, actions, detail, children }: PageShell
   const { slug, open } = useCurrentSite();
   const isClosed = open !== slug;
   useSiteLive(slug);
-  useEffect(() => {
-    document.title = `${title} · VIPO`;
-  }, [title]);
+  useTitle(title);
   return (
     <div className={styles.shell} data-manage="">
       <SideBar />

@@ -1,7 +1,7 @@
 /** The side bar of the management pages: site, pages, account. */
 import { Activity, History, LayoutGrid, Library, Map, Cpu, Settings, Workflow, type LucideIcon } from "lucide-react";
 import { useTranslation } from "react-i18next";
-import { Link, NavLink } from "react-router-dom";
+import { Link, NavLink, useMatches } from "react-router-dom";
 import { usePrograms } from "@/api/queries";
 import type { Role } from "@/api/types";
 import { Chip } from "@/design/Chip";
@@ -10,6 +10,7 @@ import { AccountBar } from "./AccountBar";
 import { useCurrentSite } from "./currentSite";
 import { seesOperations } from "./findings/findings";
 import { PaletteButton } from "./palette/PaletteButton";
+import { SETTINGS } from "./settings";
 import { SiteSwitch } from "./SiteSwitch";
 import styles from "./sidebar.module.css";
 
@@ -20,12 +21,19 @@ interface EntryProps {
   count?: number;
   news?: string;
   end?: boolean;
+  /** It is marked, whatever the address says. */
+  marked?: boolean;
 }
 
-function Entry({ to, icon: Icon, label, count, news, end }: EntryProps) {
+function Entry({ to, icon: Icon, label, count, news, end, marked = false }: EntryProps) {
   return (
     <li>
-      <NavLink to={to} end={end} className={styles.entry} title={label}>
+      <NavLink
+        to={to}
+        end={end}
+        className={({ isActive }) => `${styles.entry} ${isActive || marked ? "active" : ""}`}
+        title={label}
+      >
         <Icon size={18} strokeWidth={1.75} aria-hidden="true" />
         <span className={styles.word}>{label}</span>
         {count !== undefined ? <span className={styles.count}>{count}</span> : null}
@@ -67,6 +75,7 @@ function SiteEntries({ slug, open, pending, role }: SiteEntriesProps) {
 export function SideBar() {
   const { t } = useTranslation();
   const { slug, open, site, sites } = useCurrentSite();
+  const inSettings = useMatches().some(({ handle }) => handle === SETTINGS);
   return (
     <aside className={styles.side}>
       <Link to="/" className={styles.brand} aria-label={t("shell.brandHome")}>
@@ -83,7 +92,7 @@ export function SideBar() {
       </nav>
       {slug ? (
         <ul className={styles.entries}>
-          <Entry to={`/sites/${slug}/people`} icon={Settings} label={t("shell.nav.settings")} />
+          <Entry to={`/sites/${slug}/people`} icon={Settings} label={t("shell.nav.settings")} marked={inSettings} />
         </ul>
       ) : null}
       <AccountBar role={site?.role} slug={slug} />

@@ -11,6 +11,7 @@ import { momentIn, useMomentInAddress } from "./address";
 import { Actions } from "./Actions";
 import { Filming } from "./film/Filming";
 import { type Incident, incidentsOf } from "@/scene3d/incidents";
+import { useTitle } from "@/design/useTitle";
 import { incidentWords } from "./incidents/incidentWords";
 import { MapPane } from "./MapPane";
 import { useFloorAt } from "./obstacles";
@@ -117,6 +118,7 @@ export function SimulationScreen() {
   const rehearsal = useFreshRehearsal(rehearsalId);
   const { start, problem } = useStartRehearsal(id, rehearsal.data);
   useSiteLive(program?.site);
+  useTitle(program && `${t("simulation.title")} · ${program.name}`);
   const data = rehearsal.data;
   const result = data?.status === "done" ? data.result : null;
   const refusal = problem ?? missing(rehearsal)?.message;

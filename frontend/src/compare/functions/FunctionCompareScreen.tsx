@@ -1,7 +1,7 @@
 /** Two versions of a library function compared as a picture; for a program that may take the newer one, with its tests. */
 import { Button, NativeSelect, SegmentedControl } from "@mantine/core";
 import { ArrowLeft, ArrowRight } from "lucide-react";
-import { useEffect, useState } from "react";
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { missing } from "@/api/failed";
@@ -10,6 +10,7 @@ import type { ConstructChange, Device, LibraryFunction, Program, Site } from "@/
 import { useSiteLive } from "@/live/site";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { Crumb, TopBar } from "@/shell/TopBar";
+import { useTitle } from "@/design/useTitle";
 import { ChangeList } from "../ChangeList";
 import { Frame, MapOf, useChoice } from "../ComparedParts";
 import styles from "../compare.module.css";
@@ -73,9 +74,7 @@ function Loaded({ site, item, program }: LoadedProps) {
   const pictures = usePictures(site.slug, plan, devices, comparison.data, shown);
   const choice = useChoice(comparison.data?.difference?.constructs ?? NO_CHANGES);
   useCompareKeys({ walk: choice.walk, restore: () => {}, undo: () => {} });
-  useEffect(() => {
-    document.title = `${t("compare.title")} · ${item.name} · VIPO`;
-  }, [t, item.name]);
+  useTitle(`${t("compare.title")} · ${item.name}`);
   const head = { item, numbers, choose, shown, setShown };
   return (
     <div className={styles.screen}>

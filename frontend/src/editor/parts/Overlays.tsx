@@ -1,5 +1,5 @@
 /** What floats over the map for a moment: a short word with Undo, and where the next step goes. */
-import { CircleCheck, Settings2 } from "lucide-react";
+import { CircleCheck, CircleQuestionMark, Settings2 } from "lucide-react";
 import { useEffect, useSyncExternalStore } from "react";
 import { IconButton } from "@/design/IconButton";
 import classes from "../canvas/float.module.css";
@@ -28,9 +28,10 @@ export function Toast() {
   }, [toast]);
   const stands = offer !== null && next === offer.entry;
   if (!toast || (offer?.asked && !stands)) return null; // a question that nobody can answer any more
+  const Sign = offer?.asked ? CircleQuestionMark : CircleCheck;
   return (
     <div className={classes.toast} role="status">
-      {offer ? <CircleCheck size={16} aria-hidden="true" /> : null}
+      {offer ? <Sign size={16} aria-hidden="true" data-asks={offer.asked} /> : null}
       {toast.text}
       {stands ? (
         <button type="button" onClick={() => takeOffer(open, offer)}>

@@ -2,7 +2,7 @@
 import { Button, PasswordInput, TextInput } from "@mantine/core";
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { CircleAlert } from "lucide-react";
-import { useEffect, useState, type FormEvent, type ReactNode } from "react";
+import { useState, type FormEvent, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useLocation, useNavigate, type To } from "react-router-dom";
 import { api, ApiProblem } from "@/api/client";
@@ -11,6 +11,7 @@ import type { Me, NewPerson, Offer, User } from "@/api/types";
 import { EmptyState } from "@/design/EmptyState";
 import { Logo } from "@/design/Logo";
 import { Panel } from "@/design/Panel";
+import { useTitle } from "@/design/useTitle";
 import { LoadProblem, problemText, Waiting } from "@/shell/LoadProblem";
 import { SignOutQuestion, useSignOut } from "@/shell/SignOut";
 import { ProviderButtons } from "../signin/ProviderButtons";
@@ -225,8 +226,6 @@ function useCard(code: string): ReactNode {
 export function InvitationPage() {
   const { t } = useTranslation();
   const code = useLocation().hash.slice(1);
-  useEffect(() => {
-    document.title = `${t("people.join.title")} · VIPO`;
-  }, [t]);
+  useTitle(t("people.join.title"));
   return <main className={sign.page}>{useCard(code)}</main>;
 }

@@ -2,7 +2,7 @@
 import { Button, PasswordInput, TextInput } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { ArrowRight, CircleAlert } from "lucide-react";
-import { useEffect, useState, type FormEvent } from "react";
+import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { Navigate, useLocation, useSearchParams } from "react-router-dom";
 import { LoadProblem, problemText, Waiting } from "@/shell/LoadProblem";
@@ -13,6 +13,7 @@ import { Avatar } from "@/design/Avatar";
 import { Logo } from "@/design/Logo";
 import { Panel } from "@/design/Panel";
 import { takeKeyboard } from "@/design/takeKeyboard";
+import { useTitle } from "@/design/useTitle";
 import { useWaitingCount } from "@/shell/waitingCopies";
 import { ProviderButtons } from "./ProviderButtons";
 import { safeNext } from "./safeNext";
@@ -147,9 +148,7 @@ export function SignInPage() {
   const me = useMe();
   const next = safeNext(useSearchParams()[0].get("next"));
   const { hash } = useLocation();
-  useEffect(() => {
-    document.title = `${t("pages.signIn.go")} · VIPO`;
-  }, [t]);
+  useTitle(t("pages.signIn.go"));
   if (me.isPending) return <Waiting />;
   if (me.isLoadingError) return <LoadProblem error={me.error} again={() => void me.refetch()} />;
   if (me.data.user) return <Navigate to={next + hash} replace />;

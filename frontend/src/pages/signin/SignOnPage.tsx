@@ -12,6 +12,7 @@ import { EmptyState } from "@/design/EmptyState";
 import { Logo } from "@/design/Logo";
 import { Panel } from "@/design/Panel";
 import { takeKeyboard } from "@/design/takeKeyboard";
+import { useTitle } from "@/design/useTitle";
 import { problemText, Waiting } from "@/shell/LoadProblem";
 import { useProviders } from "./providers";
 import { safeNext } from "./safeNext";
@@ -157,9 +158,7 @@ export function SignOnPage() {
   const { t } = useTranslation();
   const { provider = "" } = useParams();
   const me = useMe();
-  useEffect(() => {
-    document.title = `${t("signOn.page")} · VIPO`;
-  }, [t]);
+  useTitle(t("signOn.page"));
   // `/me` gives the token that finishing needs.
   return (
     <main className={styles.page}>

@@ -1,11 +1,12 @@
 /** A site on a screen in a hall: read only, without names of people, in large type, and nothing to press. */
 import { CircleAlert, OctagonX, TriangleAlert } from "lucide-react";
-import { useEffect, useMemo } from "react";
+import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import { EmptyState } from "@/design/EmptyState";
 import { Logo } from "@/design/Logo";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { useNow } from "@/design/useNow";
+import { useTitle } from "@/design/useTitle";
 import { formatAgo, formatTime } from "@/i18n/format";
 import { waitWords } from "@/i18n/waits";
 import { StaticMap } from "@/map/StaticMap";
@@ -157,9 +158,7 @@ export function WallPage() {
   const wall = useWall();
   const { picture, line } = wall;
   const title = picture?.site ?? t("wall.title");
-  useEffect(() => {
-    document.title = `${title} · VIPO`;
-  }, [title]);
+  useTitle(title);
   if (line === "ended" || line === "many") return <Ended line={line} />;
   const counts = countOnline(picture?.devices ?? []);
   return (

@@ -1,0 +1,2 @@
+/** The handle of the routes that are pages of a site's settings. */
+export const SETTINGS = "settings";
