@@ -91,6 +91,7 @@ def test_one_asks_another_approves_an_edit_voids_it_and_it_runs_once_it_is_appro
     dialog.get_by_role("button", name="Ask", exact=True).click()
     expect(dialog).to_contain_text("asked for a review")
     compare(admin, path, 2, 2)
+    expect(admin.get_by_text("This is one version, whole: there is no earlier one beside it.")).to_be_visible()
     admin.get_by_role("button", name="Only what changed since v1").click()
     expect(admin.get_by_role("heading", name="1 change")).to_be_visible()
     assert violations(admin) == []

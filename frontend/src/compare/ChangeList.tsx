@@ -18,6 +18,8 @@ const KINDS: readonly ChangeKind[] = ["added", "removed", "changed", "moved"];
 
 interface ListProps {
   comparison: Comparison | undefined;
+  /** Both sides are one version. */
+  isOne?: boolean;
   pictures: Pictures;
   chosen: string | null;
   canEdit: boolean;
@@ -45,7 +47,7 @@ export function ChangeList(props: ListProps) {
         </IconButton>
       </header>
       <Counts changes={changes} />
-      <State comparison={comparison} />
+      <State comparison={comparison} isOne={props.isOne ?? false} />
       {comparison?.new.errors ? (
         <p className={styles.state} role="status">
           {t("compare.errors", { count: comparison.new.errors })}
@@ -86,7 +88,7 @@ function Counts({ changes }: { changes: readonly ConstructChange[] }) {
 }
 
 /** What is to be said where there is nothing to list. */
-function State({ comparison }: { comparison: Comparison | undefined }) {
+function State({ comparison, isOne }: { comparison: Comparison | undefined; isOne: boolean }) {
   const { t } = useTranslation();
   if (!comparison) return null;
   const problem = (["old", "new"] as const).find((side) => comparison[side].problem);
@@ -99,7 +101,9 @@ function State({ comparison }: { comparison: Comparison | undefined }) {
   if ((comparison.difference?.constructs.length ?? 0) > 0) return null;
   return (
     <p className={styles.state} role="status">
-      {t(comparison.difference?.tidied.length ? "compare.only_tidying" : "compare.no_difference")}
+      {isOne
+        ? t("compare.one_version")
+        : t(comparison.difference?.tidied.length ? "compare.only_tidying" : "compare.no_difference")}
     </p>
   );
 }

@@ -47,6 +47,8 @@ interface CompareMapProps {
   plan: FloorPlan | null;
   devices: readonly SiteDevice[];
   difference: Difference;
+  /** Both sides are one version: nothing of it is pale beside what has changed. */
+  isOne: boolean;
   pictures: Pictures;
   chosen: string | null;
   /** How often something was chosen. */
@@ -58,9 +60,9 @@ interface CompareMapProps {
 }
 
 export function CompareMap(props: CompareMapProps) {
-  const { plan, devices, difference, pictures, chosen, onChoose } = props;
+  const { plan, devices, difference, isOne, pictures, chosen, onChoose } = props;
   const { drawn, ghosts, tiles, parts } = pictures;
-  const { states, looks } = useLooks(difference, parts, chosen);
+  const { states, looks } = useLooks(difference, isOne, parts, chosen);
   const choose = (step: string) => {
     if (states.has(step)) onChoose(`steps/${step}`);
   };
@@ -84,7 +86,7 @@ export function CompareMap(props: CompareMapProps) {
 }
 
 /** Changed steps in their state, all others the same. */
-function useLooks(difference: Difference, parts: Pictures["parts"], chosen: string | null) {
+function useLooks(difference: Difference, isOne: boolean, parts: Pictures["parts"], chosen: string | null) {
   const states = useMemo(
     () => new Map(difference.constructs.filter((each) => each.root === "steps").map((each) => [each.id, each.kind])),
     [difference],
@@ -92,7 +94,7 @@ function useLooks(difference: Difference, parts: Pictures["parts"], chosen: stri
   const looks = useMemo<NodeLooks>(
     () => ({
       selected: new Set(chosen?.startsWith("steps/") ? [chosen.slice("steps/".length)] : []),
-      stateOf: (step) => states.get(step) ?? "same",
+      stateOf: (step) => states.get(step) ?? (isOne ? null : "same"),
       othersOn: NOBODY,
       lightOf: () => null,
       captionOf: () => null,
@@ -101,7 +103,7 @@ function useLooks(difference: Difference, parts: Pictures["parts"], chosen: stri
       startLabel: parts.t("start"),
       editable: false,
     }),
-    [chosen, states, parts],
+    [chosen, isOne, states, parts],
   );
   return { states, looks };
 }

@@ -193,6 +193,7 @@ function Compared(props: ComparedProps) {
     undo: restore.undo,
   });
   const rest = order.length > 0 ? offered : null;
+  const isOne = props.asked !== null && props.asked[0] === props.asked[1];
   return (
     <>
       <CompareHead {...{ versions, runs, relatives, sides, choose, shown, setShown, comparison }} restore={rest}>
@@ -212,9 +213,9 @@ function Compared(props: ComparedProps) {
           />
         ) : null}
       </CompareHead>
-      <MapOf {...{ plan, devices, comparison, pictures, choice }} />
+      <MapOf {...{ plan, devices, comparison, pictures, choice, isOne }} />
       <ChangeList
-        {...{ comparison, pictures, chosen, canEdit }}
+        {...{ comparison, pictures, chosen, canEdit, isOne }}
         walk={choice.walk}
         restore={offered}
         onChoose={choice.choose}

@@ -44,9 +44,11 @@ interface MapOfProps {
   comparison: Comparison | undefined;
   pictures: Pictures;
   choice: ReturnType<typeof useChoice>;
+  /** Both sides are one version. */
+  isOne?: boolean;
 }
 
-export function MapOf({ plan, devices, comparison, pictures, choice }: MapOfProps) {
+export function MapOf({ plan, devices, comparison, pictures, choice, isOne = false }: MapOfProps) {
   const { t } = useTranslation();
   const { change, chosen, round } = choice;
   return (
@@ -56,6 +58,7 @@ export function MapOf({ plan, devices, comparison, pictures, choice }: MapOfProp
           plan={plan}
           devices={devices}
           difference={comparison.difference ?? NOTHING}
+          isOne={isOne}
           pictures={pictures}
           chosen={chosen}
           round={round}

@@ -99,6 +99,10 @@ def undo_button(page: Page, name: str) -> Locator:
 def test_the_painting_program_is_drawn_by_keyboard_undone_and_reloaded(sign_in: SignIn) -> None:
     page = sign_in("author")
     make_program(page, "Without a mouse")
+    first = page.get_by_role("region", name="Start with one task")
+    expect(first).to_have_css("opacity", "1")
+    tab_to(page, "group", "Paint Mixer B")  # it may stand behind that card
+    expect(first).not_to_have_css("opacity", "1")
     draw_one_after_the_other(page)
     draw_a_parallel_before_all(page)
     move_the_first_steps_into_it(page)
