@@ -21,9 +21,9 @@ def check_operate(context: Context, node: n.Operate) -> None:
     device = usable_device(context, node, node.device, "device", "missing_machine")
     if device is not None:
         _operate_at(context, node, device)
-    check_held_device(context, node, node.device, "device", lambda f: _operate_at(context, node, f.description))
     if node.device.value is not None:
-        _check_units(context, node, node.device.value)
+        _check_units(context, node, node.device.value)  # first: who fits but for a unit told of here, fits
+    check_held_device(context, node, node.device, "device", lambda f: _operate_at(context, node, f.description))
 
 
 def _operate_at(context: Context, node: n.Operate, device: Description) -> None:

@@ -40,9 +40,6 @@ _MILDER: Mapping[str, str] = {
     "no_such_item": "may_be_no_such_item",
     "no_robot_yet": "perhaps_no_robot_yet",
     "releases_carrying": "may_release_carrying",
-    "wrong_unit": "may_not_fit",
-    "unit_not_taken": "may_not_fit",
-    "temperature_or_difference": "may_not_fit",
 }
 """What is sure on one path is not told again as what may be on another."""
 NO_STEPS: frozenset[int] = frozenset()

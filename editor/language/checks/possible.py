@@ -14,6 +14,7 @@ from editor.language.site.surroundings import DeviceFacts
 from editor.language.tree import nodes as n
 
 Found = list[tuple[Problem, int]]
+_OF_UNITS = frozenset({"wrong_unit", "unit_not_taken", "temperature_or_difference"})
 
 
 def check_held_device(
@@ -59,7 +60,10 @@ def check_held_place(
 def _check_each(
     context: Context, node: n.Node, value: Expression, field: str, check_one: Callable[[str], None]
 ) -> None:  # fmt: skip
-    """Tell what is wrong with all that a value may be; where only some of it is wrong, which."""
+    """Tell what is wrong with all that a value may be; where only some of it is wrong, which.
+
+    A unit is a fault of what the step gives, so it is told beside a device that does not fit whatever it is given.
+    """
     words = Here(context.surroundings, context.known).words(value)
     names = sorted(word for word in words if isinstance(word, str))
     wrong: dict[str, Found] = {}
@@ -67,16 +71,35 @@ def _check_each(
         outside, context.found = context.found, []
         check_one(name)
         found, context.found = context.found, outside
-        if any(TEXTS[problem.code][0] == "error" for problem, _ in found):
+        if _errors(found):
             wrong[name] = found
     if not wrong:
         return
-    first = next(iter(wrong))
+    others = [name for name, found in wrong.items() if _is_of_units_alone(found)]
+    misfits = [name for name in wrong if name not in others]
     if len(wrong) == len(words):
-        context.found.extend(wrong[first])
+        context.found.extend(wrong[(others or misfits)[0]])
+        names = misfits if others else []
     else:
+        names = misfits or [name for name in others if not _is_told(context, node, wrong[name])]
+    for first in names[:1]:
         facts = context.surroundings.devices.get(first)
         context.report(node, "may_not_fit", field, {"device": first if facts is None else facts.description.name})
+
+
+def _errors(found: Found) -> list[Problem]:
+    return [problem for problem, _ in found if TEXTS[problem.code][0] == "error"]
+
+
+def _is_of_units_alone(found: Found) -> bool:
+    """Tell whether a device would fit if the step gave its values in other units."""
+    return all(problem.code in _OF_UNITS for problem in _errors(found))
+
+
+def _is_told(context: Context, node: n.Node, found: Found) -> bool:
+    """Tell whether the units that do not fit a device are told of already, so that it need not be told of, too."""
+    told = {problem.field for problem, key in context.found if key == id(node) and problem.code in _OF_UNITS}
+    return told.issuperset(problem.field for problem in _errors(found))
 
 
 def _may_be_place(context: Context, node: n.Node, value: Expression, field: str, wanted: str) -> bool:

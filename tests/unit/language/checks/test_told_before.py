@@ -46,6 +46,8 @@ TAKE = (
 )
 
 
+MISFIT, UNKNOWN = "may_not_fit Paint Mixer A", "unknown_method Paint Mixer A"
+PRESSED = "self.wait(until=self.m.read('pressure') > quantity(3, 'kg'))"
 GO = "def go(self, at: Place):\n    self.robot.move(at.location)"
 BOTH, OTHER = "for m in [self.oven, self.mixer]:\n    ", "TurtleBot 2"
 COOK_BOTH = "self.cook(machine=self.oven)\nself.cook(machine=self.mixer)"
@@ -69,6 +71,9 @@ CARRY = """for thing in ['box', '{}']:
         ((COOK_BOTH, COOK), ["unknown_method Paint Mixer A"]),
         (("self.cook(machine=self.oven)", COOK), []),
         ((f"{CHOSEN}self.m.operate('curePaint', {{'time': 10}})",), ["may_not_fit Paint Mixer A"]),
+        ((f"{CHOSEN}self.m.operate('curePaint', {{'time': quantity(3, 'kg')}})",), ["wrong_unit", MISFIT]),
+        ((f"{BOTH}m.operate('curePaint', {{'time': quantity(3, 'kg')}})",), [UNKNOWN, "wrong_unit"]),
+        ((CHOSEN.replace("mixer", "booth") + PRESSED,), ["wrong_unit", "may_not_fit Curing Oven"]),
         ((f"{CHOSEN}self.m.operate('rest', {{}})",), ["unknown_method Curing Oven"]),
         ((f"{BOTH}self.wait(until=m.read('quality') == 'good')",), ["unknown_property Paint Mixer A"]),
         ((f"{BOTH}self.wait(until=m.read('temperature') > 30)",), []),

@@ -222,6 +222,15 @@ def test_a_measure_that_no_machine_takes_is_told_once() -> None:
     assert told(body.replace("curePaint", "polish"), where=site("KG")) == ["unknown_method"]
 
 
+def test_a_measure_that_one_machine_does_not_take_hides_no_other_machine_that_does_not_fit() -> None:
+    either = f"self.m = self.oven\nif self.oven.temperature > 40:\n    self.m = self.twin\n{ORDER}"
+    third = either.replace(ORDER, f"if self.oven.temperature > 60:\n    self.m = self.mixer\n{ORDER}")
+    given = 'self.mixer = ctx.get("paintMixer01")'
+    assert told(third, where=site("KG"), more=given) == ["wrong_unit", "may_not_fit"]
+    assert told(third, more=given) == ["may_not_fit"]
+    assert told(third.replace("self.mixer", "self.oven"), where=site("KG")) == ["wrong_unit"]
+
+
 def test_what_is_waited_is_what_a_device_tells_that_a_variable_holds() -> None:
     actions = begun('for oven in [self.oven]:\n    self.wait(oven.read("left"))')
     assert [each.seconds for each in actions if isinstance(each, m.SetTimer)] == [120]
