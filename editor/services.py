@@ -38,6 +38,7 @@ from editor.programs.scripts import draw_script
 from editor.programs.versions import (
     compile_version,
     compile_version_to_json,
+    find_misfit,
     find_version,
     get_version,
     list_versions,
@@ -78,6 +79,7 @@ __all__ = [
     "create_program",
     "delete_program",
     "draw_script",
+    "find_misfit",
     "find_numbers",
     "find_version",
     "find_zones",

@@ -6,6 +6,7 @@
 from editor.language.compiler import Compiled, compile_document, compiled_to_json
 from editor.language.drawing.document import tree_to_document
 from editor.language.messages.diagnostics import Diagnostic, Fix
+from editor.language.misfits import Misfit, find_misfit
 from editor.language.parsing.script import Parsed, parse_script
 from editor.language.plan.instructions import Plan
 from editor.language.plan.json_form import UnreadablePlan, plan_from_json, plan_to_json
@@ -19,6 +20,7 @@ __all__ = [
     "Diagnostic",
     "Fix",
     "FloorFacts",
+    "Misfit",
     "Parsed",
     "PlaceFacts",
     "Plan",
@@ -29,6 +31,7 @@ __all__ = [
     "ZoneFacts",
     "compile_document",
     "compiled_to_json",
+    "find_misfit",
     "parse_script",
     "plan_from_json",
     "plan_to_json",

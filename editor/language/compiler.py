@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Final
 
 from editor.language.allocation import paused_collector
 from editor.language.analysis.memo import Memo, Memos
@@ -22,6 +24,9 @@ from editor.language.tree.numbering import number_steps, numbers_in_script
 from editor.language.tree.program import Tree
 from editor.language.tree.robots import with_crew, with_holds, with_roles_of_robots
 from editor.language.tree.zones import zone_names
+from vipo_device.protocol.description import Scalar
+
+NOTHING_GIVEN: Final[Mapping[str, Scalar]] = MappingProxyType({})
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,10 +94,20 @@ class Look:
         return print_tree(self.tree, self.surroundings, numbers, zone_names(self.document), self.printed)
 
 
-def look_at(document: object, surroundings: Surroundings, memos: Memos | None = None) -> Look:
-    """Read and check a document; what the memos hold of the last look is used, and they then hold this one."""
+def look_at(
+    document: object,
+    surroundings: Surroundings,
+    memos: Memos | None = None,
+    given: Mapping[str, Scalar] = NOTHING_GIVEN,
+) -> Look:
+    """Read and check a document; what the memos hold of the last look is used, and they then hold this one.
+
+    `given` is what a run gives the parameters, by their names in the script; of the others nothing is known.
+    """
     reading = read_document(migrate(document), memos.read if memos else None)
     tree = with_roles_of_robots(reading.tree, surroundings)
+    if given:
+        tree = replace(tree, parameters=tuple(replace(each, given=given.get(each.name)) for each in tree.parameters))
     tree = add_moves(tree, standing_places(surroundings), memos.positions if memos else None)
     surroundings = with_crew(surroundings, tree.roles)
     found, holds = check(reading, tree, surroundings, document, memos)

@@ -8,11 +8,20 @@ from dataclasses import dataclass
 from typing import Any
 
 from editor.documents import work
-from editor.language import Diagnostic, Surroundings, compile_document, compiled_to_json, plan_to_json
+from editor.language import (
+    Diagnostic,
+    Misfit,
+    Surroundings,
+    compile_document,
+    compiled_to_json,
+    find_misfit,
+    plan_to_json,
+)
 from editor.language.allocation import paused_collector
 from editor.language.compiler import look_at
 from editor.language.tree.program import Parameter
 from editor.programs.summary import Summary, summary_of
+from vipo_device.protocol.description import Scalar
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +64,18 @@ class _Compiling:
 
 
 @dataclass(frozen=True, slots=True)
+class _Fitting:
+    document: Mapping[str, Any]
+    surroundings: Surroundings
+    given: Mapping[str, Scalar]
+
+    def done(self) -> tuple[Misfit, ...]:
+        with paused_collector():
+            misfit = find_misfit(self.document, self.surroundings, self.given)
+        return () if misfit is None else (misfit,)
+
+
+@dataclass(frozen=True, slots=True)
 class _Printing:
     document: Mapping[str, Any]
     surroundings: Surroundings
@@ -68,6 +89,13 @@ def compile_program(
 ) -> Compilation:
     """Compile a document for a site; `revision` is the number of the look."""
     return work.do(_Compiling(document, surroundings, revision, with_plan), work.size_of(document))
+
+
+def find_misfit_of_program(
+    document: Mapping[str, Any], surroundings: Surroundings, given: Mapping[str, Scalar]
+) -> Misfit | None:
+    """Return the first parameter whose device cannot do what the program does with it; None where all can."""
+    return next(iter(work.do(_Fitting(document, surroundings, given), work.size_of(document))), None)
 
 
 def print_program(document: Mapping[str, Any], surroundings: Surroundings) -> str:

@@ -14,14 +14,16 @@ from django.db.models import QuerySet
 from editor.documents.shared_document import digest_of, migrate_document
 from editor.documents.store import get_document, last_row
 from editor.errors import BadRequest, NoSuchProgram, UnreadableVersion
+from editor.language import Misfit
 from editor.models import Program, Version, VersionToTest
 from editor.programs.checking import build_surroundings, new_revision
-from editor.programs.compilations import Compilation, compile_program, print_program
+from editor.programs.compilations import Compilation, compile_program, find_misfit_of_program, print_program
 from editor.programs.packing import Content, UnknownPacking, pack, pack_difference, unpack
 from editor.programs.programs import GONE, find_program
 from editor.programs.views import AuthorView, VersionView, WholeVersionView, view_author
 from registry import services as registry
 from registry.services import FIRST, Listed, Page
+from vipo_device.protocol.description import Scalar
 from vipo_device.protocol.texts import find_unfit, normal
 
 MOST_NAME, MOST_MESSAGE = 80, 300
@@ -103,6 +105,14 @@ def name_version(*, program_id: UUID | str, number: int, name: str, message: str
 def compile_version(*, version: WholeVersionView) -> Compilation:
     """Compile a version for its site as that is now, with its plan."""
     return compile_program(version.document, build_surroundings(site=version.site), with_plan=True)
+
+
+def find_misfit(*, version: WholeVersionView, given: Mapping[str, Scalar]) -> Misfit | None:
+    """Return the first parameter of a version that is given a device which cannot do what the program does with it.
+
+    `given` has them by their names in the script. None where all devices can, as the site is now.
+    """
+    return find_misfit_of_program(version.document, build_surroundings(site=version.site), given)
 
 
 def compile_version_to_json(*, version: WholeVersionView) -> dict[str, object]:

@@ -33,7 +33,7 @@ _MUST = {
 class Surrounding:
     """The ids that a parameter may name: of devices that take part, and of places."""
 
-    devices: Collection[str]
+    devices: frozenset[str]
     places: Collection[str]
 
 

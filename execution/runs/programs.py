@@ -9,7 +9,7 @@ from typing import Any, Literal
 from uuid import UUID
 
 from editor import services as editor
-from editor.language import Diagnostic
+from editor.language import Diagnostic, Misfit
 from editor.language.reading.names import by_id, read_parameters
 from execution.errors import NotReady
 from execution.runs.parameters import Surrounding, fit_parameters
@@ -45,7 +45,8 @@ def prepare(
     """Pin the program as it is drawn now, or take one of its versions, and compile it for the site as it is now.
 
     Raises:
-        NotReady: the program has errors, or a parameter does not exist, is missing or does not fit.
+        NotReady: the program has errors, or a parameter does not exist, is missing or does not fit, or is given a
+            device that cannot do what the program does with it.
         editor.NoSuchProgram: there is no such version.
     """
     program = editor.get_program(program_id=program_id)
@@ -54,7 +55,12 @@ def prepare(
     if compiled.plan is None:
         raise not_ready(compiled.errors)
     _, names = read_parameters(by_id(pinned.document.get("parameters")).items())
-    fitting = fit_parameters(compiled.parameters, names, parameters, _around(program.site))
+    around = _around(program.site)
+    fitting = fit_parameters(compiled.parameters, names, parameters, around)
+    if not around.devices.isdisjoint(map(str, fitting.values())):
+        misfit = editor.find_misfit(version=pinned, given=fitting)
+        if misfit is not None:
+            raise _cannot(misfit, names)
     return Prepared(
         program=program_id,
         site=program.site,
@@ -75,7 +81,15 @@ def _version(program_id: UUID, user: Any, number: int | None, cause: Cause) -> e
 
 def _around(site: str) -> Surrounding:
     places = frozenset(place.id for place in registry.list_places(site=site))
-    return Surrounding(registry.list_device_ids(site=site, lifecycle="approved"), places)
+    return Surrounding(frozenset(registry.list_device_ids(site=site, lifecycle="approved")), places)
+
+
+def _cannot(misfit: Misfit, names: Mapping[str, str]) -> NotReady:
+    """Return the refusal for a device that cannot do all that it is to; `names` has the script's for the document's."""
+    title = next((title for title, script in names.items() if script == misfit.parameter), misfit.parameter)
+    device, first = misfit.device.name, misfit.diagnostic.messages
+    detail = f"The device “{device}” does not fit the parameter “{title}”. {first['en']}"
+    return NotReady(detail, {"why": "parameter_cannot", "name": title, "device": device, "first": first})
 
 
 def not_ready(errors: Sequence[Diagnostic]) -> NotReady:

@@ -80,6 +80,10 @@ class Domain(ABC, Generic[K]):
     def somewhere(self) -> K:
         """Return what is known where nobody knows what came before: in an event, or in a function called anyhow."""
 
+    def in_event(self) -> K:
+        """Return what is known where an event begins, whenever that is."""
+        return self.somewhere()
+
     @abstractmethod
     def meet(self, place: Place, before: K, ends: Sequence[K], effects: Effects) -> K:
         """Return what holds where paths meet that began at `before` and may have changed so much."""

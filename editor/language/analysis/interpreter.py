@@ -42,7 +42,7 @@ def interpret(walk: Walk) -> None:
         walk.end(None, end)
     for event in tree.events:
         walk.frame = Frame(event.step)
-        walk.block(event.body, walk.somewhere())
+        walk.block(event.body, walk.in_event())
     for function in tree.functions:
         unseen = bool(function.body) and id(function.body[0]) not in walk.visited
         if unseen or function.method in walk.opened:

@@ -13,6 +13,7 @@ from typing import ClassVar, Final
 
 from editor.language.analysis.domain import Domain, Place, Transfer
 from editor.language.analysis.effects import Effects
+from editor.language.analysis.given import known_of, known_of_all
 from editor.language.expressions.nodes import Constant, Expression, Operation, Reading, Variable
 from editor.language.expressions.ranges import ANY, MOST_WORDS, Here, Items, Known, Range, either_known, limited
 from editor.language.expressions.unit_conversion import convert_units
@@ -68,11 +69,16 @@ class Variables(Domain[Env]):
 
     def begin(self) -> Env:
         """Return that the program's parameters have a value."""
-        return {parameter.name: _ANYTHING for parameter in self.parameters}
+        return {each.name: (SET, known_of(each)) for each in self.parameters}
 
     def somewhere(self) -> Env:
         """Return that every variable of the program may have any value."""
         return {_ELSE: _ANYTHING}
+
+    def in_event(self) -> Env:
+        """Return that parameters which no step sets are still what the run was given."""
+        known = known_of_all(self.parameters, self.tracked)
+        return {_ELSE: _ANYTHING, **{name: (SET, each) for name, each in known.items()}}
 
     def copy(self, known: Env) -> Env:
         """Return the same for another path: an environment is changed in place by the steps of its path."""

@@ -315,6 +315,10 @@ class Walk:
         """Return what is known where nobody knows what came before."""
         return [domain.somewhere() for domain in self.domains]
 
+    def in_event(self) -> States:
+        """Return what is known where an event begins, whenever that is."""
+        return [domain.in_event() for domain in self.domains]
+
     def copy(self, states: States) -> States:
         """Return what is known for another path."""
         copied = states.copy()

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import cast
 
+from editor.language.analysis.given import known_of_all
 from editor.language.analysis.memo import Memos
 from editor.language.checks.bodies import Body, find_bodies
 from editor.language.checks.context import Checked, Context
@@ -45,6 +46,7 @@ from editor.language.document.outline import PROGRAM, Outline
 from editor.language.expressions import nodes as e
 from editor.language.expressions.constant_values import constant_value
 from editor.language.expressions.nodes import Expression
+from editor.language.expressions.ranges import NOTHING_KNOWN
 from editor.language.expressions.value_types import LIST, NUMBER, SECONDS, TEXT, ValueType
 from editor.language.messages.diagnostics import Fix, Problem, fix_value
 from editor.language.messages.phrases import Options
@@ -106,7 +108,9 @@ def _check_steps(context: Context, bodies: list[Body]) -> None:
         if body.event is not None:
             event = cast("n.Node", body.event)  # an event has a step as nodes do
             body.enter(context, event)
+            context.known = known_of_all(context.tree.parameters, context.changing())
             check_condition(context, event, body.event.condition, "condition")
+            context.known = NOTHING_KNOWN
     context.result = ValueType()
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from editor.language.checks.context import Context
 from editor.language.expressions.nodes import Expression, PlaceRef, Variable
@@ -78,7 +79,8 @@ def _check_each(
     others = [name for name, found in wrong.items() if _is_of_units_alone(found)]
     misfits = [name for name in wrong if name not in others]
     if len(wrong) == len(words):
-        context.found.extend(wrong[(others or misfits)[0]])
+        first = (others or misfits)[0]
+        context.found.extend((replace(problem, held=first), key) for problem, key in wrong[first])
         names = misfits if others else []
     else:
         names = misfits or [name for name in others if not _is_told(context, node, wrong[name])]

@@ -56,6 +56,8 @@ class Problem:
     field: str = ""
     args: TextArguments = dataclasses.field(default_factory=dict)
     fix: Fix | None = None
+    held: str = ""
+    """The id of the device or place of which it is true, where the step has it from a variable."""
 
 
 @dataclass(frozen=True, slots=True)

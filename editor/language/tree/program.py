@@ -29,6 +29,8 @@ class Parameter:
     default: Scalar = None
     type: str = ""
     unit: str = ""
+    given: Scalar = None
+    """What the run gives the program that is looked at; None: whatever people may choose."""
 
 
 @dataclass(frozen=True, slots=True)

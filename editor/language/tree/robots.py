@@ -212,8 +212,8 @@ class Candidates:
     def told_by_held(self, held: Held | None, name: str) -> Told:
         """Return what these report under a name; one that says no unit counts as the others do.
 
-        Those that people may choose are left out where they can do nothing of what the program does with them: such a
-        one fails in the program's first step with it.
+        Those that people may choose are left out where they can do nothing of what the program does with them: no run
+        starts with such a one.
         """
         key = (held, name)
         if key not in self._told_by_held:

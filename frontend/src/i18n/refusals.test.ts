@@ -15,6 +15,13 @@ test("a refusal to run is told in the language of the screen, with the first err
   );
 });
 
+test("a device that does not fit a parameter is told with what it cannot do", () => {
+  const first = { en: "Oven cannot paint.", de: "Oven kann paint nicht." };
+  expect(refusalWords("not_ready", { why: "parameter_cannot", name: "machine", device: "Oven", first })).toBe(
+    "Das Gerät „Oven“ passt nicht zum Parameter „machine“. Oven kann paint nicht.",
+  );
+});
+
 test("what the screens do not know is left to the server's own words", () => {
   expect(refusalWords("not_ready", undefined)).toBeNull();
   expect(refusalWords("not_ready", { why: "something new" })).toBeNull();

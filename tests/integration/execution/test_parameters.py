@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from datetime import UTC, datetime, timedelta
 from typing import Any
 
 import pytest
@@ -10,7 +11,7 @@ from django.test import Client
 
 from editor import services as editor
 from execution.models import Rehearsal, Run
-from tests.kit.programs import OVEN, SITE, TASK
+from tests.kit.programs import OVEN, SITE, TASK, step
 from tests.kit.sign_in import join_and_sign_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -67,6 +68,46 @@ def test_what_is_left_out_has_its_default_and_names_are_those_of_the_document(pr
     assert kept == {
         "minutes": 2.5, "is_paint_dry": False, "colour": "blue", "oven": OVEN, "where": OVEN, "note": "", "count": 3,
     }  # fmt: skip
+
+
+def cooking_program() -> str:
+    """Return a program that heats in whatever is chosen, and watches it."""
+    chosen = {"param": "oven"}
+    wait = step("wait", order="2V", until={"op": ">", "args": [{"property": [chosen, "temperature"]}, 20]})
+    steps = {"s1": step("operate", device=chosen, method="curePaint", args={"time": 3}), "s2": wait}
+    document = {**TASK, "steps": steps, "parameters": {"p4": PARAMETERS["p4"]}}
+    return str(editor.create_program(site=SITE, name="Cook", document=document).id)
+
+
+@pytest.mark.parametrize("kind", ["runs", "rehearsals"])
+def test_a_device_that_cannot_do_what_the_program_does_with_it_is_refused_by_name(factory: Any, kind: str) -> None:
+    program, client = cooking_program(), join_and_sign_in("operator", SITE)
+    answer = send(client, f"/programs/{program}/{kind}", json.dumps({"parameters": {"oven": "paintMachine01"}}))
+    told = "The device “Painting Machine” does not fit the parameter “oven”. "
+    cannot = "Painting Machine cannot curePaint. It can: paint."
+    assert (answer.status_code, answer.json()["code"], answer.json()["detail"]) == (422, "not_ready", told + cannot)
+    args = answer.json()["args"]
+    assert (args["why"], args["name"], args["device"]) == ("parameter_cannot", "oven", "Painting Machine")
+    assert args["first"] == {"en": cannot, "de": "Painting Machine kann curePaint nicht. Es kann: paint."}
+    assert (Run.objects.count(), Rehearsal.objects.count()) == (0, 0)
+    answer = send(client, f"/programs/{program}/{kind}", json.dumps({"parameters": {"oven": OVEN}}))
+    assert answer.status_code == 202, answer.json()
+
+
+def test_a_planned_run_is_refused_when_it_is_planned_and_a_program_when_it_is_armed(factory: Any) -> None:
+    client = join_and_sign_in("operator", SITE)
+    later = (datetime.now(UTC) + timedelta(hours=1)).isoformat()
+    body = json.dumps({"parameters": {"oven": "paintMachine01"}, "not_before": later})
+    answer = send(client, f"/programs/{cooking_program()}/runs", body)
+    assert (answer.status_code, answer.json()["args"]["why"]) == (422, "parameter_cannot")
+    chosen = {"p4": {**PARAMETERS["p4"], "default": "paintMachine01"}}
+    hot = {"op": ">", "args": [{"property": [OVEN, "temperature"]}, 60]}
+    event = step("on_event", ("program", "events"), starts="run", condition=hot)
+    cook = step("operate", ("e1", "body"), device={"param": "oven"}, method="curePaint", args={"time": 3})
+    document = {**TASK, "steps": {**TASK["steps"], "e1": event, "s2": cook}, "parameters": chosen}
+    program = editor.create_program(site=SITE, name="Armed", document=document).id
+    answer = send(client, f"/programs/{program}/arm", json.dumps({"on": True}))
+    assert (answer.status_code, answer.json()["args"]["why"]) == (422, "parameter_cannot"), answer.json()
 
 
 @pytest.mark.parametrize(
