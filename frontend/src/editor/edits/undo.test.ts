@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { applyEdits, type Edit } from "./edits";
 import { EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/document";
-import { asTheyAre, changedSince } from "./undo";
+import { asTheyAre, changedSince, workedOnSince } from "./undo";
 
 const step = { kind: "wait", place: ["program", "body", "A"], pos: [1, -1], params: { duration: 5 } } as const;
 const before: ProgramDocument = { ...EMPTY_DOCUMENT, steps: { a: step, b: step } };
@@ -62,6 +62,35 @@ test("what was set is told as it is now, each field once", () => {
     { do: "set_param", id: "c", name: "duration", value: 7 },
   ]);
   expect(changedSince(before, asTheyAre(before, edits))).toBe(false);
+});
+
+const added: readonly Edit[] = [
+  { do: "add_step", id: "loop", step: { kind: "repeat", place: null, pos: null, params: { times: 2 } } },
+  { do: "set_param", id: "loop", name: "times", value: 3 },
+  { do: "set_place", id: "a", place: ["loop", "body", "A"] },
+];
+
+test("a step that I added is worked on by who changes anything in it, or draws into it", () => {
+  const drawn = applyEdits(before, added);
+  expect(workedOnSince(drawn, added)).toBe(false);
+  for (const theirs of [
+    { do: "set_param", id: "loop", name: "times", value: 4 },
+    { do: "set_param", id: "loop", name: "note", value: "slowly" },
+    { do: "set_pos", id: "loop", pos: [4, 4] },
+    { do: "set_place", id: "loop", place: ["program", "body", "B"] },
+    { do: "set_place", id: "b", place: ["loop", "body", "B"] },
+    { do: "add_step", id: "c", step: { ...step, place: ["loop", "body", "C"] } },
+  ] satisfies Edit[])
+    expect(workedOnSince(applyEdits(drawn, [theirs]), added)).toBe(true);
+});
+
+test("a step that I did not add, or that has gone, is no work to lose", () => {
+  const drawn = applyEdits(before, added);
+  expect(workedOnSince(applyEdits(drawn, [{ do: "set_param", id: "a", name: "duration", value: 9 }]), added)).toBe(
+    false,
+  );
+  expect(workedOnSince(before, added)).toBe(false);
+  expect(workedOnSince(applyEdits(after, [{ do: "set_pos", id: "a", pos: [2, 2] }]), mine)).toBe(false);
 });
 
 test("the same said in another order of its keys changes nothing", () => {

@@ -1,7 +1,8 @@
 /** Whether somebody changed after me what I set last, so that undoing or redoing it would overwrite theirs. */
-import type { Edit } from "./edits";
-import type { ProgramDocument } from "@/program/document/document";
+import { applyEdits, type Edit } from "./edits";
+import { EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/document";
 import { isSameValue } from "@/program/document/sameValue";
+import { readStep } from "@/program/document/wellFormed";
 
 /** What the edits set, by field; the last one counts. Whether a step is there is one, too. */
 function fieldsOf(edits: readonly Edit[]): ReadonlyMap<string, Edit> {
@@ -20,6 +21,19 @@ export function changedSince(document: ProgramDocument, edits: readonly Edit[]):
     const [now, mine] = valuesOf(document, edit);
     return now !== undefined && !isSameValue(now ?? null, mine ?? null);
   });
+}
+
+/** Whether a step that the edits added has more in it than they gave it: another field, or steps of others inside. */
+export function workedOnSince(document: ProgramDocument, edits: readonly Edit[]): boolean {
+  const { steps } = applyEdits(EMPTY_DOCUMENT, edits);
+  const placed = new Set(edits.flatMap((edit) => ("id" in edit ? [edit.id] : [])));
+  return (
+    Object.entries(steps).some(([id, mine]) => {
+      const now = document.steps[id];
+      return now !== undefined && !isSameValue(now, readStep(mine));
+    }) ||
+    Object.entries(document.steps).some(([id, { place }]) => place && Object.hasOwn(steps, place[0]) && !placed.has(id))
+  );
 }
 
 /** Edits that set the fields of these as they are now; a step that is away has none. */

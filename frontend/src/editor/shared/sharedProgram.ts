@@ -149,6 +149,7 @@ export class SharedProgram {
   /** What the program itself puts right after a gesture: no entry of its own in the undo list. */
   adjust(edits: readonly Edit[]): void {
     applyEditsToDoc(this.doc, edits);
+    this.undo.adjusted(edits);
   }
 
   /** Wait until the database holds what is on this screen, also of others: before something is made of the program. */

@@ -21,6 +21,10 @@ export function keepEdits(entry: Entry, edits: readonly Edit[]): void {
   entry.meta.set(EDITS, edits);
 }
 
+function sets(own: Edit, edit: Edit): boolean {
+  return "id" in own && "id" in edit && own.id === edit.id && (own.do === "add_step" || own.do === edit.do);
+}
+
 const CHANGES = ["stack-item-added", "stack-item-popped", "stack-cleared"] as const;
 
 export class UndoList {
@@ -53,6 +57,14 @@ export class UndoList {
       this.#stack(way).unshift(...older);
       this.#busy = false;
       this.#tell();
+    }
+  }
+
+  /** Take what the program put right into the last entry that set it: nobody else has changed it. */
+  adjusted(edits: readonly Edit[]): void {
+    for (const edit of edits) {
+      const entry = this.manager.undoStack.findLast((each) => editsOf(each).some((own) => sets(own, edit)));
+      if (entry) keepEdits(entry, [...editsOf(entry), edit]);
     }
   }
 

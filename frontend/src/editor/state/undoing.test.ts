@@ -91,6 +91,50 @@ test("a removed step that somebody has put back and worked on is not replaced wi
   expect(durationOf("a")).toBe(1);
 });
 
+const addOwn = () => mine({ do: "add_step", id: "c", step: STEP });
+
+test("Undo asks before it takes away a step that somebody has worked on since, and gives all back if done again", () => {
+  addOwn();
+  goBack(open, "undo");
+  goBack(open, "redo");
+  expect([durationOf("c"), said()]).toEqual([1, null]);
+  others(lasts("c", 5));
+  goBack(open, "undo");
+  expect([durationOf("c"), said()]).toEqual([5, "gesture.worked_on"]);
+  pressInToast();
+  expect([durationOf("c"), said()]).toEqual([undefined, null]);
+  goBack(open, "redo");
+  expect(durationOf("c")).toBe(5);
+});
+
+test("Undo asks before it takes away a step into which somebody has drawn", () => {
+  addOwn();
+  others({ do: "add_step", id: "d", step: { ...STEP, place: ["c", "body", "A"] } });
+  goBack(open, "undo");
+  expect([durationOf("c"), said()]).toEqual([1, "gesture.worked_on"]);
+});
+
+test("Redo asks before it takes away a step that somebody has worked on since", () => {
+  mine({ do: "remove_step", id: "a" });
+  goBack(open, "undo");
+  others(lasts("a", 5));
+  goBack(open, "redo");
+  expect([durationOf("a"), said()]).toEqual([5, "gesture.worked_on"]);
+});
+
+test("what I did to my own step, and what the program put right, is no work of others", () => {
+  addOwn();
+  shared.adjust([{ do: "set_pos", id: "c", pos: [3, 3] }]);
+  mine(lasts("c", 4));
+  mine({ do: "set_pos", id: "c", pos: [5, 5] });
+  shared.adjust([{ do: "set_pos", id: "c", pos: [6, 6] }]);
+  for (const left of [4, 1, undefined]) {
+    goBack(open, "undo");
+    if (left === 4) expect(shared.getDocument().steps.c?.pos).toEqual([3, 3]);
+    expect([durationOf("c"), said()]).toEqual([left, null]);
+  }
+});
+
 test("a field that is left by Esc asks before it overwrites what somebody has set since", () => {
   const { length } = shared.undo;
   shared.visits.begin();

@@ -1,6 +1,7 @@
-/** Undo and redo, which ask before they overwrite what somebody else has set since. */
-import { changedSince } from "../edits/undo";
-import { editsOf, type Way } from "../shared/undoList";
+/** Undo and redo, which ask before they overwrite what somebody else has set since, or remove it with its step. */
+import type { ProgramDocument } from "@/program/document/document";
+import { changedSince, workedOnSince } from "../edits/undo";
+import { editsOf, type Entry, type Way } from "../shared/undoList";
 import type { OpenProgram } from "./context";
 import { type Offer, say, useUi } from "./ui";
 
@@ -38,12 +39,20 @@ export function takeOffer(open: Open, { way, entry, asked }: Offer): void {
   if (open.shared.undo.next(way) === entry) settle(open, way, asked);
 }
 
+/** What others would lose by it. */
+function lossOf(document: ProgramDocument, entry: Entry, way: Way) {
+  const edits = editsOf(entry);
+  if (workedOnSince(document, edits)) return "worked_on";
+  return changedSince(document, edits) ? (way === "undo" ? "overwritten" : "overwritten_redo") : null;
+}
+
 /** The next entry: done, or asked about; null where nothing of it was left. */
 function settle({ shared, t }: Open, way: Way, asked = false): "done" | "asked" | null {
   const entry = shared.undo.next(way);
   if (!entry) return null;
-  if (!asked && changedSince(shared.getDocument(), editsOf(entry))) {
-    say(t(way === "undo" ? "gesture.overwritten" : "gesture.overwritten_redo"), { way, entry, asked: true });
+  const why = asked ? null : lossOf(shared.getDocument(), entry, way);
+  if (why) {
+    say(t(`gesture.${why}`), { way, entry, asked: true });
     return "asked";
   }
   return shared.undo.carryOut(way) ? "done" : null;
