@@ -16,6 +16,7 @@ StepStatus = Literal["waiting", "running", "done", "failed", "skipped"]
 Scalar = bool | int | float | str
 Priority = Literal["low", "normal", "high"]
 MapVersion = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
+MapTag = Annotated[Line, Field(max_length=160)]
 
 
 class RunsAsked(Asked):
@@ -294,18 +295,30 @@ class CallShape(Schema):
 
 
 class UseRobotMap(Asked):
-    """Which robot's map, and the versions that were looked at: of the robot's map, and of the site's (0: none)."""
+    """Which robot's map, and the versions that were looked at: of the robot's map, and of the site's (0: none).
+
+    The tags are those of the two maps, as they were told: after a backup was brought back another map may have the
+    number, and is refused then. An empty one says nothing.
+    """
 
     device: Line = Field(max_length=64)
     version: MapVersion
+    tag: MapTag = ""
     replaces: MapVersion
+    replaces_tag: MapTag = ""
 
 
 class RestoreMap(Asked):
-    """Which version of the site's map is to hold again, and which one held when that was decided."""
+    """Which version of the site's map is to hold again, and which one held when that was decided.
+
+    The tags are those of the two maps, as they were told: after a backup was brought back another map may have the
+    number, and is refused then. An empty one says nothing.
+    """
 
     version: MapVersion
+    tag: MapTag = ""
     replaces: MapVersion
+    replaces_tag: MapTag = ""
 
 
 class MapTroubleOfDevices(Schema):

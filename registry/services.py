@@ -87,7 +87,14 @@ from registry.live.fanout import EVERY_SITE, Message, Outage, listen, publish, p
 from registry.maps.drawings import BadDrawing, read_brought_drawing
 from registry.maps.places import PlaceChange, add_place, change_place, find_place, remove_place
 from registry.maps.robot_map_parts import ingest_map_part
-from registry.maps.robot_maps import NoRobotMap, RobotMapFacts, RobotMapView, get_robot_map, get_robot_map_facts
+from registry.maps.robot_maps import (
+    NoRobotMap,
+    RobotMapFacts,
+    RobotMapView,
+    SeenMap,
+    get_robot_map,
+    get_robot_map_facts,
+)
 from registry.maps.site_maps import (
     MapChanged,
     MapVersionView,
@@ -209,6 +216,7 @@ __all__ = [
     "RobotMapFacts",
     "RobotMapView",
     "Seat",
+    "SeenMap",
     "SeriesView",
     "Session",
     "SiteView",

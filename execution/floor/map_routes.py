@@ -73,8 +73,8 @@ def upload_map(
     return {"version": changed.version}
 
 
-def _replaced(site: str, headers: Mapping[str, str]) -> int:
-    """Return the version that is to be replaced, 0 for none. Raises MapTagNeeded, MapOvertaken."""
+def _replaced(site: str, headers: Mapping[str, str]) -> registry.SeenMap:
+    """Return which map is to be replaced. Raises MapTagNeeded, MapOvertaken."""
     tag = headers.get("If-Match", "").strip()
     if not tag and headers.get("If-None-Match", "").strip() != "*":
         raise MapTagNeeded("Say in If-Match which map this replaces, by its ETag, or If-None-Match: * for none.")
@@ -82,7 +82,7 @@ def _replaced(site: str, headers: Mapping[str, str]) -> int:
     # The second is the tag of the version before: a page that was opened then may have a painted map to save.
     if tag not in ((present.tag, f'"{site}-{present.version}"') if present else ("",)):
         raise _overtaken()
-    return present.version if present else 0
+    return registry.SeenMap(present.version, present.tag) if present else registry.SeenMap(0)
 
 
 def _overtaken() -> MapOvertaken:
@@ -119,7 +119,11 @@ def use_robot_map(request: HttpRequest, slug: str, body: UseRobotMap) -> dict[st
     changed = change_map(
         site=slug,
         change=lambda: registry.use_robot_map(
-            site=slug, device_id=body.device, version=body.version, replaces=body.replaces, by=user
+            site=slug,
+            device_id=body.device,
+            brings=registry.SeenMap(body.version, body.tag),
+            replaces=registry.SeenMap(body.replaces, body.replaces_tag),
+            by=user,
         ),
     )
     return {"version": changed.version}
@@ -132,6 +136,11 @@ def restore_map(request: HttpRequest, slug: str, body: RestoreMap) -> dict[str, 
     require(user, slug, "admin")
     changed = change_map(
         site=slug,
-        change=lambda: registry.restore_map(site=slug, version=body.version, replaces=body.replaces, by=user),
+        change=lambda: registry.restore_map(
+            site=slug,
+            brings=registry.SeenMap(body.version, body.tag),
+            replaces=registry.SeenMap(body.replaces, body.replaces_tag),
+            by=user,
+        ),
     )
     return {"version": changed.version}

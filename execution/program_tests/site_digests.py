@@ -18,13 +18,15 @@ MOST_NAMED = 10
 
 
 def digests_of(site: str) -> dict[str, Any]:
-    """Return the version of a site's map and the digests of its places, its zones and of each approved device.
+    """Return which map a site has and the digests of its places, its zones and of each approved device.
 
     They are of what a test is carried out on: what devices show and where they stand at the moment is not in them.
     """
     devices, paces = registry.list_devices(site=site, lifecycle="approved"), find_paces(site=site)
+    plan = registry.get_map(site=site)
     return {
-        "map": registry.get_map(site=site).version,
+        "map": plan.version,
+        "map_tag": plan.tag,
         "places": _digest([asdict(place) for place in registry.list_places(site=site)]),
         "zones": _digest([asdict(zone) for zone in editor.find_zones(site=site)]),
         "devices": {device.id: _digest(_works(device, paces.get(device.id))) for device in devices},
@@ -42,9 +44,10 @@ def what_changed(then: Digests, now: Digests) -> dict[str, Any] | None:
     """Return what of the site is another one: `what`, and the ids of devices; None: nothing, or nobody knows."""
     if not then or not now:
         return None
-    for what in ("map", "places", "zones"):
-        if then[what] != now[what]:
-            return {"what": what, "devices": []}
+    for what in ("map", "map_tag", "places", "zones"):
+        # Of the map of an older result nothing but its number is known.
+        if what in then and then[what] != now[what]:
+            return {"what": what.removesuffix("_tag"), "devices": []}
     known, there = then["devices"], now["devices"]
     others = sorted(device for device in known.keys() | there.keys() if known.get(device) != there.get(device))
     return {"what": "devices", "devices": others[:MOST_NAMED]} if others else None

@@ -53,6 +53,7 @@ def read_map(site: str) -> dict[str, Any] | None:
     return {
         "type": "map",
         "version": found.version,
+        "tag": found.tag,
         "width": grid.width,
         "height": grid.height,
         "resolution_m": grid.resolution_m,

@@ -32,6 +32,18 @@ def map_tag(owner: str, version: int, made_at: datetime) -> str:
 
 
 @dataclass(frozen=True, slots=True)
+class SeenMap:
+    """A map as somebody has seen it: its number (0: there was none) and its tag; empty: they were not told it."""
+
+    version: int
+    tag: str = ""
+
+    def is_still(self, version: int, tag: str) -> bool:
+        """Tell whether it is the map that has this number and tag by now."""
+        return self.version == version and self.tag in ("", tag)
+
+
+@dataclass(frozen=True, slots=True)
 class RobotMapFacts:
     """A robot's map without its cells: metres; `known` is a share from 0 to 1; it last differed at `changed_at`."""
 

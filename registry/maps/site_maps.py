@@ -21,7 +21,7 @@ from registry.floorplan.map_server import check_size
 from registry.floorplan.plan import Box, FloorPlan, Grid, wall_boxes
 from registry.live.fanout import publish
 from registry.maps.kept_work import KeptWork
-from registry.maps.robot_maps import get_robot_map, map_tag
+from registry.maps.robot_maps import SeenMap, get_robot_map, map_tag
 from registry.models import Device, Site, SiteMap, User
 from registry.sites.sites import find_site, list_places
 from vipo_device.protocol.description import Description
@@ -73,6 +73,7 @@ class MapVersionView:
     """
 
     version: int
+    tag: str
     width: int
     height: int
     resolution_m: float
@@ -81,12 +82,22 @@ class MapVersionView:
     at: datetime
 
 
+@dataclass(frozen=True, slots=True)
+class RobotMapChange:
+    """What changes when a robot's map takes the place of the site's."""
+
+    brings: SeenMap
+    replaces: SeenMap
+    difference: MapDifference
+
+
 def list_map_versions(*, site: str) -> tuple[MapVersionView, ...]:
     """Return the versions of a site's map that are kept, the one that holds first."""
     rows = SiteMap.objects.filter(site=find_site(site)).select_related("by").defer("packed_cells")
     return tuple(
         MapVersionView(
             row.version,
+            map_tag(site, row.version, row.created_at),
             row.width,
             row.height,
             row.resolution_m,
@@ -98,22 +109,23 @@ def list_map_versions(*, site: str) -> tuple[MapVersionView, ...]:
     )
 
 
-def compare_robot_map(*, site: str, device_id: str) -> tuple[int, int, MapDifference]:
-    """Return the robot's version, the site's version (0: it has no map) and what changes from this one to that one.
+def compare_robot_map(*, site: str, device_id: str) -> RobotMapChange:
+    """Return what changes from the site's map to the robot's, and which maps these are.
 
     Raises NoSuchDevice, NoRobotMap.
     """
     view = get_robot_map(site=site, device_id=device_id)
-    return (view.facts.version, *compare_with_site(site=site, grid=view.grid))
+    present, difference = compare_with_site(site=site, grid=view.grid)
+    replaces = SeenMap(present.version, present.tag) if present else SeenMap(0)
+    return RobotMapChange(SeenMap(view.facts.version, view.facts.tag), replaces, difference)
 
 
-def compare_with_site(*, site: str, grid: Grid) -> tuple[int, MapDifference]:
-    """Return the site's version (0: it has no map) and what changes from it to a grid. Raises NotAMember."""
+def compare_with_site(*, site: str, grid: Grid) -> tuple[MapView | None, MapDifference]:
+    """Return the site's map (None: it has none) and what changes from it to a grid. Raises NotAMember."""
     present = find_map(site=site)
     devices = [device.canonical for device in list_devices(site=site, lifecycle="approved")]
     places = [NamedPoint(p.id, p.name, p.x, p.y) for p in list_places(site=site)]
-    difference = compare_maps(present.grid if present else None, grid, devices, places)
-    return present.version if present else 0, difference
+    return present, compare_maps(present.grid if present else None, grid, devices, places)
 
 
 def find_map(*, site: str) -> MapView | None:
@@ -124,22 +136,27 @@ def find_map(*, site: str) -> MapView | None:
         return None
 
 
-def use_robot_map(*, site: str, device_id: str, version: int, replaces: int, by: User) -> MapView:
-    """Make a robot's map the site's; places and devices stay where they are. `version` and `replaces` were seen.
+def use_robot_map(*, site: str, device_id: str, brings: SeenMap, replaces: SeenMap, by: User) -> MapView:
+    """Make a robot's map the site's; places and devices stay where they are. `brings` and `replaces` were seen.
 
     Raises NoSuchDevice, NoRobotMap, BadMap, MapChanged.
     """
     view = get_robot_map(site=site, device_id=device_id)
-    if view.facts.version != version:
+    if not brings.is_still(view.facts.version, view.facts.tag):
         raise MapChanged("The robot has sent a newer map meanwhile. Look at it again, then decide.", {"why": "robot"})
     check_size(view.grid.width, view.grid.height)
     return save_map(site=site, grid=view.grid, source=f"robot:{device_id}", by=by, replaces=replaces)
 
 
-def restore_map(*, site: str, version: int, replaces: int, by: User) -> MapView:
-    """Use an older version of the site's map again, as a new version. Raises NoMap, MapChanged."""
-    found = get_map_version(site=site, version=version)
-    return save_map(site=site, grid=found.grid, source=f"version:{version}", by=by, replaces=replaces)
+def restore_map(*, site: str, brings: SeenMap, replaces: SeenMap, by: User) -> MapView:
+    """Use an older version of the site's map again, as a new version; `brings` and `replaces` were seen.
+
+    Raises NoMap, MapChanged.
+    """
+    found = get_map_version(site=site, version=brings.version)
+    if not brings.is_still(found.version, found.tag):
+        raise MapChanged("That version is another map by now. Look at the list again, then decide.", {"why": "version"})
+    return save_map(site=site, grid=found.grid, source=f"version:{found.version}", by=by, replaces=replaces)
 
 
 def get_map_version(*, site: str, version: int) -> MapView:
@@ -152,20 +169,18 @@ def get_map_version(*, site: str, version: int) -> MapView:
 
 
 def save_map(
-    *, site: str, grid: Grid, source: str = "", by: User | None = None, replaces: int | None = None
+    *, site: str, grid: Grid, source: str = "", by: User | None = None, replaces: SeenMap | None = None
 ) -> MapView:
     """Make a grid the site's map, as a new version, and tell browsers; the oldest beyond 50 versions are forgotten.
 
-    `replaces` is the version (0: none) that the caller has seen. Raises MapChanged when another one holds by now.
+    `replaces` is the one that the caller has seen. Raises MapChanged when another one holds by now.
     """
     with transaction.atomic():
         row = Site.objects.select_for_update().get(slug=site)
         last = SiteMap.objects.filter(site=row).defer("packed_cells").order_by("-version").first()
         latest = last.version if last else 0
-        if replaces is not None and replaces != latest:
-            raise MapChanged(
-                "Somebody has changed the site's map meanwhile. Look at it again, then decide.", {"why": "site"}
-            )
+        if replaces is not None:
+            _require_newest(site, last, replaces)
         frame = {field: getattr(grid, field) for field in FRAME}
         lies_so_still = last is not None and all(getattr(last, field) == value for field, value in frame.items())
         saved = SiteMap.objects.create(
@@ -181,6 +196,14 @@ def save_map(
         note_act(site_id=row.pk, code="map_published", facts={"version": saved.version, "source": source})
         transaction.on_commit(lambda: publish(site, {"type": "map", "version": saved.version}))
     return MapView(site, saved.version, grid, saved.created_at)
+
+
+def _require_newest(site: str, last: SiteMap | None, replaces: SeenMap) -> None:
+    holds = (last.version, map_tag(site, last.version, last.created_at)) if last else (0, "")
+    if not replaces.is_still(*holds):
+        raise MapChanged(
+            "Somebody has changed the site's map meanwhile. Look at it again, then decide.", {"why": "site"}
+        )
 
 
 def get_map(*, site: str) -> MapView:

@@ -16,7 +16,7 @@ from registry.floorplan.comparison import MapDifference
 from registry.floorplan.map_archive import open_archive
 from registry.floorplan.map_server import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap, read_map
 from registry.floorplan.plan import Grid
-from registry.maps.site_maps import compare_robot_map, compare_with_site, save_map
+from registry.maps.site_maps import RobotMapChange, compare_robot_map, compare_with_site, save_map
 from registry.models import User
 from registry.sites.quota import lock_site_quota, require_site_quota
 from registry.sites.sites import checked_name, create_site, get_site
@@ -83,11 +83,12 @@ def look_at_upload(*, site: str, files: MapFiles, by: User) -> tuple[Grid, int, 
 
     grid = read_upload(files=files, by=by)
     with _comparing(site, by):
-        return (grid, *compare_with_site(site=site, grid=grid))
+        present, difference = compare_with_site(site=site, grid=grid)
+    return grid, present.version if present else 0, difference
 
 
-def look_at_robot_map(*, site: str, device_id: str, by: User) -> tuple[int, int, MapDifference]:
-    """Return the robot's version, the site's version (0: it has no map) and what changes from this one to that one.
+def look_at_robot_map(*, site: str, device_id: str, by: User) -> RobotMapChange:
+    """Return what changes from the site's map to the robot's, and which maps these are.
 
     Raises NoSuchDevice, NoRobotMap, TooManyUploads.
     """

@@ -5,9 +5,15 @@ import { keys } from "./queries";
 import type { MapDifference, MapVersion, RobotMap, RobotMapInfo } from "./types";
 import { getWholeMap } from "./wholeMap";
 
-export type MapChange =
-  | { do: "use"; device: string; version: number; replaces: number }
-  | { do: "restore"; version: number; replaces: number };
+/** Which maps: by their numbers and, as another map may have one once a backup is brought back, their tags. */
+interface Maps {
+  version: number;
+  tag: string;
+  replaces: number;
+  replaces_tag: string;
+}
+
+export type MapChange = ({ do: "use"; device: string } & Maps) | ({ do: "restore" } & Maps);
 
 export const mapKeys = {
   robot: (slug: string, device: string) => ["robot-map", slug, device] as const,

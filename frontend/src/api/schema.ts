@@ -5215,11 +5215,17 @@ export interface components {
             name: string;
             seen_at: string | null;
         };
-        /** @description What changes when the robot's map (`version`) replaces the site's (`replaces`, 0: none), in square metres. */
+        /**
+         * @description What changes when the robot's map (`version`) replaces the site's (`replaces`, 0: none), in square metres.
+         *
+         *     `tag` and `replaces_tag` are the ETags of their cells, the second empty where the site has no map.
+         */
         MapDifferenceShape: {
             floor_gained_m2: number;
             floor_lost_m2: number;
             replaces: number;
+            replaces_tag: string;
+            tag: string;
             troubles: components["schemas"]["MapTroubleShape"][];
             version: number;
             walls_gained_m2: number;
@@ -5276,7 +5282,8 @@ export interface components {
         /**
          * @description One version of a site's map.
          *
-         *     `source` is `upload`, `picture`, `drawing`, `edit`, `demo`, `robot:…`, `version:…` or empty.
+         *     `source` is `upload`, `picture`, `drawing`, `edit`, `demo`, `robot:…`, `version:…` or empty. `tag` is that of the
+         *     cells: no other map has it, not even one of the same number after a backup was brought back.
          */
         MapVersionShape: {
             at: string;
@@ -5284,6 +5291,7 @@ export interface components {
             height: number;
             resolution_m: number;
             source: string;
+            tag: string;
             version: number;
             width: number;
         };
@@ -6128,9 +6136,18 @@ export interface components {
             /** @default [] */
             fields: string[][];
         };
-        /** @description Which version of the site's map is to hold again, and which one held when that was decided. */
+        /**
+         * @description Which version of the site's map is to hold again, and which one held when that was decided.
+         *
+         *     The tags are those of the two maps, as they were told: after a backup was brought back another map may have the
+         *     number, and is refused then. An empty one says nothing.
+         */
         RestoreMap: {
             replaces: number;
+            /** @default  */
+            replaces_tag: string;
+            /** @default  */
+            tag: string;
             version: number;
         };
         /** @description What a function gives back. */
@@ -6801,10 +6818,19 @@ export interface components {
             library: string;
             version: number;
         };
-        /** @description Which robot's map, and the versions that were looked at: of the robot's map, and of the site's (0: none). */
+        /**
+         * @description Which robot's map, and the versions that were looked at: of the robot's map, and of the site's (0: none).
+         *
+         *     The tags are those of the two maps, as they were told: after a backup was brought back another map may have the
+         *     number, and is refused then. An empty one says nothing.
+         */
         UseRobotMap: {
             device: string;
             replaces: number;
+            /** @default  */
+            replaces_tag: string;
+            /** @default  */
+            tag: string;
             version: number;
         };
         /** @description Who holds a function, as far as the asker sees them; `hidden` is how many more programs there are. */

@@ -1,8 +1,10 @@
 /** Another map for a site: what it would change, and making it the site's. */
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
-import { api } from "./client";
-import { staleWithSiteMap } from "./robotMaps";
+import i18next from "i18next";
+import { api, ApiProblem } from "./client";
+import { mapKeys, staleWithSiteMap } from "./robotMaps";
 import type { components } from "./schema";
+import type { MapVersion } from "./types";
 import { getWholeMap } from "./wholeMap";
 
 export type BroughtMapDifference = components["schemas"]["BroughtMapDifference"];
@@ -33,15 +35,20 @@ export function useBringMap(slug: string) {
 
 /**
  * An earlier version of a site's map, without its places, which stand over all versions. It is asked for each time: once
- * a backup is brought back, another map may have its number. Cells that the browser has are not sent again.
+ * a backup is brought back, another map may have its number, which is not shown as this one. Cells that the browser has
+ * are not sent again.
  */
-export const useOldMap = (slug: string, version: number) =>
+export const useOldMap = (slug: string, { version, tag }: MapVersion) =>
   useQuery({
-    queryKey: ["old-map", slug, version],
-    queryFn: async () => ({
-      ...(await getWholeMap<MapVersionInfo>(`/sites/${slug}/map/versions/${String(version)}`)),
-      places: [],
-    }),
+    queryKey: ["old-map", slug, version, tag],
+    queryFn: async ({ client }) => {
+      const found = await getWholeMap<MapVersionInfo>(`/sites/${slug}/map/versions/${String(version)}`);
+      if (tag && found.tag !== tag) {
+        void client.invalidateQueries({ queryKey: mapKeys.versions(slug) });
+        throw new ApiProblem(409, "map_changed", i18next.t("refusal.map_changed.version"));
+      }
+      return { ...found, places: [] };
+    },
     staleTime: 0,
   });
 

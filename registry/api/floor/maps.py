@@ -28,10 +28,12 @@ CELLS, PGM, ZIP = "application/octet-stream", "image/x-portable-graymap", "appli
 class MapVersionShape(Schema):
     """One version of a site's map.
 
-    `source` is `upload`, `picture`, `drawing`, `edit`, `demo`, `robot:…`, `version:…` or empty.
+    `source` is `upload`, `picture`, `drawing`, `edit`, `demo`, `robot:…`, `version:…` or empty. `tag` is that of the
+    cells: no other map has it, not even one of the same number after a backup was brought back.
     """
 
     version: int
+    tag: str
     width: int
     height: int
     resolution_m: float
@@ -77,10 +79,15 @@ class MapTroubleShape(Schema):
 
 
 class MapDifferenceShape(Schema):
-    """What changes when the robot's map (`version`) replaces the site's (`replaces`, 0: none), in square metres."""
+    """What changes when the robot's map (`version`) replaces the site's (`replaces`, 0: none), in square metres.
+
+    `tag` and `replaces_tag` are the ETags of their cells, the second empty where the site has no map.
+    """
 
     version: int
+    tag: str
     replaces: int
+    replaces_tag: str
     floor_gained_m2: float
     floor_lost_m2: float
     walls_gained_m2: float
@@ -273,5 +280,6 @@ def show_difference(request: HttpRequest, slug: str, device_id: str) -> dict[str
     """Show what would change at the site if the robot's map became its own."""
     user = signed_in(request)
     require(user, slug, "viewer")
-    version, replaces, difference = services.look_at_robot_map(site=slug, device_id=device_id, by=user)
-    return {"version": version, "replaces": replaces, **asdict(difference)}
+    change = services.look_at_robot_map(site=slug, device_id=device_id, by=user)
+    replaces = {"replaces": change.replaces.version, "replaces_tag": change.replaces.tag}
+    return {**asdict(change.brings), **replaces, **asdict(change.difference)}

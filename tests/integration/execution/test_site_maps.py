@@ -290,6 +290,28 @@ def test_a_map_of_the_same_number_after_a_backup_is_another(factory):
     assert registry.get_map(site=SITE).grid == widened()
 
 
+def test_a_map_that_took_a_lost_ones_number_is_not_restored_in_its_place(factory):
+    client = join_and_sign_in("admin", SITE)
+    story = lost_to_a_backup(walled(7, -8, 7.5, -7.5))
+    next(story)
+    known, first = client.get(f"/api/sites/{SITE}/map/versions").json()
+    assert known["tag"] == tag_of(client) != first["tag"]
+    next(story)
+    body = {"version": 1, "replaces": 2, "tag": first["tag"]}
+    refused = restore(client, {**body, "replaces_tag": known["tag"]})
+    assert (refused.status_code, refused.json()["args"]) == (409, {"why": "site"})
+    assert restore(client, {**body, "replaces_tag": tag_of(client)}).json() == {"version": 3}
+    body = {"version": 2, "replaces": 3, "tag": known["tag"]}
+    refused = restore(client, body)
+    assert (refused.status_code, refused.json()["args"]) == (409, {"why": "version"})
+    assert registry.get_map(site=SITE).grid == PLAN
+    assert restore(client, {"version": 2, "replaces": 3}).json() == {"version": 4}, "an older page knows no tags"
+
+
+def restore(client, body):
+    return post_json(client, f"/api/sites/{SITE}/map/restore", body)
+
+
 def test_who_changes_the_map_must_say_which(factory):
     client = join_and_sign_in("admin", SITE)
     missing = bring(client, widened(), tag="")
@@ -356,6 +378,25 @@ def test_a_robots_map_of_the_same_number_after_a_backup_is_another(factory):
     say_map(PLAN, number=2)
     again = client.get(cells, headers={"If-None-Match": known})
     assert (again.status_code, gzip.decompress(again.content)) == (200, PLAN.cells)
+
+
+def test_a_robots_map_that_took_a_lost_ones_number_is_not_used_in_its_place(factory):
+    client = join_and_sign_in("admin", SITE)
+    say_map(widened(), number=1)
+    seen = client.get(f"/api/sites/{SITE}/devices/robot01/map/difference").json()
+    assert seen["tag"] == client.get(f"/api/sites/{SITE}/devices/robot01/map").json()["tag"]
+    assert seen["replaces_tag"] == tag_of(client)
+    body = {"device": "robot01", **{name: seen[name] for name in ("version", "tag", "replaces", "replaces_tag")}}
+    RobotMap.objects.all().delete()
+    say_map(PLAN, number=2)
+    path = f"/api/sites/{SITE}/map/from-device"
+    refused = post_json(client, path, body)
+    assert (refused.status_code, refused.json()["args"]) == (409, {"why": "robot"})
+    now = client.get(f"/api/sites/{SITE}/devices/robot01/map/difference").json()
+    assert post_json(client, path, {**body, "tag": now["tag"]}).json() == {"version": 2}
+    SiteMap.objects.all().delete()
+    none = client.get(f"/api/sites/{SITE}/devices/robot01/map/difference").json()
+    assert (none["replaces"], none["replaces_tag"]) == (0, "")
 
 
 def test_one_map_at_a_time_is_held_against_the_sites_and_keeps_nobody_from_bringing_one(factory, monkeypatch):

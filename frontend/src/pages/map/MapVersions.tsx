@@ -74,7 +74,13 @@ function AskBack({ site, version, current, onClose }: AskProps) {
   const change = useChangeMap(site.slug);
   const restore = () =>
     change.mutate(
-      { do: "restore", version: version.version, replaces: current },
+      {
+        do: "restore",
+        version: version.version,
+        tag: version.tag,
+        replaces: current.version,
+        replaces_tag: current.tag,
+      },
       {
         onSuccess: (made) => {
           notifications.show({ message: t("robotMap.restored", { old: version.version, version: made.version }) });
@@ -105,7 +111,7 @@ function AskBack({ site, version, current, onClose }: AskProps) {
 interface AskProps {
   site: Site;
   version: MapVersion;
-  current: number;
+  current: MapVersion;
   onClose: () => void;
 }
 
@@ -137,8 +143,8 @@ export function MapVersions({ site }: { site: Site }) {
         </Button>
       ) : null}
       <MappingRobots slug={site.slug} small />
-      {seen ? <OldMap site={site} version={seen.version} onClose={() => setSeen(null)} /> : null}
-      {asked ? <AskBack site={site} version={asked} current={current.version} onClose={() => setAsked(null)} /> : null}
+      {seen ? <OldMap site={site} version={seen} onClose={() => setSeen(null)} /> : null}
+      {asked ? <AskBack site={site} version={asked} current={current} onClose={() => setAsked(null)} /> : null}
     </section>
   );
 }

@@ -13,7 +13,7 @@ from execution.models import MeantChange, Rehearsal, TrialRun
 from execution.program_tests.site_digests import MOST_NAMED, what_changed
 from execution.rehearsals import worker
 from registry import services as registry
-from registry.models import Device
+from registry.models import Device, SiteMap
 from tests.integration.execution.program_tests.conftest import FAILS, PASSES, UNUSABLE, add, put
 from tests.kit.programs import SITE, document, step
 from tests.kit.sign_in import add_person, join_and_sign_in, post_json, signed_in
@@ -106,10 +106,14 @@ def test_a_result_is_stale_once_the_site_has_changed(client: Client, program: An
     result = shown(client, program)["tests"][0]["result"]
     assert (result["stale"], result["site_change"]) == ("site", {"what": "devices", "devices": ["curingOven01"]})
     grid = registry.get_map(site=SITE).grid
-    registry.save_map(site=SITE, grid=grid)
+    lost = registry.save_map(site=SITE, grid=grid)
     result = shown(client, program)["tests"][0]["result"]
     assert (result["stale"], result["site_change"]["what"]) == ("site", "map")
     assert carry_out(client, program)["tests"][0]["result"]["stale"] is None
+    SiteMap.objects.get(site__slug=SITE, version=lost.version).delete()
+    assert registry.save_map(site=SITE, grid=grid).version == lost.version
+    result = shown(client, program)["tests"][0]["result"]
+    assert (result["stale"], result["site_change"]["what"]) == ("site", "map"), "as after a backup came back"
 
 
 def test_where_robots_stand_at_the_moment_changes_nothing_for_tests(client: Client, program: Any) -> None:
@@ -127,6 +131,8 @@ def test_what_nobody_knows_of_a_site_is_no_change() -> None:
     now = {"map": 1, "places": "a", "zones": "b", "devices": {f"d{n}": "x" for n in range(40)}}
     assert what_changed({}, now) is None
     assert what_changed(now, now) is None
+    assert what_changed(now, {**now, "map_tag": "t"}) is None
+    assert what_changed({**now, "map_tag": "s"}, {**now, "map_tag": "t"}) == {"what": "map", "devices": []}
     assert what_changed(now, {**now, "zones": "c", "devices": {}}) == {"what": "zones", "devices": []}
     assert len((what_changed(now, {**now, "devices": {}}) or {})["devices"]) == MOST_NAMED
 

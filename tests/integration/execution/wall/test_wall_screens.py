@@ -190,6 +190,7 @@ async def test_it_shows_the_map_and_everything_that_happens(hall: str) -> None:
         drawn = await until(socket, lambda each: each["type"] == "map", heard)
         picture = await until(socket, lambda each: each["type"] == "picture", heard)
         assert (drawn["width"], drawn["height"], drawn["version"]) == (4, 3, 1)
+        assert drawn["tag"] == (await database_sync_to_async(services.get_map)(site="hall")).tag
         assert picture["site"] == "Hall"
         assert [(each["id"], each["status"]) for each in picture["devices"]] == [(MIXER.id, "idle")]
         change = {"id": MIXER.id, "location": {"x": 3.0, "y": 1.0, "z": 0.0, "theta": 0.5}, "doing": "Working"}

@@ -80,19 +80,21 @@ export function UseRobotMap({ site, device, map, onClose }: UseProps) {
   const problem = change.error ?? difference.error;
   const { data } = difference;
   // Only what is on the screen is decided about: a newer map is shown first.
-  const ready = data?.version === map.version;
+  const ready = data?.tag === map.tag;
   const suits = !data?.troubles.some((trouble) => trouble.is_new);
-  const use = () =>
-    data &&
+  const use = () => {
+    if (!data) return;
+    const { version, tag, replaces, replaces_tag } = data;
     change.mutate(
-      { do: "use", device: device.id, version: data.version, replaces: data.replaces },
+      { do: "use", device: device.id, version, tag, replaces, replaces_tag },
       {
-        onSuccess: ({ version }) => {
-          notifications.show({ message: t("robotMap.used", { name: device.name, version }) });
+        onSuccess: (made) => {
+          notifications.show({ message: t("robotMap.used", { name: device.name, version: made.version }) });
           onClose();
         },
       },
     );
+  };
   return (
     <Modal opened onClose={onClose} title={t("robotMap.ask", { name: device.name })} size={1040}>
       <div className={styles.ask}>
