@@ -27,10 +27,10 @@ from registry.devices.rows import STARTS, announce, forget_starts, lock_device
 from registry.devices.samples import write_when_committed
 from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
-from registry.models import Device, User
+from registry.models import Device, Site, User
 from registry.sites.sites import find_site, get_enrolment_key, has_enrolment_key, replace_enrolment_key
 from vipo_device.protocol.credentials import broker_hash, make_credential, own_key, secret_hash
-from vipo_device.protocol.messages import BadMessage, down_topic, parse_ack, up_topic
+from vipo_device.protocol.messages import BadMessage, down_topic, is_device_id, parse_ack, up_topic
 from vipo_device.protocol.mqtt_client import MqttClient, MqttError
 from vipo_device.protocol.topics import OWN_ACCOUNTS
 
@@ -177,11 +177,25 @@ def _remove_unknown(name: str) -> bool:
     if name in list_broker_hashes():
         return False
     with transaction.atomic():
+        _wait_for_decisions(name)
+        is_known = name in list_broker_hashes()
+        if not is_known:
+            accounts().remove(name)
+        transaction.set_rollback(True)
+    return not is_known
+
+
+def _wait_for_decisions(name: str) -> None:
+    """Let nobody decide about an account until the transaction ends, and wait for who is about to.
+
+    A decision gives the broker the account before it is committed. The row of a device that is only being made cannot
+    be locked, but who makes one of the same id waits for it; the caller takes that row, of no site, back.
+    """
+    if name.startswith(ENROLMENT):
+        Site.objects.select_for_update().filter(slug=name.removeprefix(ENROLMENT)).first()
+    elif is_device_id(name):
+        Device.objects.bulk_create([Device(pk=name, site_id=0)], ignore_conflicts=True)
         Device.objects.select_for_update().filter(pk=name).first()
-        if name in list_broker_hashes():
-            return False
-        accounts().remove(name)
-    return True
 
 
 def _begin_delivery(device: Device, at: datetime) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import signal
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -11,6 +12,7 @@ from typing import Any
 
 import psycopg
 import pytest
+from django.db import transaction
 
 from registry import services
 from registry.broker.accounts import accounts
@@ -33,8 +35,9 @@ from tests.integration.registry.at_once.presses import (
     run_in_thread,
     told,
 )
+from tests.kit.databases import Aside, one_waits
 from tests.kit.servers import Mosquitto
-from tests.kit.sign_in import post_json, signed_in
+from tests.kit.sign_in import find_person, post_json, signed_in
 from tests.kit.sites import MIXER, NOW, approve, describe, may_come_in
 from tests.kit.waiting import wait_for
 from vipo_device.protocol.description import MethodSpec
@@ -114,6 +117,36 @@ def test_a_key_that_is_taken_away_while_its_device_enrols_again_with_it_stays_aw
     with pytest.raises(services.BadDevice, match="key was revoked"):
         services.enrol_device(**hello)
     assert MIXER.id not in (accounts().names() or ())
+
+
+def reserve() -> None:
+    services.reserve_device(site="hall", device_id="mixer1", by=find_person("admin"), at=NOW)
+
+
+def enrol() -> None:
+    services.enrol_device(site="hall", device_id="mixer1", payload=json.dumps({"key": "k" * 32}).encode(), at=NOW)
+
+
+def join() -> None:
+    services.renew_enrolment_key(site="hall")
+
+
+@pytest.mark.parametrize("is_kept", [True, False])
+@pytest.mark.parametrize(("decision", "name"), [(reserve, "mixer1"), (enrol, "mixer1"), (join, "join:hall")])
+def test_a_gateway_that_comes_while_an_account_is_made_takes_it_away_only_if_nothing_comes_of_it(
+    url: str, mosquitto: Mosquitto, aside: Aside, decision: Callable[[], None], name: str, is_kept: bool
+) -> None:
+    with transaction.atomic():
+        decision()
+        assert name in (accounts().names() or ())
+        looking = aside(services.reconcile_accounts)
+        wait_for("the gateway", lambda: looking.done() or one_waits())
+        assert not looking.done()
+        transaction.set_rollback(not is_kept)
+    removed, missing = looking.result(60)
+    assert (name in removed, name in missing) == (not is_kept, False)
+    assert (name in (accounts().names() or ())) == is_kept
+    assert Device.objects.filter(pk=name).exists() == (is_kept and name == "mixer1")
 
 
 def rename(who: str, name: str) -> Press:
