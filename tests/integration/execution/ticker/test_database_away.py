@@ -1,15 +1,22 @@
-"""A database that goes away in the middle of a tick ends that tick: nothing behind it is tried in vain."""
+"""A database that goes away in the middle of a tick ends that tick: nothing behind it is tried in vain.
+
+The ticker goes on with the next one, over a connection of its own that is new.
+"""
 
 from __future__ import annotations
 
 import logging
 import threading
 from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
 
 import psycopg
 import pytest
+from django.db import InterfaceError
 from pytest_django import DjangoDbBlocker
 
+from execution.ticker import ticker as tickers
 from execution.ticker.ticker import run_ticker
 from tests.kit.databases import on_database
 from tests.kit.waiting import wait_for
@@ -41,3 +48,60 @@ def test_a_tick_in_which_the_database_goes_away_tries_nothing_more_and_writes_on
     lines = [line for line in caplog.records if line.levelno >= logging.WARNING]
     assert [line.name for line in lines] == ["execution.ticker.ticker"]
     assert lines[0].getMessage().startswith("The ticker's database does not answer: ")
+
+
+@contextmanager
+def ticking() -> Iterator[None]:
+    stopping = threading.Event()
+    ticker = threading.Thread(target=run_ticker, kwargs={"stopping": stopping})
+    ticker.start()
+    try:
+        yield
+    finally:
+        stopping.set()
+        ticker.join(30)
+    assert not ticker.is_alive()
+
+
+OTHERS = "FROM pg_stat_activity WHERE datname = current_database() AND pid <> pg_backend_pid()"
+
+
+def test_a_ticker_whose_connection_is_ended_between_two_ticks_goes_on_with_a_new_one(
+    url: str, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tickers, "TICK_S", 1.0)  # so that the end comes between two of them
+    with psycopg.connect(url, autocommit=True) as looking, ticking():
+
+        def leading() -> list[Any]:
+            held = looking.execute("SELECT count(*) FROM execution_lease WHERE until > now()").fetchone()
+            idle = looking.execute(f"SELECT pid {OTHERS} AND state = 'idle'").fetchall()
+            return idle if held == (1,) else []
+
+        wait_for("the ticker", leading)
+        first = leading()
+        looking.execute(f"SELECT pg_terminate_backend(pid) {OTHERS}")
+        looking.execute("DELETE FROM execution_lease")
+        wait_for("the ticker, again", leading)
+        assert set(leading()).isdisjoint(first)
+    lines = [line for line in caplog.records if line.levelno >= logging.WARNING]
+    assert [line.getMessage().partition(":")[0] for line in lines] == ["The ticker's database does not answer"]
+
+
+def test_a_connection_that_is_closed_under_a_tick_ends_that_tick_alone(
+    url: str, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ticks: list[bool] = []
+    tick = tickers.tick
+
+    def closed_once(now: Any) -> bool:
+        ticks.append(tick(now))
+        if len(ticks) == 1:
+            raise InterfaceError("the connection is closed")  # as drivers say it of what they noticed themselves
+        return ticks[-1]
+
+    monkeypatch.setattr(tickers, "tick", closed_once)
+    with ticking():
+        wait_for("the next ticks", lambda: len(ticks) > 2)
+    assert set(ticks) == {True}
+    lines = [line for line in caplog.records if line.levelno >= logging.WARNING]
+    assert [line.getMessage() for line in lines] == ["The ticker's database does not answer: the connection is closed"]
