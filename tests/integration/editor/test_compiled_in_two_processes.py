@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import signal
+import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,9 +13,12 @@ import pytest
 
 from editor.rooms.checks import LEFT_TO_OTHERS_S
 from tests.integration.editor.compiling.looker import Looker, looking
+from tests.kit.files import ROOT
+from tests.kit.processes.forked import run_forked
+from tests.kit.programs import operate
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis
-from tests.kit.web import Web, prepare
+from tests.kit.web import Web, environment, prepare
 
 pytestmark = pytest.mark.servers
 
@@ -35,6 +39,36 @@ def pair(
     finally:
         one.kill()
         two.kill()
+
+
+DESCRIBE = """
+import time
+from dataclasses import replace
+from tests.kit.sites import MIXER, describe
+print(time.monotonic())
+for methods in %s:
+    describe(replace(MIXER, methods=tuple(replace(MIXER.methods[0], name=name) for name in methods)))
+"""
+
+
+async def say(web: Web, *methods: tuple[str, ...]) -> float:
+    """Let the mixer describe itself in a third process, once with each of these lists of methods; return when."""
+    command = [sys.executable, "manage.py", "shell", "--verbosity", "0", "-c", DESCRIBE % (methods,)]
+    given = {"cwd": ROOT, "env": environment(web.folder, web.extra), "capture_output": True, "text": True}
+    done = await asyncio.to_thread(run_forked, command, **given)
+    assert done.returncode == 0, done.stderr
+    return float(done.stdout)
+
+
+async def find(count: int, *lookers: Looker) -> float:
+    """Wait until all see so many troubles of the mixer's step; return when."""
+    for looker in lookers:
+        await looker.finds(lambda looker=looker: len(troubles(looker)) == count)
+    return time.monotonic()
+
+
+def troubles(looker: Looker) -> list[str]:
+    return sorted(each["code"] for each in looker.form.get("diagnostics", ()) if each["step"] == "mix")
 
 
 async def quiet(*lookers: Looker) -> None:
@@ -95,3 +129,57 @@ async def test_an_edit_whose_process_stops_before_it_has_checked_is_shown_by_the
             await ada.sees(*names)
             await quiet(ada, bob)
             assert ada.form == bob.form
+
+
+async def test_a_new_description_costs_one_check_and_both_show_what_it_says(pair: tuple[Web, Web]) -> None:
+    program = pair[0].new_program()
+    await say(pair[0], ("mix",))
+    async with looking(pair[0], program) as ada, looking(pair[1], program, "viewer") as eve:
+        await ada.draw({"mix": operate("mixer1", "mix")})
+        await ada.sees("mix")
+        await eve.sees("mix")
+        await quiet(ada, eve)
+        known = troubles(ada)
+        for methods, more in (((), 1), (("mix",), 0)):
+            began, seen = await asyncio.gather(say(pair[0], methods), find(len(known) + more, ada, eve))
+            await asyncio.sleep(LEFT_TO_OTHERS_S + 1)
+            assert (len(ada.frames), len(eve.frames)) == (1, 1) or seen - began > LEFT_TO_OTHERS_S
+            assert ada.form == eve.form
+            await quiet(ada, eve)
+
+
+async def test_of_descriptions_that_follow_each_other_both_show_the_last_one(pair: tuple[Web, Web]) -> None:
+    program = pair[0].new_program()
+    async with looking(pair[0], program) as ada, looking(pair[1], program, "viewer") as eve:
+        await say(pair[0], ("mix",))
+        await ada.draw({"mix": operate("mixer1", "mix")})
+        await ada.sees("mix")
+        await eve.sees("mix")
+        await quiet(ada, eve)
+        known = troubles(ada)
+        await say(pair[0], *((), ("mix",)) * 10, ())
+        await find(len(known) + 1, ada, eve)
+        await quiet(ada, eve)
+        assert (len(troubles(ada)), ada.form) == (len(known) + 1, eve.form)
+
+
+async def test_a_description_whose_process_stops_is_looked_at_by_the_other(pair: tuple[Web, Web]) -> None:
+    program = pair[0].new_program()
+    async with looking(pair[0], program) as ada, looking(pair[1], program, "second") as bob:
+        await say(pair[0], ("mix",))
+        await ada.draw({"mix": operate("mixer1", "mix")})
+        await ada.sees("mix")
+        await bob.sees("mix")
+        await quiet(ada, bob)
+        known = troubles(ada)
+        for frozen, other, methods, more in ((0, bob, (), 1), (1, ada, ("mix",), 0)):
+            process = pair[frozen].process
+            assert process is not None
+            process.send_signal(signal.SIGSTOP)
+            try:
+                await say(pair[0], methods)
+                await find(len(known) + more, other)
+            finally:
+                process.send_signal(signal.SIGCONT)
+            await quiet(ada, bob)
+            assert (len(troubles(ada)), ada.form) == (len(known) + more, bob.form)

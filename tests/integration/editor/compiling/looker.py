@@ -70,9 +70,12 @@ class Looker:
             self.news.notify_all()
 
     async def add(self, *names: str) -> None:
-        steps = {
-            name: {"kind": "wait", "place": ["program", "body", name], "params": {"duration": 5}} for name in names
-        }
+        params = {"duration": 5}
+        await self.draw(
+            {name: {"kind": "wait", "place": ["program", "body", name], "params": params} for name in names}
+        )
+
+    async def draw(self, steps: Json) -> None:
         self.added.append(encode_document({**empty_document(), "steps": steps}))
         if self.socket is not None:
             with suppress(ConnectionClosed):
@@ -80,6 +83,9 @@ class Looker:
 
     async def sees(self, *steps: str) -> None:
         await self._wait(lambda: sorted(self.form.get("order", ["?"])) == sorted(steps), f"the form of {steps}")
+
+    async def finds(self, is_there: Callable[[], bool]) -> None:
+        await self._wait(is_there, "what is looked for")
 
     async def has(self, step: str) -> None:
         await self._wait(lambda: step in self.document.to_json()["steps"], step)
