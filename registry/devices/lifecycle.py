@@ -147,7 +147,11 @@ def _require_pending(device: Device) -> None:
 
 
 def _require_no_place(device: Device) -> None:
-    """Refuse the id of a place, for robots are sent to either by its id; no new place gets a device's."""
+    """Refuse the id of a place, for robots are sent to either by its id; no new place gets a device's.
+
+    Neither is missed by who looks at the same moment: the row of a new device refers to its site's, so that it is kept
+    before a place looks for devices (`lock_site`), or once that place can be seen here.
+    """
     place = Place.objects.filter(site_id=device.site_id, key=device.pk).first()
     if place is not None:
         raise BadDevice(*refusal_facts("id_of_place", device=device.pk, place=place.name))

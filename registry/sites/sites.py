@@ -214,7 +214,8 @@ def lock_site(slug: str) -> Site:
     """Lock a site's row until the transaction ends. Raises NotAMember.
 
     Whoever changes a thing of the site for which a line of the record is written takes this first: the line refers to
-    the site's row, so that of two who begin at different ends each would wait for the other.
+    the site's row, so that of two who begin at different ends each would wait for the other. Until then no row that
+    refers to the site is kept, such as a new device's (`add_place` counts on it): a weaker lock (`no_key`) will not do.
     """
     return Site.objects.select_for_update().get(pk=find_site(slug).pk)
 

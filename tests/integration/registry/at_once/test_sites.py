@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from django.core.files.uploadedfile import SimpleUploadedFile
+from django.db import transaction
 from django.test import Client
 
 from editor import services as editor
 from editor.models import LibraryFunction
 from registry import services
-from registry.models import (
-    Site,
-)
+from registry.models import Device, Place, Site
 from tests.integration.registry.at_once.presses import (
     OF_PERSON,
     SITE,
     press_together,
     told,
 )
+from tests.kit.databases import Aside, one_waits
 from tests.kit.programs import document
 from tests.kit.sign_in import add_person, find_person, post_json, signed_in
+from tests.kit.sites import MIXER, NOW, approve, describe
+from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.servers
 
@@ -103,3 +106,45 @@ def test_what_is_removed_while_an_admin_changes_it_is_gone_and_the_other_is_told
         lambda: second.patch(f"{SITE}/{thing}s/gate", {"name": "The gate"}, content_type="application/json"),
     )
     assert told([removed, changed]) == [204, (404, f"no_such_{thing}")]
+
+
+def add_gate() -> str:
+    return services.add_place(site="hall", place=services.PlaceChange(name="Gate", x=0.5, y=0.5)).id
+
+
+def ids() -> tuple[list[str], list[str]]:
+    """Return the ids of places, and of devices that take part."""
+    approved = Device.objects.filter(lifecycle="approved").values_list("pk", flat=True)
+    return list(Place.objects.values_list("key", flat=True)), list(approved)
+
+
+DEVICE = replace(MIXER, id="gate", methods=())
+
+
+def test_a_device_that_comes_while_a_place_of_its_id_is_made_waits_for_it_and_is_not_approved(
+    url: str, aside: Aside
+) -> None:
+    with transaction.atomic():
+        assert add_gate() == "gate"
+        later = aside(approve, DEVICE)
+        wait_for("the device", lambda: later.done() or one_waits())
+    with pytest.raises(services.BadDevice, match="has the id of the place"):
+        later.result(60)
+    assert ids() == (["gate"], [])
+
+
+def test_a_place_that_is_made_while_a_device_of_its_id_comes_was_first(url: str, aside: Aside) -> None:
+    with transaction.atomic():
+        describe(DEVICE)
+        assert aside(add_gate).result(60) == "gate"
+    with pytest.raises(services.BadDevice, match="has the id of the place"):
+        services.approve_device(site="hall", device_id="gate", by=None, at=NOW)
+    assert ids() == (["gate"], [])
+
+
+def test_a_place_that_is_made_while_a_device_of_its_id_is_approved_gets_another_one(url: str, aside: Aside) -> None:
+    describe(DEVICE)
+    with transaction.atomic():
+        services.approve_device(site="hall", device_id="gate", by=None, at=NOW)
+        assert aside(add_gate).result(60) == "gate_2"
+    assert ids() == (["gate_2"], ["gate"])
