@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
@@ -248,18 +249,37 @@ def shape_of(thing: Locator) -> str:
     return str(thing.evaluate("element => element.getAttribute('transform') ?? element.getAttribute('d')"))
 
 
-def test_a_finger_drags_what_is_on_the_whole_map_while_it_is_changed(sign_in: SignIn) -> None:
-    page = sign_in("admin", MAP, width=820, height=1180)
-    tell(page, f"{SITE}/places", {"name": "Stool", "kind": "point", "x": 10.0, "y": -8.0})
-    corners = [[9.0, -8.9], [11.0, -8.9], [11.0, -7.1], [9.0, -7.1]]
-    tell(page, f"{SITE}/zones", {"name": "Ramp", "rule": "preferred", "points": corners})
-    lying = tell(page, f"{SITE}/obstacles", {"x": 12.0, "y": -8.3, "size_m": 0.5})
+Touch = Callable[..., None]
+
+
+def finger_on(page: Page) -> Touch:
+    """Let the page be touched; return what tells it of a touch: what happens, and where the finger is."""
     cdp = page.context.new_cdp_session(page)
     cdp.send("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 5})
 
     def touch(kind: str, *spots: tuple[float, float]) -> None:
         cdp.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y} for x, y in spots]})
 
+    return touch
+
+
+def drag(touch: Touch, thing: Locator, up: int) -> None:
+    """Put a finger on a thing and move it up by so many pixels, without letting go."""
+    before, (left, top, wide, high) = shape_of(thing), whole_box(thing)
+    x, y = left + wide / 2, top + high / 2
+    touch("touchStart", (x, y))
+    for part in range(1, 9):
+        touch("touchMove", (x, y - part * up / 8))
+    wait_for("what is dragged", lambda: shape_of(thing) != before)
+
+
+def test_a_finger_drags_what_is_on_the_whole_map_while_it_is_changed(sign_in: SignIn) -> None:
+    page = sign_in("admin", MAP, width=820, height=1180)
+    tell(page, f"{SITE}/places", {"name": "Stool", "kind": "point", "x": 10.0, "y": -8.0})
+    corners = [[9.0, -8.9], [11.0, -8.9], [11.0, -7.1], [9.0, -7.1]]
+    tell(page, f"{SITE}/zones", {"name": "Ramp", "rule": "preferred", "points": corners})
+    lying = tell(page, f"{SITE}/obstacles", {"x": 12.0, "y": -8.3, "size_m": 0.5})
+    touch = finger_on(page)
     expect(page.locator("svg").filter(has=page.get_by_role("button", name=OVEN))).to_have_css("touch-action", "auto")
     for mode, thing in (
         ("Edit places", page.get_by_role("button", name="Stool at")),
@@ -268,13 +288,44 @@ def test_a_finger_drags_what_is_on_the_whole_map_while_it_is_changed(sign_in: Si
         ("Put obstacles", page.get_by_role("button", name="Obstacle, 50").first),
     ):
         page.get_by_role("button", name=mode).click()
-        before, (left, top, wide, high) = shape_of(thing), whole_box(thing)
-        x, y = left + wide / 2, top + high / 2
-        touch("touchStart", (x, y))
-        for part in range(1, 9):
-            touch("touchMove", (x, y - part * 8))
-        wait_for(f"what is dragged: {mode}", lambda thing=thing, shape=before: shape_of(thing) != shape)
+        before = shape_of(thing)
+        drag(touch, thing, 64)
         touch("touchCancel")
         wait_for(f"what is given up: {mode}", lambda thing=thing, shape=before: shape_of(thing) == shape)
     for path in ("places/stool", "zones/ramp", f"obstacles/{lying['id']}"):
+        remove(page, path)
+
+
+def test_what_a_finger_has_dragged_and_let_go_is_kept(sign_in: SignIn) -> None:
+    page = sign_in("admin", MAP, width=820, height=1180)
+    tell(page, f"{SITE}/places", {"name": "Bench", "kind": "point", "x": 8.0, "y": -8.0})
+    corners = [[9.0, -8.9], [11.0, -8.9], [11.0, -7.1], [9.0, -7.1]]
+    tell(page, f"{SITE}/zones", {"name": "Lane", "rule": "preferred", "points": corners})
+    lying = tell(page, f"{SITE}/obstacles", {"x": 12.0, "y": -8.3, "size_m": 0.5})
+    touch = finger_on(page)
+
+    def kept() -> dict[str, tuple[float, float]]:
+        plan = ask(page, f"{SITE}/map")
+        found = {each["name"]: (each["x"], each["y"]) for each in plan["places"] if each["id"] == "bench"}
+        found |= {each["name"]: tuple(each["points"][0]) for each in plan["zones"] if each["id"] == "lane"}
+        return found | {str(each["id"]): (each["x"], each["y"]) for each in plan["obstacles"]}
+
+    for mode, thing, name in (
+        ("Edit places", page.get_by_role("button", name="Bench at"), "Bench"),
+        ("Edit zones", page.get_by_role("button", name="Lane").first, "Lane"),
+        ("Put obstacles", page.get_by_role("button", name="Obstacle, 50").first, str(lying["id"])),
+    ):
+        page.get_by_role("button", name=mode).click()
+        before, lay = kept(), shape_of(thing)
+        drag(touch, thing, 32)
+        assert kept() == before, "nothing is sent under the finger"
+        touch("touchEnd")
+        wait_for(f"what was let go: {mode}", lambda name=name, before=before: kept()[name] != before[name])
+        now = kept()
+        assert {**now, name: before[name]} == before, "nothing else has moved"
+        assert now[name][0] == pytest.approx(before[name][0], abs=0.06)
+        assert 0.3 < now[name][1] - before[name][1] < 3.0, "upwards, as the finger"
+        page.wait_for_timeout(300)
+        assert shape_of(thing) != lay, "it stays where it was put"
+    for path in ("places/bench", "zones/lane", f"obstacles/{lying['id']}"):
         remove(page, path)
