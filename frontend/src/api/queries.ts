@@ -152,7 +152,8 @@ function useWatch<T>(key: readonly unknown[], path: string | null, everyMs: numb
   });
 }
 
-type Maybe = string | undefined;
+/** What is not known yet is not asked for. */
+export type Maybe = string | undefined;
 const at = (id: Maybe, path: (id: string) => string) => (id ? path(encodeURIComponent(id)) : null);
 
 /** Who looks at this; asked for before anything is drawn. */
@@ -196,25 +197,6 @@ export const useProgramDocument = (id: Maybe) =>
     keys.document(id ?? ""),
     at(id, (p) => `/programs/${p}/document`),
   );
-/** How many runs `useRuns` gives at most, apart from those that have changed since. */
-export const NEWEST_RUNS = 50;
-/** The newest runs of a site, over or not; an older one may still be under way. */
-export const useRuns = (slug: Maybe) =>
-  useGet<RunSummary[]>(
-    keys.runs(slug ?? ""),
-    at(slug, (s) => `/sites/${s}/runs`),
-  );
-/**
- * A site's runs as the server has them, the newest first, part after part. Fetched anew, each part begins where the one
- * before ends, so that however many runs have begun meanwhile none is missing between them.
- */
-export const useRunParts = (slug: string, wanted: boolean) =>
-  useInfiniteQuery({
-    queryKey: [...keys.runs(slug), "parts"],
-    queryFn: wanted ? ({ pageParam }) => api.part<RunSummary>(pageParam) : skipToken,
-    initialPageParam: `/sites/${slug}/runs?limit=${NEWEST_RUNS}`,
-    getNextPageParam: (last: { next?: string | undefined }) => last.next,
-  });
 /** All runs of a site that are not over, however old they are: those that are planned, too. */
 export const useOpenRuns = (slug: Maybe) =>
   useAll<RunSummary>(

@@ -4,6 +4,7 @@ import type { Query, QueryClient, QueryKey } from "@tanstack/react-query";
 import i18next from "i18next";
 import { keys } from "@/api/queries";
 import { mapKeys, staleWithSiteMap } from "@/api/robotMaps";
+import type { NewestRuns } from "@/api/runs";
 import type {
   Alert,
   ArmedProgram,
@@ -211,7 +212,7 @@ export class SiteFeed {
   }
 
   #run(run: RunSummary): void {
-    this.#caches.write<RunSummary[]>(keys.runs(this.slug), (runs) => applyRun(runs, run));
+    this.#caches.write<NewestRuns>(keys.runs(this.slug), (newest) => ({ ...newest, runs: applyRun(newest.runs, run) }));
     this.#caches.write<RunSummary[]>(keys.openRuns(this.slug), (runs) => applyOpenRun(runs, run));
     this.#caches.write<Run>(keys.run(run.id), (full) => ({ ...full, ...run }));
   }

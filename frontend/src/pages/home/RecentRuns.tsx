@@ -1,6 +1,6 @@
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
-import { NEWEST_RUNS } from "@/api/queries";
+import { NEWEST_RUNS } from "@/api/runs";
 import type { RunSummary } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusGlyph } from "@/design/StatusGlyph";

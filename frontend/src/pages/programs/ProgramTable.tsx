@@ -1,7 +1,8 @@
 /** Programs as rows: what they use, who edited them, whether they are sound, when they last ran. */
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
-import { NEWEST_RUNS, useSite } from "@/api/queries";
+import { useSite } from "@/api/queries";
+import { NEWEST_RUNS } from "@/api/runs";
 import type { Program, RunSummary } from "@/api/types";
 import { ArmSwitch } from "@/shell/ArmSwitch";
 import { Avatar } from "@/design/Avatar";

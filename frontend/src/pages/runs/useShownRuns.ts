@@ -1,5 +1,5 @@
 /** The runs of a site as the screen lists them: without a gap, as far down as somebody has asked. */
-import { NEWEST_RUNS, useRunParts, useRuns } from "@/api/queries";
+import { NEWEST_RUNS, useRunParts, useRuns } from "@/api/runs";
 import { joinRuns } from "./runStatus";
 
 /**
