@@ -27,6 +27,7 @@ from execution.rehearsals.zone_costs import router as zone_costs_router
 from execution.retention.routes import router as retention_router
 from execution.runs.comments import begin_thread
 from execution.runs.programs import prepare, site_of_program
+from execution.runs.routes import router as run_history_router
 from execution.shapes import (
     ActionInput,
     ActionStatus,
@@ -40,7 +41,6 @@ from execution.shapes import (
     CommentOnRun,
     QuestionShape,
     RouteShape,
-    RunEventShape,
     RunsAsked,
     RunShape,
     RunSummaryShape,
@@ -51,7 +51,6 @@ from execution.stand_ins.routes import router as stand_ins_router
 from execution.views import (
     armed_to_json,
     call_to_json,
-    event_to_json,
     question_to_json,
     route_to_json,
     run_to_json,
@@ -73,6 +72,7 @@ router.add_router("", mirror_router)
 router.add_router("", operations_router)
 router.add_router("", program_tests_router)
 router.add_router("", retention_router)
+router.add_router("", run_history_router)
 router.add_router("", stand_ins_router)
 _RECORDINGS = {"json": "application/json", "mcap": "application/octet-stream"}
 _SENDS_RECORDING = {
@@ -208,13 +208,6 @@ def get_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
     """Return a run with its document and compiled form."""
     _require_here(request, services.site_of_run(run_id=run), "viewer", "run")
     return whole_run_to_json(services.get_run(run_id=run))
-
-
-@router.get("/runs/{uuid:run}/events", response=list[RunEventShape])
-def list_events(request: HttpRequest, run: UUID, after: int = 0) -> list[dict[str, Any]]:
-    """Return the run's journal after a line's number."""
-    _require_here(request, services.site_of_run(run_id=run), "viewer", "run")
-    return [event_to_json(event) for event in services.list_events(run_id=run, after=after)]
 
 
 @router.get("/runs/{uuid:run}/measurements", response=list[StepMeasuredShape])

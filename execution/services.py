@@ -39,13 +39,13 @@ from execution.rehearsals.rehearsals import (
     start_rehearsal,
 )
 from execution.rehearsals.views import RehearsalView
+from execution.runs.history import list_events
 from execution.runs.programs import Prepared
 from execution.runs.questions import answer_question, list_questions, site_of_question
 from execution.runs.runs import (
     RunFilter,
     cancel_run,
     get_run,
-    list_events,
     list_runs,
     pause_run,
     resume_run,

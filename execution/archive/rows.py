@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import datetime
+from itertools import islice
 from typing import Any, BinaryIO, TypeVar
 from uuid import UUID
 
@@ -93,16 +95,29 @@ def read_run(summary: Run) -> Run:
     return run
 
 
-def read_events(summary: Run, after: int, most: int) -> list[RunEvent]:
-    """Return the lines of an archived run's journal after a number. Raises HistoryUnreadable."""
-    found: list[RunEvent] = []
+def each_event(summary: Run) -> Iterator[RunEvent]:
+    """Yield the lines of an archived run's journal, one in memory at a time. Raises HistoryUnreadable."""
     with _opened(summary) as lines:
         for line in lines:
-            if line["row"] == "event" and line["seq"] > after:
-                found.append(from_line(RunEvent, line))
-                if len(found) == most:
-                    break
-    return found
+            if line["row"] == "event":
+                yield from_line(RunEvent, line)
+
+
+def read_events(summary: Run, after: int, before: int | None, most: int) -> list[RunEvent]:
+    """Return the first lines of an archived run's journal between two numbers. Raises HistoryUnreadable."""
+    with _opened(summary) as lines:
+        return [from_line(RunEvent, line) for line in islice(_between(lines, after, before), most)]
+
+
+def read_newest_events(summary: Run, after: int, before: int | None, most: int) -> list[RunEvent]:
+    """Return the last lines of an archived journal between two numbers, in their order. Raises HistoryUnreadable."""
+    with _opened(summary) as lines:
+        return [from_line(RunEvent, line) for line in deque(_between(lines, after, before), most)]
+
+
+def _between(lines: Iterator[Row], after: int, before: int | None) -> Iterator[Row]:
+    events = (line for line in lines if line["row"] == "event" and line["seq"] > after)
+    return (line for line in events if before is None or line["seq"] < before)
 
 
 def read_questions(summary: Run) -> list[Question]:

@@ -12,20 +12,20 @@ from django.db.models import Max
 
 from editor import services as editor
 from execution import database, mailbox
-from execution.archive.rows import read_events, read_run
+from execution.archive.rows import read_run
 from execution.errors import NotFound, NotPossibleNow
 from execution.floor.stops import get_stop, hold_if_stopped
 from execution.floor_protocol import ResumeAsked, ToRun
 from execution.machine.messages import CancelAsked, PauseAsked
-from execution.models import Command, FloorState, Run, RunEvent
+from execution.models import Command, FloorState, Run
 from execution.runs.programs import Prepared
 from execution.runs.terms import USUAL, Terms, fit_terms
-from execution.views import PRIORITIES, RunEventView, RunView, WholeRunView, run_to_json, view_event, view_run
+from execution.views import PRIORITIES, RunView, WholeRunView, run_to_json, view_run
 from registry import services as registry
 from vipo_device.protocol.messages import EXPLORE
 
-EVENTS_AT_ONCE = 1000
 OPEN = "open"
+NO_SUCH_RUN = "There is no such run. It may have been deleted with its site."
 STOPPED = "The site is stopped. Reset the stop, then resume the run."
 
 
@@ -170,7 +170,7 @@ def _order(row: Run, order: ToRun) -> RunView:
 def _find(run_id: UUID | str) -> Run:
     row = Run.objects.select_related("site", "archive").defer("plan", "state", "places").filter(id=run_id).first()
     if row is None:
-        raise NotFound("There is no such run. It may have been deleted with its site.")
+        raise NotFound(NO_SUCH_RUN)
     return row
 
 
@@ -183,7 +183,10 @@ def _find_open(run_id: UUID | str) -> Run:
 
 def site_of_run(*, run_id: UUID | str) -> str:
     """Return the site of a run; raises NotFound."""
-    return _find(run_id).site.slug
+    site = Run.objects.filter(id=run_id).values_list("site__slug", flat=True).first()
+    if site is None:
+        raise NotFound(NO_SUCH_RUN)
+    return str(site)
 
 
 @dataclass(frozen=True, slots=True)
@@ -255,23 +258,3 @@ def list_runs(
         rows = rows.filter(number__lt=before)
     found = list(rows.defer("document", "compiled", "plan", "state", "places").order_by("-number")[: limit + 1])
     return tuple(view_run(row) for row in found[:limit]), len(found) > limit
-
-
-def list_events(*, run_id: UUID | str, after: int = 0) -> tuple[RunEventView, ...]:
-    """Return the lines of a run's journal after a number, oldest first; at most a thousand at once.
-
-    Raises:
-        HistoryUnreadable: it is in the archive, which cannot be read.
-    """
-    found = list(RunEvent.objects.filter(run_id=run_id, seq__gt=after).order_by("seq")[:EVENTS_AT_ONCE])
-    # Asked afterwards: a run is named as archived before any row of it goes, so what was read just now is all there is.
-    archived = (
-        Run.objects.select_related("site", "archive")
-        .filter(id=run_id)
-        .exclude(archive=None)
-        .only("site", "archive", "archive_offset", "archive_bytes")
-        .first()
-    )
-    if archived is not None:
-        found = read_events(archived, after, EVENTS_AT_ONCE)
-    return tuple(view_event(row) for row in found)

@@ -83,6 +83,7 @@ DEEDS = (
         list_measurements
         get_run
         list_events
+        show_timeline
         list_armed
         get_call
         list_open_calls

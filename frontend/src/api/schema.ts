@@ -1517,7 +1517,7 @@ export interface paths {
         };
         /**
          * List Events
-         * @description Return the run's journal after a line's number.
+         * @description Return the run's journal after a line's number, or its newest lines; oldest first.
          */
         get: operations["list_events"];
         put?: never;
@@ -1602,6 +1602,26 @@ export interface paths {
          * @description Begin a thread of comments about a moment of a run; it is read and answered among those of the run's program.
          */
         post: operations["comment_on_run"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run}/timeline": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Timeline
+         * @description Return who worked when on which step of a run; where it took too long for that, short bars as one.
+         */
+        get: operations["show_timeline"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -4766,6 +4786,23 @@ export interface components {
             signs_out: boolean;
             tokens: string[];
         };
+        /** @description Which lines of a journal are asked for: the oldest that fit, or with `newest` the newest. */
+        EventsAsked: {
+            /**
+             * @description Lines with larger numbers.
+             * @default 0
+             */
+            after: number;
+            /** @description Lines with smaller numbers. */
+            before?: number | null;
+            /** @default 1000 */
+            limit: number;
+            /**
+             * @description The newest that fit; the header `Link` names those before them.
+             * @default false
+             */
+            newest: boolean;
+        };
         /**
          * @description What a test expected, on which line of its text, and what was seen; `t_s` is when, in virtual time.
          *
@@ -6771,6 +6808,39 @@ export interface components {
             /** @default [] */
             mentions: number[];
             text: string;
+        };
+        /**
+         * @description What a device did or waited for, for a step, in seconds of the run; `ended_s` is null while it goes on.
+         *
+         *     `count` is of how many bars it was joined, because they are too many to be told apart; these may be of several
+         *     steps, of which `step` is the first that failed, or just the first. `pending` counts the commands under way.
+         */
+        TimelineBar: {
+            count: number;
+            device: string;
+            ended_s: number | null;
+            failed: boolean;
+            /** @enum {string} */
+            kind: "work" | "wait";
+            pending: number;
+            started_s: number;
+            step: string;
+        };
+        /**
+         * @description Who worked when in a run, up to the line `seq` of its journal, in about 2,000 bars at most.
+         *
+         *     With `steps`, those under way in the order in which they began, and `drives`, for which of them each robot drives,
+         *     one goes on with the journal's later lines. `simulated` are the devices for which a simulated one was told
+         *     something or has answered.
+         */
+        TimelineShape: {
+            bars: components["schemas"]["TimelineBar"][];
+            drives: {
+                [key: string]: string;
+            };
+            seq: number;
+            simulated: string[];
+            steps: string[];
         };
         /** @description A token without its secret; `mine` says whether it is the asker's own. */
         TokenShape: {
@@ -11112,7 +11182,13 @@ export interface operations {
     list_events: {
         parameters: {
             query?: {
+                /** @description Lines with larger numbers. */
                 after?: number;
+                /** @description Lines with smaller numbers. */
+                before?: number | null;
+                /** @description The newest that fit; the header `Link` names those before them. */
+                newest?: boolean;
+                limit?: number;
             };
             header?: never;
             path: {
@@ -11309,6 +11385,45 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_timeline: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TimelineShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

@@ -33,6 +33,7 @@ def all_calls(program, run, rehearsal):
         ("get", f"/sites/{SITE}/runs"): "viewer",
         ("get", f"/runs/{run}"): "viewer",
         ("get", f"/runs/{run}/events"): "viewer",
+        ("get", f"/runs/{run}/timeline"): "viewer",
         ("get", f"/rehearsals/{rehearsal}"): "viewer",
         ("get", f"/sites/{SITE}/rehearsals"): "viewer",
         ("post", f"/sites/{SITE}/route", json.dumps(here)): "viewer",

@@ -1,0 +1,88 @@
+"""A run's journal as bars, which the screen goes on with, and of which there are never too many."""
+
+from __future__ import annotations
+
+import json
+import random
+from itertools import pairwise
+from typing import Any
+
+import pytest
+
+from execution.runs.timeline import Bar, TimelineLine, read_timeline, robots_of
+from tests.kit.files import ROOT
+
+CASES: list[dict[str, Any]] = json.loads((ROOT / "tests" / "cases" / "timelines.json").read_text())
+ROBOTS = {"go": "robot01", "fetch": "robot01", "sweep": "robot01"}
+
+
+@pytest.mark.parametrize("case", CASES, ids=[case["name"] for case in CASES])
+def test_a_journal_is_read_as_the_screen_reads_it(case: dict[str, Any]) -> None:
+    bars = read_timeline([TimelineLine(*line) for line in case["lines"]], ROBOTS).bars
+    assert [[bar.device, bar.step, bar.kind, bar.started_s, bar.ended_s, bar.failed] for bar in bars] == case["bars"]
+
+
+def test_what_is_under_way_is_told_so_that_others_can_go_on() -> None:
+    entered = [TimelineLine(0, "step", "step_entered", step, "", "") for step in ("all", "go")]
+    way = TimelineLine(1, "way", "way", "", "robot01", "robot01")
+    commands = [TimelineLine(2, "command", "command", "cure", "oven", "")] * 2
+    read = read_timeline([*entered, way, *commands], ROBOTS)
+    assert (read.steps, read.drives) == (("all", "go"), {"robot01": "go"})
+    assert [(bar.device, bar.pending) for bar in read.bars] == [("robot01", 1), ("oven", 2)]
+
+
+def test_a_step_belongs_to_the_robot_of_its_role() -> None:
+    steps = {
+        "go": {"kind": "move", "params": {"role": "carrier"}},
+        "pick": {"kind": "pick"},
+        "odd": {"kind": "move", "params": {"role": 7}},
+        "wave": {"kind": "operate", "params": {"device": {"role": "carrier"}}},
+        "mix": {"kind": "operate", "params": {"device": {"device": "mixer"}}},
+        "named": {"kind": "operate", "params": {"device": "mixer"}},
+        "wait": {"kind": "wait"},
+        "new": {"kind": "not known here"},
+    }
+    roles = {"robot": "robot01", "carrier": "robot02"}
+    assert robots_of({"steps": steps}, roles) == {"go": "robot02", "pick": "robot01", "wave": "robot02"}
+    assert robots_of({}, roles) == {}
+
+
+def work(device: str, step: str, at_s: float, took_s: float, status: str = "DONE") -> list[TimelineLine]:
+    return [
+        TimelineLine(at_s, "command", "command", step, device, ""),
+        TimelineLine(at_s + took_s, "answer", "answer", step, device, "", status),
+    ]
+
+
+def test_bars_that_are_too_many_are_joined_where_they_lie_close_together() -> None:
+    lines = [*work("oven", "long", 0, 400)]
+    for turn in range(100):
+        lines += work("oven", f"s{turn % 2}", 500 + turn * 5, 1, "FAILED" if turn == 41 else "DONE")
+    lines += work("oven", "end", 1500, 500)
+    exact = read_timeline(lines, {}, most=102).bars
+    assert (len(exact), {bar.count for bar in exact}) == (102, {1})
+    bars = read_timeline(lines, {}, most=30).bars
+    assert len(bars) <= 30
+    assert (bars[0], bars[-1]) == (exact[0], exact[-1])
+    assert sum(bar.count for bar in bars) == 102
+    assert [bar.step for bar in bars if bar.failed] == ["s1"]
+    assert all(bar.ended_s is not None and bar.ended_s - bar.started_s <= 64 for bar in bars[1:-1])
+    assert all(first.started_s < second.started_s for first, second in pairwise(bars))
+
+
+def test_of_however_many_bars_there_are_so_many_as_a_screen_shows_and_each_moment_of_work_is_in_one() -> None:
+    chance = random.Random(7)
+    lines: list[TimelineLine] = []
+    for at_s in range(20_000):
+        device = f"d{chance.randrange(10)}"
+        lines += work(device, f"s{chance.randrange(40)}", at_s, chance.random())
+    lines.append(TimelineLine(20_000, "command", "command", "s1", "d1", ""))
+    read = read_timeline(lines, {}).bars
+    assert 500 < len(read) <= 2000
+    assert (read[-1].ended_s, read[-1].count) == (None, 1)
+    assert all(_is_in_one(line, read) for line in lines[::501])
+
+
+def _is_in_one(line: TimelineLine, bars: tuple[Bar, ...]) -> bool:
+    mine = [bar for bar in bars if bar.device == line.device]
+    return any(bar.started_s <= line.t_s and (bar.ended_s is None or line.t_s <= bar.ended_s) for bar in mine)
