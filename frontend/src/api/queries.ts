@@ -18,7 +18,6 @@ import type {
   Rehearsal,
   RehearsalSummary,
   Run,
-  RunEvent,
   RunSummary,
   Site,
   SiteMap,
@@ -54,6 +53,7 @@ export const keys = {
   alerts: (slug: string) => ["alerts", slug] as const,
   overAlerts: (slug: string) => ["over-alerts", slug] as const,
   runEvents: (id: string) => ["run-events", id] as const,
+  runTimeline: (id: string) => ["run-timeline", id] as const,
   library: (q: string, fits: string, onlyFitting: boolean) => ["library", q, fits, onlyFitting] as const,
   libraryFunction: (id: string, ...more: readonly (string | number)[]) => ["library-function", id, ...more] as const,
   rehearsal: (id: string) => ["rehearsal", id] as const,
@@ -71,8 +71,6 @@ export const keys = {
   setting: (slug: string, address: string) => [address, slug] as const,
   rehearsals: (slug: string) => ["rehearsals", slug] as const,
 };
-
-const EVENTS_AT_ONCE = 1000;
 
 /** A refusal is an answer: only silence and a busy server are worth another try. */
 function retry(failures: number, error: Error): boolean {
@@ -116,17 +114,6 @@ async function getMap(slug: string, known: SiteMap | undefined): Promise<SiteMap
   if (known && info.tag === known.tag) return { ...info, cells: known.cells };
   const { tag, bytes } = newest ?? (await getNewest());
   return { ...info, cells: areOf(info, tag) ? bytes : await api.bytes(`${path}/versions/${info.version}/cells`) };
-}
-
-/** The whole journal of a run; the server gives a thousand lines at once. */
-async function getRunEvents(run: string): Promise<RunEvent[]> {
-  const all: RunEvent[] = [];
-  for (;;) {
-    const page = await api.get<RunEvent[]>(`/runs/${run}/events?after=${all.at(-1)?.seq ?? 0}`);
-    if (page.length === 0) return all;
-    all.push(...page);
-    if (page.length < EVENTS_AT_ONCE) return all;
-  }
 }
 
 /** A query that waits until its subject is known. */
@@ -230,8 +217,6 @@ export const useMeasurements = (run: Maybe) =>
     keys.measurements(run ?? ""),
     at(run, (r) => `/runs/${r}/measurements`),
   );
-export const useRunEvents = (id: Maybe) =>
-  useQuery({ queryKey: keys.runEvents(id ?? ""), queryFn: id ? () => getRunEvents(id) : skipToken });
 const FUNCTIONS_AT_ONCE = 60;
 /**
  * The functions that have the words, by name, part after part. What was found last stays until the next answer is

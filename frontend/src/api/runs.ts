@@ -1,8 +1,9 @@
-/** The runs of a site as screens read them; the live socket writes into the same caches. */
-import { skipToken, useInfiniteQuery, useQuery } from "@tanstack/react-query";
+/** The runs of a site, and what became of one, as screens read them; the live socket writes into the same caches. */
+import { type InfiniteData, skipToken, useInfiniteQuery, useQuery, useQueryClient } from "@tanstack/react-query";
+import { useEffect } from "react";
 import { api, type ListPart } from "./client";
 import { keys, type Maybe } from "./queries";
-import type { RunSummary } from "./types";
+import type { RunEvent, RunSummary, RunTimeline } from "./types";
 
 /** The newest runs of a site: as live news keep them, and the part of the list that the server gave last. */
 export interface NewestRuns {
@@ -43,3 +44,43 @@ export const useRunParts = (slug: string, wanted: boolean) =>
     initialPageParam: null as string | null,
     getNextPageParam: (last: { next?: string | undefined }) => last.next,
   });
+
+const LINES_AT_ONCE = 500;
+
+/** A run's journal, part after part: the newest part first, which live news go on with, each in the order of its lines. */
+export type RunJournal = InfiniteData<ListPart<RunEvent>>;
+
+/** The newest lines of a run's journal, and with each further part those before them. */
+export const useRunJournal = (id: string) =>
+  useInfiniteQuery({
+    queryKey: keys.runEvents(id),
+    queryFn: ({ pageParam }) => api.part<RunEvent>(pageParam),
+    initialPageParam: `/runs/${encodeURIComponent(id)}/events?newest=true&limit=${LINES_AT_ONCE}`,
+    getNextPageParam: (last: { next?: string | undefined }) => last.next,
+  });
+
+/** A run's timeline as the server has told it, and the lines that its journal has had since. */
+export interface GrowingTimeline {
+  told: RunTimeline;
+  since: readonly RunEvent[];
+}
+
+/** After so many lines the timeline is fetched anew, which joins what cannot be told apart. */
+const MOST_SINCE = 1000;
+
+/** A run's timeline, which live news go on with. */
+export const useRunTimeline = (id: string) => {
+  const queries = useQueryClient();
+  const timeline = useQuery({
+    queryKey: keys.runTimeline(id),
+    queryFn: async (): Promise<GrowingTimeline> => ({
+      told: await api.get<RunTimeline>(`/runs/${encodeURIComponent(id)}/timeline`),
+      since: [],
+    }),
+  });
+  const isLong = (timeline.data?.since.length ?? 0) >= MOST_SINCE;
+  useEffect(() => {
+    if (isLong) void queries.invalidateQueries({ queryKey: keys.runTimeline(id) });
+  }, [isLong, queries, id]);
+  return timeline;
+};

@@ -4,7 +4,7 @@ import type { Query, QueryClient, QueryKey } from "@tanstack/react-query";
 import i18next from "i18next";
 import { keys } from "@/api/queries";
 import { mapKeys, staleWithSiteMap } from "@/api/robotMaps";
-import type { NewestRuns } from "@/api/runs";
+import type { GrowingTimeline, NewestRuns, RunJournal } from "@/api/runs";
 import type {
   Alert,
   ArmedProgram,
@@ -25,11 +25,12 @@ import { LiveCaches } from "./caches";
 import {
   applyChanges,
   applyChecked,
+  applyJournalLine,
   applyOpenRun,
   applyQuestion,
   applyRehearsal,
   applyRun,
-  applyRunEvent,
+  applyTimelineLine,
   isOver,
   isUrgent,
   joinChanges,
@@ -76,9 +77,7 @@ export class SiteFeed {
       case "run":
         return this.#run(message.run);
       case "run_event":
-        return this.#caches.write<readonly RunEvent[]>(keys.runEvents(message.run), (events) =>
-          applyRunEvent(events, message.event),
-        );
+        return this.#runEvent(message.run, message.event);
       case "question":
         return this.#question(message.question);
       case "notice":
@@ -146,6 +145,7 @@ export class SiteFeed {
       "tests",
       "run",
       "run-events",
+      "run-timeline",
       "rehearsal",
       "robot-map",
       "map-difference",
@@ -215,6 +215,11 @@ export class SiteFeed {
     this.#caches.write<NewestRuns>(keys.runs(this.slug), (newest) => ({ ...newest, runs: applyRun(newest.runs, run) }));
     this.#caches.write<RunSummary[]>(keys.openRuns(this.slug), (runs) => applyOpenRun(runs, run));
     this.#caches.write<Run>(keys.run(run.id), (full) => ({ ...full, ...run }));
+  }
+
+  #runEvent(run: string, event: RunEvent): void {
+    this.#caches.write<RunJournal>(keys.runEvents(run), (journal) => applyJournalLine(journal, event));
+    this.#caches.write<GrowingTimeline>(keys.runTimeline(run), (timeline) => applyTimelineLine(timeline, event));
   }
 
   #traffic(robots: Readonly<Record<string, RobotTraffic>>): void {

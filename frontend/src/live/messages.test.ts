@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import type { Question, Device, RunEvent, RunStatus, RunSummary } from "@/api/types";
+import type { Question, Device, RunEvent, RunStatus, RunSummary, RunTimeline } from "@/api/types";
 import {
   applyChanges,
   applyChecked,
@@ -7,7 +7,9 @@ import {
   applyQuestion,
   applyRehearsal,
   applyRun,
+  applyJournalLine,
   applyRunEvent,
+  applyTimelineLine,
   isOpen,
   isUrgent,
   joinChanges,
@@ -73,6 +75,27 @@ test("an event that comes late is put in order, one that comes twice is left out
   const events = [event(1), event(3)];
   expect(applyRunEvent(events, event(2)).map((each) => each.seq)).toEqual([1, 2, 3]);
   expect(applyRunEvent(events, event(3))).toBe(events);
+});
+
+const part = (seqs: number[], next?: string) => ({ items: seqs.map(event), next, headers: new Headers() });
+
+test("a new line of a journal goes to its newest part, and one that an older part has nowhere", () => {
+  const journal = { pages: [part([8, 9], "?before=8"), part([5, 6, 7], "?before=5")], pageParams: ["", "?before=8"] };
+  const numbers = (seq: number) =>
+    applyJournalLine(journal, event(seq)).pages.map(({ items }) => items.map((each) => each.seq));
+  expect(numbers(10)).toEqual([
+    [8, 9, 10],
+    [5, 6, 7],
+  ]);
+  for (const known of [9, 6, 2]) expect(applyJournalLine(journal, event(known))).toBe(journal);
+  const first = applyJournalLine({ pages: [part([])], pageParams: [""] }, event(1));
+  expect(applyJournalLine(first, event(2)).pages[0]?.items).toEqual([event(1), event(2)]);
+});
+
+test("a timeline goes on with the lines after those that the server has read for it", () => {
+  const timeline = { told: { seq: 7 } as RunTimeline, since: [event(8)] };
+  expect(applyTimelineLine(timeline, event(7))).toBe(timeline);
+  expect(applyTimelineLine(timeline, event(9)).since).toEqual([event(8), event(9)]);
 });
 
 const question = (id: string, asked_at: string, state = "open") => ({ id, asked_at, state }) as Question;

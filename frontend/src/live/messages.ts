@@ -1,4 +1,5 @@
 /** What `/ws/site/<slug>` says, and how a device changes by it; pure. */
+import type { GrowingTimeline, RunJournal } from "@/api/runs";
 import type {
   Alert,
   ArmedProgram,
@@ -151,10 +152,24 @@ export function applyOpenRun(runs: readonly RunSummary[], run: RunSummary): RunS
 }
 
 /** Add an event to a run's journal unless it is there already; by its number. */
-export function applyRunEvent(events: readonly RunEvent[], event: RunEvent): readonly RunEvent[] {
+export function applyRunEvent<E extends readonly RunEvent[]>(events: E, event: RunEvent): E | RunEvent[] {
   if ((events.at(-1)?.seq ?? 0) < event.seq) return [...events, event]; // as nearly always, and there may be thousands
   if (events.some((each) => each.seq === event.seq)) return events;
   return [...events, event].sort((a, b) => a.seq - b.seq);
+}
+
+/** The same for a journal of which there are parts: what is older than the newest part has its place in another. */
+export function applyJournalLine(journal: RunJournal, event: RunEvent): RunJournal {
+  const [newest, ...older] = journal.pages;
+  if (!newest || (newest.next !== undefined && event.seq < (newest.items[0]?.seq ?? 0))) return journal;
+  const items = applyRunEvent(newest.items, event);
+  return items === newest.items ? journal : { ...journal, pages: [{ ...newest, items }, ...older] };
+}
+
+/** The same for a timeline, which has all up to a line. */
+export function applyTimelineLine(timeline: GrowingTimeline, event: RunEvent): GrowingTimeline {
+  if (event.seq <= timeline.told.seq) return timeline;
+  return { ...timeline, since: applyRunEvent(timeline.since, event) };
 }
 
 /** Put a question into a list, in the order in which they were asked; one that is known is replaced. */

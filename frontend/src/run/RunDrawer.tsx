@@ -70,7 +70,8 @@ function Drawer(props: DrawerProps) {
 /** Timeline, whole journal, script or comments. */
 export function RunDrawer({ view, tell }: { view: RunView; tell: (refusal: string) => void }) {
   const { t } = useTranslation();
-  const { run, site, lines, events, devices, over, numberOf, nameOf, setSelected, tab, setTab, comments } = view;
+  const { run, site, lines, journal, timeline, devices, over, numberOf, nameOf, setSelected, tab, setTab, comments } =
+    view;
   const elapsed_s = elapsedSeconds(run, view.now);
   const lit = useMemo(
     () => new Set(lines.filter((line) => line.started_at && !line.ended_at).map((line) => line.step)),
@@ -85,14 +86,14 @@ export function RunDrawer({ view, tell }: { view: RunView; tell: (refusal: strin
     <Drawer tab={tab} onTab={setTab} unread={unread} aside={tab === "timeline" ? <Aside view={view} /> : null}>
       {tab === "timeline" && (
         <Timeline
-          {...{ events, devices, elapsed_s, over, numberOf, robotOf }}
+          {...{ timeline, devices, elapsed_s, over, numberOf, robotOf }}
           comments={{ ...comments, open: (thread) => (comments.open(thread), setTab("comments")) }}
           onSelect={setSelected}
           onWrite={(t_s) => view.write(view.aboutMoment(t_s))}
         />
       )}
       {tab === "logs" && (
-        <Journal {...{ events, numberOf, nameOf }} label={t("run.tab.logs")} full onWrite={writeOn(view)} />
+        <Journal {...{ journal, numberOf, nameOf }} label={t("run.tab.logs")} full onWrite={writeOn(view)} />
       )}
       {tab === "script" && (
         <ScriptLines

@@ -188,7 +188,7 @@ function Side({ view }: { view: RunView }) {
         onSelect={view.setSelected}
       />
       <Journal
-        events={view.events}
+        journal={view.journal}
         numberOf={numberOf}
         nameOf={nameOf}
         label={t("run.journal")}

@@ -12,6 +12,7 @@ import { waitWords } from "@/i18n/waits";
 import comments from "./comments/runComments.module.css";
 import styles from "./RunScreen.module.css";
 import { eventWords } from "./eventWords";
+import type { JournalLines } from "./journalLines";
 import { outerProgress, spentSeconds, type StepLine } from "./stepList";
 
 const FAR_PERCENT = 20;
@@ -154,7 +155,7 @@ function eventGlyph(event: RunEvent): StatusName {
 export const isSimulated = (event: RunEvent): boolean => event.args.simulated === true;
 
 interface JournalProps {
-  events: readonly RunEvent[];
+  journal: JournalLines;
   numberOf: (step: string) => string;
   nameOf: (device: string) => string;
   label: string;
@@ -184,30 +185,40 @@ function Time({ event, onWrite }: { event: RunEvent; onWrite: JournalProps["onWr
 }
 
 /** What happened, newest last; it stays at the newest while one looks at the end. */
-export function Journal({ events, numberOf, nameOf, label, full = false, onWrite }: JournalProps) {
+export function Journal({ journal, numberOf, nameOf, label, full = false, onWrite }: JournalProps) {
   const { t } = useTranslation();
   const list = useRef<HTMLOListElement>(null);
-  const all = full ? events : events.filter((event) => !["command", "way"].includes(event.kind));
+  const { lines } = journal;
+  const all = full ? lines : lines.filter((event) => !["command", "way"].includes(event.kind));
   const [atEnd, setAtEnd] = useState(true);
-  // Who reads further up keeps the lines there, however many come below.
+  // Who reads further up keeps the lines there, from this number on, however many come below.
   const [kept, setKept] = useState<number | null>(null);
-  const older = kept ?? Math.max(0, all.length - LINES);
+  const from = kept ?? all.at(-LINES)?.seq ?? 0;
+  const shown = all.filter((event) => event.seq >= from);
+  const hidden = all.length - shown.length;
+  const older = hidden + journal.older;
+  const showOlder = () => {
+    setKept(all[hidden - LINES]?.seq ?? 0);
+    if (hidden < LINES) journal.fetchOlder();
+  };
+  const newest = all.at(-1)?.seq;
   useEffect(() => {
     const element = list.current;
     if (element && atEnd) element.scrollTop = element.scrollHeight;
-  }, [all.length, atEnd]);
+  }, [newest, atEnd]);
   return (
     <section className={styles.journal} aria-label={label}>
       {full ? null : (
         <h2>
-          {label} <small>{t("run.entries", { count: events.length })}</small>
+          {label} <small>{t("run.entries", { count: lines.length + journal.older })}</small>
         </h2>
       )}
       {older > 0 ? (
-        <Button size="compact-xs" variant="default" onClick={() => setKept(Math.max(0, older - LINES))}>
+        <Button size="compact-xs" variant="default" loading={journal.isFetching && hidden === 0} onClick={showOlder}>
           {t("run.older_lines", { count: older })}
         </Button>
       ) : null}
+      {journal.problem ? <p role="alert">{journal.problem}</p> : null}
       <ol
         ref={list}
         // A list that scrolls must be reachable by keyboard.
@@ -218,10 +229,10 @@ export function Journal({ events, numberOf, nameOf, label, full = false, onWrite
           const isAtEnd = element.scrollHeight - element.scrollTop - element.clientHeight < 40;
           if (isAtEnd === atEnd) return;
           setAtEnd(isAtEnd);
-          setKept(isAtEnd ? null : older);
+          setKept(isAtEnd ? null : (shown[0]?.seq ?? 0));
         }}
       >
-        {all.slice(older).map((event) => (
+        {shown.map((event) => (
           <li key={event.seq}>
             <Time event={event} onWrite={onWrite} />
             <StatusGlyph status={eventGlyph(event)} size={13} />

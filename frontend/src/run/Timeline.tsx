@@ -1,7 +1,8 @@
 import { MessageSquare } from "lucide-react";
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
-import type { Device, RunEvent } from "@/api/types";
+import type { GrowingTimeline } from "@/api/runs";
+import type { Device } from "@/api/types";
 import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import { clock, tickEvery } from "@/design/clock";
 import { type Bar, ganttOf, type RobotOf } from "./gantt";
@@ -11,7 +12,7 @@ import type { RunComments } from "./comments/useRunComments";
 import styles from "./Timeline.module.css";
 
 interface TimelineProps {
-  events: readonly RunEvent[];
+  timeline: GrowingTimeline;
   devices: readonly Device[];
   elapsed_s: number;
   over: boolean;
@@ -33,7 +34,8 @@ function BarButton({ bar, span_s, props }: { bar: Bar; span_s: number; props: Ti
   const { t } = useTranslation();
   const end = bar.ended_s ?? props.elapsed_s;
   const kind = kindOf(bar);
-  const text = `${props.numberOf(bar.step)} ${t(`run.bar.${kind}`)}, ${clock(bar.started_s)}–${clock(end)}`;
+  const number = bar.count > 1 ? `${bar.count} ×` : props.numberOf(bar.step);
+  const text = `${number} ${t(`run.bar.${kind}`)}, ${clock(bar.started_s)}–${clock(end)}`;
   return (
     <button
       type="button"
@@ -47,7 +49,7 @@ function BarButton({ bar, span_s, props }: { bar: Bar; span_s: number; props: Ti
       }}
       onClick={() => props.onSelect(bar.step)}
     >
-      {props.numberOf(bar.step)}
+      {number}
     </button>
   );
 }
@@ -119,7 +121,7 @@ function Commented({ comments, span_s }: { comments: RunComments; span_s: number
 }
 
 /** A row a device that worked, robots first. */
-function useRows({ events, devices, robotOf }: TimelineProps) {
+function useRows({ timeline, devices, robotOf }: TimelineProps) {
   const order = useMemo(
     () => [...devices].sort((a, b) => a.kind.localeCompare(b.kind) * -1 || a.name.localeCompare(b.name)),
     [devices],
@@ -127,11 +129,12 @@ function useRows({ events, devices, robotOf }: TimelineProps) {
   return useMemo(
     () =>
       ganttOf(
-        events,
+        timeline.told,
+        timeline.since,
         order.map((device) => device.id),
         robotOf,
       ),
-    [events, order, robotOf],
+    [timeline, order, robotOf],
   );
 }
 

@@ -1,115 +1,66 @@
-import { describe, expect, it } from "vitest";
-import type { RunEvent } from "@/api/types";
+/** What the server has told of a run's timeline goes on here; both read the same journals in the same way. */
+import { expect, test } from "vitest";
+import type { RunEvent, RunTimeline } from "@/api/types";
+import cases from "../../../tests/cases/timelines.json";
 import { ganttOf } from "./gantt";
 
-let seq = 0;
-const event = (t_s: number, code: string, more: Partial<RunEvent> = {}): RunEvent => ({
-  seq: (seq += 1),
-  at: "2026-01-01T00:00:00Z",
-  t_s,
-  kind: code === "wait_over" ? "wait" : code,
-  step: "s1",
-  device: "robot01",
-  robot: "",
-  text: "",
-  cause: null,
-  code,
-  args: {},
-  ...more,
+const NOTHING: RunTimeline = { seq: 0, bars: [], steps: [], drives: {}, simulated: [] };
+const ROBOTS: Record<string, string> = { go: "robot01", fetch: "robot01", sweep: "robot01" };
+const robotOf = (step: string) => ROBOTS[step];
+
+/** A line as the cases have it: seconds, kind, code, step, device, robot, and how an answer was. */
+function lineOf([t_s, kind, code, step, device, robot, status]: readonly unknown[], seq: number): RunEvent {
+  const args = status === undefined ? {} : { status };
+  return { seq, at: "", t_s, kind, code, step, device, robot, text: "", cause: null, args } as RunEvent;
+}
+
+const journalOf = (lines: readonly (readonly unknown[])[]) => lines.map((line, at) => lineOf(line, at + 1));
+
+/** A case's bars as those of rows: by device, in the order in which they began. */
+const sorted = <B extends readonly unknown[]>(bars: readonly B[]) =>
+  [...bars].sort((a, b) => String(a[0]).localeCompare(String(b[0])) || Number(a[3]) - Number(b[3]));
+
+function barsOf(told: RunTimeline, since: readonly RunEvent[]) {
+  const bars = ganttOf(told, since, [], robotOf).flatMap((row) => row.bars);
+  return bars.map((bar) => [bar.device, bar.step, bar.kind, bar.started_s, bar.ended_s, bar.failed]);
+}
+
+test.each(cases)("a journal is read as the server reads it: $name", ({ lines, bars }) => {
+  expect(barsOf(NOTHING, journalOf(lines))).toEqual(sorted(bars));
 });
-const done = { args: { status: "DONE" } };
 
-const nobody = () => undefined;
+test("a timeline that the server has told goes on with what is under way, and stays as it was told", () => {
+  const told: RunTimeline = {
+    ...NOTHING,
+    seq: 5,
+    bars: [
+      { device: "oven", step: "cure", kind: "work", started_s: 1, ended_s: 3, failed: true, count: 7, pending: 0 },
+      { device: "robot01", step: "go", kind: "work", started_s: 2, ended_s: null, failed: false, count: 1, pending: 1 },
+      { device: "oven", step: "mix", kind: "work", started_s: 4, ended_s: null, failed: false, count: 1, pending: 2 },
+    ],
+    steps: ["go"],
+    drives: { robot01: "go" },
+  };
+  const before = structuredClone(told);
+  const since = journalOf([
+    [6, "answer", "answer", "mix", "oven", "", "DONE"],
+    [7, "answer", "answer", "mix", "oven", "", "DONE"],
+    [8, "command", "command", "mix", "oven", ""],
+    [9, "step", "step_done", "go", "", ""],
+  ]);
+  const bars = [
+    ["oven", "cure", "work", 1, 3, true],
+    ["oven", "mix", "work", 4, null, false],
+    ["robot01", "go", "work", 2, 9, false],
+  ];
+  for (let look = 0; look < 2; look += 1) expect(barsOf(told, since)).toEqual(bars);
+  expect(told).toEqual(before);
+});
 
-describe("ganttOf", () => {
-  it("joins the pieces of one way to one bar", () => {
-    const rows = ganttOf(
-      [
-        event(0, "command"),
-        event(1, "command"),
-        event(2, "answer", done),
-        event(4, "answer", done),
-        event(5, "command"),
-        event(7, "answer", done),
-      ],
-      ["robot01"],
-      nobody,
-    );
-    expect(rows).toEqual([
-      {
-        device: "robot01",
-        bars: [{ device: "robot01", step: "s1", kind: "work", started_s: 0, ended_s: 7, failed: false }],
-      },
-    ]);
-  });
-
-  it("parts bars of different steps and keeps what goes on open", () => {
-    const rows = ganttOf(
-      [event(0, "command"), event(2, "answer", done), event(3, "command", { step: "s2" })],
-      [],
-      nobody,
-    );
-    expect(rows[0]?.bars.map((bar) => [bar.step, bar.ended_s])).toEqual([
-      ["s1", 2],
-      ["s2", null],
-    ]);
-  });
-
-  it("draws waits, and failures as failed", () => {
-    const rows = ganttOf(
-      [
-        event(0, "blocked", { kind: "wait", robot: "robot02", device: "" }),
-        event(4, "wait_over", { robot: "robot02", device: "" }),
-        event(5, "command", { device: "oven" }),
-        event(6, "answer", { device: "oven", args: { status: "FAILED" } }),
-      ],
-      ["oven", "robot02"],
-      nobody,
-    );
-    expect(rows.map((row) => [row.device, row.bars[0]?.kind, row.bars[0]?.failed])).toEqual([
-      ["oven", "work", true],
-      ["robot02", "wait", false],
-    ]);
-  });
-
-  it("ends what was done for a step that was broken off, as failed", () => {
-    const rows = ganttOf(
-      [
-        event(0, "step_entered", { kind: "step", step: "go" }),
-        event(1, "way", { kind: "way", step: "", robot: "robot01" }),
-        event(2, "command", { device: "oven", step: "cure" }),
-        event(3, "blocked", { kind: "wait", step: "go", robot: "robot01", device: "" }),
-        event(9, "step_cancelled", { kind: "step", step: "go" }),
-        event(9, "step_cancelled", { kind: "step", step: "cure" }),
-      ],
-      ["robot01", "oven"],
-      () => "robot01",
-    );
-    expect(rows.flatMap((row) => row.bars).map((bar) => [bar.device, bar.kind, bar.ended_s, bar.failed])).toEqual([
-      ["robot01", "work", 9, true],
-      ["robot01", "wait", 9, false],
-      ["oven", "work", 9, true],
-    ]);
-  });
-
-  it("draws a drive from setting out to the robot's next command or the step's end", () => {
-    const way = { kind: "way", step: "", robot: "robot01" };
-    const rows = ganttOf(
-      [
-        event(0, "step_entered", { kind: "step", step: "go" }),
-        event(1, "way", way),
-        event(9, "step_done", { kind: "step", step: "go" }),
-        event(9, "step_entered", { kind: "step", step: "fetch" }),
-        event(10, "way", way),
-        event(20, "command", { step: "fetch" }),
-        event(21, "answer", { step: "fetch", ...done }),
-      ],
-      ["robot01"],
-      () => "robot01",
-    );
-    expect(rows[0]?.bars.map((bar) => [bar.step, bar.started_s, bar.ended_s])).toEqual([
-      ["go", 1, 9],
-      ["fetch", 10, 21],
-    ]);
-  });
+test("rows stand in the order of the devices, others behind them", () => {
+  const since = journalOf(
+    ["oven", "arm", "robot01", "belt"].map((device) => [0, "command", "command", "s", device, ""]),
+  );
+  const rows = ganttOf(NOTHING, since, ["robot01", "gone", "oven"], robotOf);
+  expect(rows.map((row) => row.device)).toEqual(["robot01", "oven", "arm", "belt"]);
 });

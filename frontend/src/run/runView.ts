@@ -1,10 +1,12 @@
 /** All that the parts of a run's screen show of it. */
 import { useEffect, useMemo, useState } from "react";
-import { useDevices, useRunEvents, useSiteMap } from "@/api/queries";
+import { useDevices, useSiteMap } from "@/api/queries";
+import { type GrowingTimeline, useRunTimeline } from "@/api/runs";
 import { mayOperate } from "@/api/roles";
-import type { Device, Run, RunEvent, Site } from "@/api/types";
+import type { Device, Run, Site } from "@/api/types";
 import { type AboutMoment, useRunComments } from "./comments/useRunComments";
 import { isSimulated } from "./RunSteps";
+import { useJournalLines } from "./journalLines";
 import { stepAt, stepLines } from "./stepList";
 import { useStepWords } from "./useStepWords";
 
@@ -17,7 +19,10 @@ export interface LoadedProps {
 }
 
 const NO_DEVICES: Device[] = [];
-const NO_EVENTS: RunEvent[] = [];
+const NO_TIMELINE: GrowingTimeline = {
+  told: { seq: 0, bars: [], steps: [], drives: {}, simulated: [] },
+  since: [],
+};
 const MOST_LABEL = 120;
 
 /** The present moment, once a second while it matters. */
@@ -45,11 +50,15 @@ function momentOfRun(run: Run, t_s: number): number {
 export function useRunView({ run, site }: LoadedProps) {
   const devices = useDevices(run.site).data ?? NO_DEVICES;
   const map = useSiteMap(run.site).data ?? null;
-  const events = useRunEvents(run.id).data ?? NO_EVENTS;
+  const journal = useJournalLines(run.id);
+  const timeline = useRunTimeline(run.id).data ?? NO_TIMELINE;
   const over = OVER.includes(run.status);
   const now = useNow(!over);
   const [selected, setSelected] = useState<string | null>(null);
-  const simulated = useMemo(() => new Set(events.filter(isSimulated).map((event) => event.device)), [events]);
+  const simulated = useMemo(() => {
+    const since = timeline.since.filter(isSimulated).map((event) => event.device);
+    return new Set([...timeline.told.simulated, ...since]);
+  }, [timeline]);
   const lines = useMemo(() => stepLines(run.compiled, run.steps), [run.compiled, run.steps]);
   const numberOf = (step: string) => run.compiled.numbers[step] ?? "";
   const nameOf = (id: string) => devices.find((device) => device.id === id)?.name ?? id;
@@ -72,7 +81,8 @@ export function useRunView({ run, site }: LoadedProps) {
     site,
     devices,
     map,
-    events,
+    journal,
+    timeline,
     over,
     now,
     selected,
