@@ -1,4 +1,4 @@
-"""What became of runs: their journals and timelines, from the archive if they are there."""
+"""What became of runs: journals and timelines, from the archive if they are there, and which versions they used."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 from uuid import UUID
 
-from django.db.models import QuerySet
+from django.db.models import Count, F, QuerySet, Window
 from django.db.models.fields.json import KT
+from django.db.models.functions import RowNumber
 
 from execution.archive.rows import each_event, read_events, read_newest_events, read_run
 from execution.errors import NotFound
@@ -18,6 +19,8 @@ from execution.runs.timeline import TOLD, Timeline, TimelineLine, read_timeline,
 from execution.views import RunEventView, view_event
 
 EVENTS_AT_ONCE = 1000
+MOST_NAMED = 3
+"""So many of the runs that used a version are named."""
 AT_ONCE = 2000
 
 
@@ -127,3 +130,35 @@ class _Told:
         if simulated in ("true", 1, True):
             self.simulated.add(device)
         return TimelineLine(t_s, kind, code, step, device, robot, str(status or ""))
+
+
+@dataclass(frozen=True, slots=True)
+class RunOfVersion:
+    """A run that used a version of its program."""
+
+    id: UUID
+    number: int
+    status: str
+
+
+@dataclass(frozen=True, slots=True)
+class VersionRuns:
+    """How many runs used a version of a program, and the newest of them, the newest first."""
+
+    version: int
+    count: int
+    newest: tuple[RunOfVersion, ...]
+
+
+def list_version_runs(*, program_id: UUID, oldest: int, newest: int) -> tuple[VersionRuns, ...]:
+    """Return which runs used the versions of a program between two numbers; those that none used are left out."""
+    place = Window(RowNumber(), partition_by=F("version"), order_by=F("number").desc())
+    count = Window(Count("*"), partition_by=F("version"))
+    used = Run.objects.filter(program=program_id, version__range=(oldest, newest)).annotate(place=place, count=count)
+    named = used.filter(place__lte=MOST_NAMED).order_by("-version", "place")
+    found: dict[int, VersionRuns] = {}
+    for row in named.values_list("version", "count", "id", "number", "status", named=True):
+        before = found.get(row.version)
+        run = RunOfVersion(row.id, row.number, row.status)
+        found[row.version] = VersionRuns(row.version, row.count, (*(before.newest if before else ()), run))
+    return tuple(found.values())

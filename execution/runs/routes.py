@@ -1,4 +1,4 @@
-"""What became of runs over HTTP: their journals and timelines."""
+"""What became of runs over HTTP: their journals and timelines, and which versions of a program they used."""
 
 from __future__ import annotations
 
@@ -9,10 +9,12 @@ from uuid import UUID
 from django.http import HttpRequest, HttpResponse
 from ninja import Query, Router
 
+from editor.services import NoSuchProgram
 from execution.errors import NotFound
 from execution.runs import history
+from execution.runs.programs import site_of_program
 from execution.runs.runs import NO_SUCH_RUN, site_of_run
-from execution.runs.shapes import EventsAsked, TimelineShape
+from execution.runs.shapes import MOST_VERSIONS, EventsAsked, TimelineShape, VersionRunsShape, VersionsAsked
 from execution.shapes import RunEventShape
 from execution.views import event_to_json
 from registry.requests import link_to_next
@@ -53,3 +55,20 @@ def show_timeline(request: HttpRequest, run: UUID) -> dict[str, Any]:
     bars, steps, drives = found.timeline.bars, found.timeline.steps, found.timeline.drives
     shown = {"bars": [asdict(bar) for bar in bars], "steps": steps, "drives": drives}
     return {"seq": found.seq, "simulated": found.simulated, **shown}
+
+
+@router.get("/programs/{uuid:program}/version-runs", response=list[VersionRunsShape])
+def list_version_runs(request: HttpRequest, program: UUID, asked: Query[VersionsAsked]) -> list[dict[str, Any]]:
+    """Return which runs used the versions of a program, the newest version first; those that none used are left out."""
+    try:
+        require(request.user, site_of_program(program_id=program), "viewer", "read")
+    except NotAMember as error:
+        raise NoSuchProgram("There is no such program. It may have been deleted.") from error
+    oldest = max(asked.oldest, asked.newest - MOST_VERSIONS + 1)
+    found = history.list_version_runs(program_id=program, oldest=oldest, newest=asked.newest)
+    return [_runs_to_json(used) for used in found]
+
+
+def _runs_to_json(used: history.VersionRuns) -> dict[str, Any]:
+    newest = [{"id": str(run.id), "number": run.number, "status": run.status} for run in used.newest]
+    return {"version": used.version, "count": used.count, "newest": newest}

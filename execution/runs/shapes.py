@@ -6,9 +6,12 @@ from typing import Annotated, Literal
 
 from ninja import Field, Schema
 
+from execution.shapes import RunStatus
 from registry.requests import Asked
 
+MOST_VERSIONS = 200
 SeqBefore = Annotated[int | None, Field(ge=1, lt=2**31)]
+VersionNumber = Annotated[int, Field(ge=1, lt=2**31)]
 
 
 class EventsAsked(Asked):
@@ -50,3 +53,26 @@ class TimelineShape(Schema):
     steps: list[str]
     drives: dict[str, str]
     simulated: list[str]
+
+
+class VersionsAsked(Asked):
+    """From which version to which other is asked; of more than 200 only the newest are looked at."""
+
+    oldest: VersionNumber
+    newest: VersionNumber
+
+
+class RunOfVersionShape(Schema):
+    """A run, as the versions of its program name it."""
+
+    id: str
+    number: int
+    status: RunStatus
+
+
+class VersionRunsShape(Schema):
+    """How many runs used a version, and the three newest of them, the newest first."""
+
+    version: int
+    count: int
+    newest: list[RunOfVersionShape]

@@ -84,6 +84,7 @@ DEEDS = (
         get_run
         list_events
         show_timeline
+        list_version_runs
         list_armed
         get_call
         list_open_calls

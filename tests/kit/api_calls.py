@@ -109,7 +109,12 @@ BODIES: dict[str, dict[str, Any]] = {
     "change_my_password": {"old": "not this one", "new": "another-horse-9"},
 }
 """What is sent, where an empty object does not say enough; a name in braces stands for an id."""
-QUERIES = {"ask": "?query=ASK+%7B%7D", "show_property_history": "?property=jobStatus", "compare_versions": "?old=1"}
+QUERIES = {
+    "ask": "?query=ASK+%7B%7D",
+    "show_property_history": "?property=jobStatus",
+    "compare_versions": "?old=1",
+    "list_version_runs": "?oldest=1&newest=9",
+}
 QUERIES |= {"list_remedies": "?code=no_room&target=none"}
 QUERIES |= {"compare_function": "?old=1", "compare_function_sides": "?old=1&site={slug}"}
 

@@ -117,7 +117,7 @@ async function getMap(slug: string, known: SiteMap | undefined): Promise<SiteMap
 }
 
 /** A query that waits until its subject is known. */
-function useGet<T>(key: readonly unknown[], path: string | null) {
+export function useGet<T>(key: readonly unknown[], path: string | null) {
   return useQuery({ queryKey: key, queryFn: path === null ? skipToken : () => api.get<T>(path) });
 }
 

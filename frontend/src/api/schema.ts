@@ -1218,6 +1218,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/programs/{program}/version-runs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Version Runs
+         * @description Return which runs used the versions of a program, the newest version first; those that none used are left out.
+         */
+        get: operations["list_version_runs"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/programs/{program}/version-tests": {
         parameters: {
             query?: never;
@@ -6295,6 +6315,13 @@ export interface components {
             t_s: number;
             text: string;
         };
+        /** @description A run, as the versions of its program name it. */
+        RunOfVersionShape: {
+            id: string;
+            number: number;
+            /** @enum {string} */
+            status: "pending" | "running" | "paused" | "finished" | "failed" | "cancelled";
+        };
         /** @description Which program; its name is as it was when it was started. */
         RunProgram: {
             id: string;
@@ -6928,6 +6955,12 @@ export interface components {
         VersionAsked: {
             version?: number | null;
         };
+        /** @description How many runs used a version, and the three newest of them, the newest first. */
+        VersionRunsShape: {
+            count: number;
+            newest: components["schemas"]["RunOfVersionShape"][];
+            version: number;
+        };
         /** @description A version without what is in it; `cause` says before what it was made by itself. */
         VersionShape: {
             author: components["schemas"]["Author"] | null;
@@ -6971,6 +7004,11 @@ export interface components {
             message: string;
             /** @default  */
             name: string;
+        };
+        /** @description From which version to which other is asked; of more than 200 only the newest are looked at. */
+        VersionsAsked: {
+            newest: number;
+            oldest: number;
         };
         /** @description Why something waits, for screens to say in their language; devices and robots are named by their ids. */
         WaitReason: {
@@ -10454,6 +10492,48 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_version_runs: {
+        parameters: {
+            query: {
+                oldest: number;
+                newest: number;
+            };
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VersionRunsShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

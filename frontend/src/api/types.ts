@@ -130,6 +130,7 @@ export type RunStatus = Run["status"];
 export type RunStep = Schemas["RunStepShape"];
 export type StepStatus = RunStep["status"];
 export type RunEvent = Schemas["RunEventShape"];
+export type VersionRuns = Schemas["VersionRunsShape"];
 export type RunTimeline = Schemas["TimelineShape"];
 export type TimelineBar = Schemas["TimelineBar"];
 export type Question = Schemas["QuestionShape"];

@@ -1,16 +1,6 @@
 import { expect, test } from "vitest";
 import type { RunSummary } from "@/api/types";
-import {
-  compareAddress,
-  DRAFT,
-  otherSide,
-  otherSideOf,
-  runsByVersion,
-  runSide,
-  sidesOf,
-  versionOfSide,
-  versionTitle,
-} from "./sides";
+import { compareAddress, DRAFT, otherSide, otherSideOf, runSide, sidesOf, versionOfSide, versionTitle } from "./sides";
 
 const run = (id: string, version: number | null) => ({ id, version }) as RunSummary;
 
@@ -30,14 +20,6 @@ test("an address that names no sides compares the newest version with what is dr
   expect(sidesOf(new URLSearchParams(), undefined)).toEqual({ old: "draft", new: "draft" });
   const address = new URL(compareAddress("p", "2", runSide("r1")), "http://here").searchParams;
   expect(sidesOf(address, 4)).toEqual({ old: "2", new: "run:r1" });
-});
-
-test("the runs of a version stay in their order, and a run without one is of none", () => {
-  const found = runsByVersion([run("r3", 2), run("r2", 1), run("r1", 2), run("r0", null)]);
-  expect([...found].map(([number, runs]) => [number, runs.map((each) => each.id)])).toEqual([
-    [2, ["r3", "r1"]],
-    [1, ["r2"]],
-  ]);
 });
 
 test("a version without a name says why it was made", () => {

@@ -50,16 +50,6 @@ export function compareAddress(program: string, old: string, next: string): stri
   return `/programs/${program}/compare?${new URLSearchParams({ old, new: next }).toString()}`;
 }
 
-/** The runs of each version, the newest first. */
-export function runsByVersion(runs: readonly RunSummary[]): ReadonlyMap<number, readonly RunSummary[]> {
-  const found = new Map<number, RunSummary[]>();
-  for (const run of runs) {
-    const number = run.version;
-    if (number) found.set(number, [...(found.get(number) ?? []), run]);
-  }
-  return found;
-}
-
 /** What to say of a version where it has no name of its own: why it was made. */
 export function versionTitle(version: Pick<Version, "name" | "cause">, t: (key: string) => string): string {
   return version.name || t(version.cause ? `compare.cause.${version.cause}` : "compare.unnamed");

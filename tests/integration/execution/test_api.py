@@ -38,6 +38,7 @@ def all_calls(program, run, rehearsal):
         ("get", f"/sites/{SITE}/rehearsals"): "viewer",
         ("post", f"/sites/{SITE}/route", json.dumps(here)): "viewer",
         ("post", f"/sites/{SITE}/routes", json.dumps({"pairs": [here]})): "viewer",
+        ("get", f"/programs/{program}/version-runs?oldest=1&newest=9"): "viewer",
         ("post", f"/programs/{program}/rehearsals"): "operator",
         ("post", f"/rehearsals/{rehearsal}/cancel"): "operator",
         ("post", f"/programs/{program}/runs"): "operator",

@@ -8,6 +8,7 @@ from uuid import UUID, uuid4
 
 import pytest
 
+from editor import services as editor
 from execution.models import Run
 from registry.models import Site
 from tests.kit.sign_in import signed_in
@@ -99,3 +100,26 @@ def test_what_does_not_fit_is_refused_by_name(runs: None, query: str) -> None:
     answer = get(f"?{query}")
     assert answer.status_code == 422
     assert [field["field"].split(".")[-1] for field in answer.json()["fields"]] == [query.split("=")[0]]
+
+
+def test_each_version_tells_how_many_runs_used_it_however_many_came_after(db: None) -> None:
+    site = Site.objects.get(slug=make_hall())
+    program = editor.create_program(site="hall", name="Mix").id
+    versions = [1, 1, 2, 2, 2, 2, *[4] * 400, 0]
+    Run.objects.bulk_create(
+        Run(site=site, number=number, program=program, version=version, status="failed", created_at=NOW)
+        for number, version in enumerate(versions, start=1)
+    )
+    Run.objects.create(site=site, number=900, program=PAINT, version=3, status="failed", created_at=NOW)
+
+    def used(query: str) -> list[tuple[int, int, list[int]]]:
+        answer = signed_in("viewer").get(f"/api/programs/{program}/version-runs?{query}").json()
+        return [(each["version"], each["count"], [run["number"] for run in each["newest"]]) for each in answer]
+
+    assert used("oldest=1&newest=50") == [(4, 400, [406, 405, 404]), (2, 4, [6, 5, 4]), (1, 2, [2, 1])]
+    assert used("oldest=1&newest=2") == [(2, 4, [6, 5, 4]), (1, 2, [2, 1])]
+    assert used("oldest=1&newest=201") == [(4, 400, [406, 405, 404]), (2, 4, [6, 5, 4])]
+    first = signed_in("viewer").get(f"/api/programs/{program}/version-runs?oldest=1&newest=1").json()[0]["newest"][0]
+    assert first == {"id": str(Run.objects.get(number=2).pk), "number": 2, "status": "failed"}
+    refused = signed_in("viewer").get(f"/api/programs/{program}/version-runs?oldest=0&newest=1")
+    assert refused.status_code == 422

@@ -4,9 +4,10 @@ import { History } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link, useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
-import { useProgram, useProgramRuns, useRelatives, useSite, useVersions } from "@/api/queries";
-import type { Program, Site } from "@/api/types";
-import { compareAddress, DRAFT, otherSideOf, runsByVersion } from "@/compare/sides";
+import { useProgram, useRelatives, useSite, useVersions } from "@/api/queries";
+import { useVersionRuns } from "@/api/runs";
+import type { Program, Site, Version } from "@/api/types";
+import { compareAddress, DRAFT, otherSideOf } from "@/compare/sides";
 import { Chip } from "@/design/Chip";
 import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
@@ -71,13 +72,10 @@ function Actions({ program, site }: { program: Program; site: Site }) {
 function Versions({ program, site }: { program: Program; site: Site }) {
   const { t } = useTranslation();
   const query = useVersions(program.id);
-  const runs = useProgramRuns(site.slug, program.id);
-  const tests = useVersionTests(program.id).data ?? [];
   if (query.isPending) return <TableSkeleton />;
   if (query.isLoadingError) return <LoadProblem error={query.error} again={() => void query.refetch()} />;
-  const versions = query.data.pages.flatMap((page) => page.items);
-  const used = runsByVersion(runs.data ?? []);
-  if (versions.length === 0)
+  const parts = query.data.pages.map((page) => page.items);
+  if (parts[0]?.length === 0)
     return (
       <Panel>
         <EmptyState icon={<History size={20} />} title={t("history.empty")} text={t("history.empty_text")} />
@@ -86,16 +84,8 @@ function Versions({ program, site }: { program: Program; site: Site }) {
   return (
     <>
       <ol className={styles.versions}>
-        {versions.map((version, at) => (
-          <VersionRow
-            key={version.number}
-            version={version}
-            before={versions[at + 1]?.number ?? (version.number > 1 ? version.number - 1 : null)}
-            runs={used.get(version.number) ?? []}
-            tests={tests.find(({ number }) => number === version.number)}
-            program={program}
-            site={site}
-          />
+        {parts.map((versions, at) => (
+          <Rows key={versions[0]?.number} {...{ versions, program, site }} before={parts[at + 1]?.[0]?.number} />
         ))}
       </ol>
       {query.hasNextPage ? (
@@ -105,4 +95,30 @@ function Versions({ program, site }: { program: Program; site: Site }) {
       ) : null}
     </>
   );
+}
+
+interface RowsProps {
+  /** A part of the versions, the newest first. */
+  versions: readonly Version[];
+  /** The number of the version before them, if it is known. */
+  before: number | undefined;
+  program: Program;
+  site: Site;
+}
+
+function Rows({ versions, before, program, site }: RowsProps) {
+  const [newest, oldest] = [versions[0]?.number ?? 1, versions.at(-1)?.number ?? 1];
+  const used = useVersionRuns(site.slug, program.id, oldest, newest).data;
+  const tests = useVersionTests(program.id).data ?? [];
+  return versions.map((version, at) => (
+    <VersionRow
+      key={version.number}
+      version={version}
+      before={versions[at + 1]?.number ?? before ?? (version.number > 1 ? version.number - 1 : null)}
+      used={used && (used.find((each) => each.version === version.number) ?? null)}
+      tests={tests.find(({ number }) => number === version.number)}
+      program={program}
+      site={site}
+    />
+  ));
 }

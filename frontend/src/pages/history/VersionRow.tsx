@@ -6,7 +6,7 @@ import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { useVersion } from "@/api/queries";
 import { mayOperate } from "@/api/roles";
-import type { Program, RunSummary, Site, Version, VersionTests } from "@/api/types";
+import type { Program, Site, Version, VersionRuns, VersionTests } from "@/api/types";
 import { compareAddress, DRAFT, versionTitle } from "@/compare/sides";
 import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
@@ -21,14 +21,12 @@ import styles from "./history.module.css";
 import { NameVersion } from "./NameVersion";
 import { RunVersion } from "./RunVersion";
 
-/** More runs than this are counted, not named. */
-const MOST_NAMED = 3;
-
 interface RowProps {
   version: Version;
   /** The number of the version before; null for the first. */
   before: number | null;
-  runs: readonly RunSummary[];
+  /** The runs that used it; null where none did, undefined while nobody knows. */
+  used: VersionRuns | null | undefined;
   /** How its tests came out, if they were carried out on it. */
   tests: VersionTests | undefined;
   program: Program;
@@ -53,7 +51,7 @@ export function VersionRow(props: RowProps) {
           {drew && drew !== version.author?.name ? <small>{t("history.drew", { people: drew })}</small> : null}
         </p>
         <Tests tests={props.tests} />
-        <Runs runs={props.runs} />
+        <Runs used={props.used} />
       </div>
       <div className={styles.does}>
         <Button
@@ -120,17 +118,19 @@ function Tests({ tests }: Pick<RowProps, "tests">) {
   );
 }
 
-function Runs({ runs }: { runs: readonly RunSummary[] }) {
+/** The newest of the runs that used it, and how many there are where these are not all. */
+function Runs({ used }: Pick<RowProps, "used">) {
   const { t } = useTranslation();
-  if (runs.length === 0) return <p className={styles.runs}>{t("history.no_runs")}</p>;
+  if (used === undefined) return null;
+  if (used === null) return <p className={styles.runs}>{t("history.no_runs")}</p>;
   return (
     <p className={styles.runs}>
-      {runs.slice(0, MOST_NAMED).map((run) => (
+      {used.newest.map((run) => (
         <Link key={run.id} className={styles.link} to={`/runs/${run.id}`}>
           <StatusBadge status={statusOfRun(run)}>{t("history.run", { number: run.number })}</StatusBadge>
         </Link>
       ))}
-      {runs.length > MOST_NAMED ? <span>{t("history.runs", { count: runs.length })}</span> : null}
+      {used.count > used.newest.length ? <span>{t("history.runs", { count: used.count })}</span> : null}
     </p>
   );
 }

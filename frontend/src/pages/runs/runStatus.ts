@@ -13,7 +13,7 @@ const STATUS: Readonly<Record<RunStatus, StatusName>> = {
   cancelled: "offline",
 };
 
-export function statusOfRun(run: RunSummary): StatusName {
+export function statusOfRun(run: Pick<RunSummary, "status">): StatusName {
   return STATUS[run.status] ?? "idle";
 }
 
