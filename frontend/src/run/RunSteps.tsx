@@ -102,10 +102,10 @@ function Line({ line, props }: { line: StepLine; props: RunStepsProps }) {
         <span className="visually-hidden">{word}</span>
         <span className={styles.number}>{line.number}</span>
         <VipoIcon name={props.iconOf(line.step)} size={15} />
-        <span className={styles.lineTitle}>
+        <span className={styles.lineTitle} title={props.titleOf(line.step)}>
           {props.titleOf(line.step)}
-          {line.count > 1 ? ` · ${t("run.times", { count: line.count })}` : ""}
         </span>
+        {line.count > 1 ? <span className={styles.mono}>{t("run.times", { count: line.count })}</span> : null}
         <Beside measured={props.measured.get(line.step)} />
         <span className={styles.mono}>{spent === null ? "–" : clock(spent)}</span>
       </button>
@@ -210,7 +210,7 @@ export function Journal({ journal, numberOf, nameOf, label, full = false, onWrit
     <section className={styles.journal} aria-label={label}>
       {full ? null : (
         <h2>
-          {label} <small>{t("run.entries", { count: lines.length + journal.older })}</small>
+          {label} <small>{t("run.entries", { count: all.length + journal.older })}</small>
         </h2>
       )}
       {older > 0 ? (
