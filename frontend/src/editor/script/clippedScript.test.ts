@@ -91,3 +91,24 @@ test("what is called and given in other letters comes along", () => {
   expect(text).toContain("    def über_nacht(self):\n        self.öfen.lüften(3)");
   expect(text).toContain('        self.öfen = ctx.get("ofen1")');
 });
+
+test("what is done at once is copied with its branches", () => {
+  const script = `class Task(object):
+    def new_task(self):
+        self.parallel(self.branch_1a, self.branch_1b)
+
+    def branch_1a(self):
+        self.wait(1)
+
+    def branch_1b(self):
+        self.tell()
+
+    def tell(self):
+        self.robot.move((1, 1))
+
+    def run(self, ctx):
+        self.robot = ctx.any()
+        self.new_task()
+`;
+  expect(clippedScript({ script, lines: ["", "", "at once"] }, ["at once"])).toBe(script);
+});

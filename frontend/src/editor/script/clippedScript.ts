@@ -2,7 +2,6 @@
 import { blockOf, functionsOf, indentOf, type Printed } from "./scriptLines";
 
 const INDENT = 8;
-const CALLED = /self\.(\p{ID_Continue}+)\(/gu;
 const NAMED = /self\.(\p{ID_Continue}+)/gu;
 
 /**
@@ -34,12 +33,13 @@ function moved(lines: readonly string[], indent: number): string[] {
   return lines.map((line) => (line.trim() ? " ".repeat(indent) + line.slice(least) : ""));
 }
 
+/** What is called, and the branches of what is done at once. */
 function calledFunctions(script: readonly string[], body: readonly string[]): (readonly string[])[] {
   const all = functionsOf(script);
   const taken = new Map<string, readonly string[]>();
   let left = [...body];
   while (left.length > 0) {
-    const names = [...left.join("\n").matchAll(CALLED)].map(([, name]) => name ?? "");
+    const names = [...left.join("\n").matchAll(NAMED)].map(([, name]) => name ?? "");
     const fresh = names.filter((name) => !taken.has(name) && name !== "new_task" && all.has(name));
     for (const name of fresh) taken.set(name, all.get(name) ?? []);
     left = fresh.flatMap((name) => [...(all.get(name) ?? [])]);
