@@ -7,14 +7,16 @@ import { doAndSay } from "../state/undoing";
 import { say, select, useUi } from "../state/ui";
 import type { NamedDevice } from "./completion";
 import { pythonName } from "./names";
-import { blockOf, functionsOf, indentOf, type Printed } from "./scriptLines";
+import { ROBOT_STEPS } from "@/program/operation";
+import { blockOf, indentOf, type Printed } from "./scriptLines";
 import { type Chosen, withChosen } from "../edits/holes";
 import { differenceOf, withFreshIds } from "./difference";
+import { type Brought, broughtInto } from "./pastedNames";
+import { atMargin, codeOf, methodsOf, tidied } from "./pieces";
+import { partsOf } from "./scriptParts";
 import { scriptWithChosen, strangersInScript } from "./strangers";
 import type { DrawnScript } from "./session";
 
-const GIVEN = /self\.(\p{ID_Continue}+)\s*=\s*(ctx\.\w+\([^\n]*\))/gu;
-const NAMED = /\bself\.(\p{ID_Continue}+)/gu;
 const CALL_OF_NEW_TASK = /^\s*self\.new_task\(\)\s*$/;
 
 /** The program's script with the pasted lines behind a step, or at its end; null where nothing is to be pasted. */
@@ -24,65 +26,27 @@ export function scriptWith(
   behind: string | null,
   devices: readonly NamedDevice[],
 ): string | null {
-  const pasted = withOwnNames(text, script);
-  const body = bodyOf(pasted.replaceAll("\t", "    ").split("\n"));
+  const brought = broughtInto(script, tidied(text), devices);
+  const body = bodyOf(brought.text);
   if (body.length === 0) return null;
   const printed = script.split("\n");
   const spot = spotBehind(printed, lines, behind) ?? endOfNewTask(printed);
   const own = body.map((line) => (line.trim() ? " ".repeat(spot.indent) + line : ""));
   const run = printed.findLastIndex((line) => CALL_OF_NEW_TASK.test(line));
-  const functions = missingFunctions(pasted.split("\n"), printed);
-  const given = missingNames([...body, ...functions].join("\n"), script, pasted, devices);
+  const methods = [...brought.methods.values()].flatMap((each) => [...each, ""]);
+  const given = missingNames([...body, ...methods, ...brought.events].join("\n"), script, brought, devices);
+  const added = [...given, ...brought.events].map((line) => `        ${line}`);
   const defined = printed.findIndex((line) => /^ {4}def run\(/.test(line));
   const before = printed.slice(0, spot.at).filter((line, index) => !(index === spot.at - 1 && line.trim() === "pass"));
-  const between = [...printed.slice(spot.at, defined), ...functions, ...printed.slice(defined, run)];
-  return [...before, ...own, ...between, ...given, ...printed.slice(run)].join("\n");
-}
-
-/** What `run` gives each name: `ctx.get("oven01")`. */
-function givenIn(script: string): Map<string, string> {
-  return new Map([...script.matchAll(GIVEN)].map(([, name, what]) => [name ?? "", what ?? ""]));
-}
-
-/** What a name stands for whatever else is said of it: `get oven01`; nothing for any robot or a parameter. */
-function meantBy(what: string | undefined): string | null {
-  const said = /^ctx\.(get|place|zone)\(\s*["']([^"'\n]+)["']/.exec(what ?? "");
-  return said ? `${said[1] ?? ""} ${said[2] ?? ""}` : null;
-}
-
-/**
- * The pasted lines with another name for the device, place or zone that they mean by one that the program gives to
- * something else: the name by which the program has the same, or a fresh one. So each step goes on driving its robot.
- */
-function withOwnNames(pasted: string, script: string): string {
-  const [ours, theirs] = [givenIn(script), givenIn(pasted)];
-  const taken = new Set([...`${script}\n${pasted}`.matchAll(NAMED)].map(([, name]) => name));
-  const others = new Map<string, string>();
-  for (const [name, what] of theirs) {
-    const meant = meantBy(what);
-    if (meant === null || !ours.has(name) || meantBy(ours.get(name)) === meant) continue;
-    const same = [...ours].find(([, each]) => meantBy(each) === meant)?.[0];
-    let number = 2;
-    while (taken.has(`${name}_${number}`)) number += 1;
-    const other = same ?? `${name}_${number}`;
-    taken.add(other);
-    others.set(name, other);
-  }
-  return pasted.replace(NAMED, (whole, name: string) =>
-    others.has(name) ? `self.${others.get(name) ?? name}` : whole,
-  );
+  const between = [...printed.slice(spot.at, defined), ...methods, ...printed.slice(defined, run)];
+  return [...before, ...own, ...between, ...added, ...printed.slice(run)].join("\n");
 }
 
 /** The lines of new_task of a whole script, else all lines; without what indents them all, and blank ends. */
-function bodyOf(lines: readonly string[]): string[] {
-  const start = lines.findIndex((line) => /^\s*def new_task\(/.test(line));
-  const rest = start < 0 ? lines : lines.slice(start + 1);
-  const end = start < 0 ? -1 : rest.findIndex((line) => /^\s*def /.test(line));
-  const body = end < 0 ? rest : rest.slice(0, end);
-  const indent = Math.min(...body.filter((line) => line.trim()).map(indentOf));
-  const bare = body.map((line) => line.slice(Math.min(indent, indentOf(line))).trimEnd());
-  const first = bare.findIndex(Boolean);
-  return first < 0 ? [] : bare.slice(first, bare.findLastIndex(Boolean) + 1);
+function bodyOf(text: string): string[] {
+  const body = atMargin(methodsOf(text).get("new_task")?.slice(1) ?? text.split("\n"), 0);
+  const first = body.findIndex(Boolean);
+  return first < 0 ? [] : body.slice(first, body.findLastIndex(Boolean) + 1);
 }
 
 interface Spot {
@@ -101,34 +65,32 @@ function endOfNewTask(printed: readonly string[]): Spot {
   return { at: start + 1 + (length < 0 ? printed.length - start - 1 : length), indent: 8 };
 }
 
-/** Functions that come with the pasted lines, and that the program has none of that name for. */
-function missingFunctions(pasted: readonly string[], printed: readonly string[]): string[] {
-  const own = functionsOf(printed);
-  const theirs = [...functionsOf(pasted)].filter(([name]) => !OWN_FUNCTIONS.includes(name) && !own.has(name));
-  return theirs.flatMap(([, lines]) => [...lines, ""]);
-}
-
-const OWN_FUNCTIONS = ["new_task", "run"];
-
 /** The lines that `run` needs for names that it does not give yet. */
-function missingNames(body: string, script: string, pasted: string, devices: readonly NamedDevice[]): string[] {
-  const [known, theirs] = [givenIn(script), givenIn(pasted)];
-  const used = new Set(
-    [...body.matchAll(/self\.(\p{ID_Continue}+)(?!\p{ID_Continue}*\()/gu)].map(([, name]) => name ?? ""),
-  );
-  return [...used].flatMap((name) => {
-    const device = devices.find((each) => pythonName(each.name) === name);
-    const drives = new RegExp(`self\\.${name}\\.(move|pick|drop)\\(`).test(body);
-    const what = theirs.get(name) ?? (device ? `ctx.get("${device.id}")` : drives ? "ctx.any()" : null);
-    return known.has(name) || what === null ? [] : [`        self.${name} = ${what}`];
+function missingNames(body: string, script: string, brought: Brought, devices: readonly NamedDevice[]): string[] {
+  const { given, variables } = partsOf(script);
+  const code = codeOf(body);
+  const used = [...code.matchAll(/(?<![\p{ID_Continue}.])self\.(\p{ID_Continue}+)(?![\p{ID_Continue}(])/gu)];
+  return [...new Set(used.map(([, name = ""]) => name))].flatMap((name) => {
+    if (given.has(name)) return [];
+    const said = brought.given.get(name) ?? (variables.has(name) ? null : guessed(name, code, devices));
+    return said === null ? [] : [`self.${name} = ${said}`];
   });
 }
 
+/** What lines that do not say it may mean by a name: the device that is called so, or any robot where they drive it. */
+function guessed(name: string, code: string, devices: readonly NamedDevice[]): string | null {
+  if (new RegExp(`self\\.${name}\\s*=(?!=)`).test(code)) return null;
+  const device = devices.find((each) => pythonName(each.name) === name);
+  const drives = new RegExp(`self\\.${name}\\.(${ROBOT_STEPS.join("|")})\\(`).test(code);
+  return device ? `ctx.get("${device.id}")` : drives ? "ctx.any()" : null;
+}
+
 /** Draw the pasted lines behind the selected step; devices that are not known here are asked for first. */
-export function pasteScript(open: OpenProgram, pasted: string): void {
-  const known = new Set(open.devices.map(({ id }) => id));
+export function pasteScript(open: OpenProgram, text: string): void {
+  const pasted = tidied(text);
+  const devices = new Set(open.devices.map(({ id }) => id));
   putWith(
-    strangersInScript(pasted, known),
+    strangersInScript(pasted, devices),
     (chosen) => void drawPasted(open, scriptWithChosen(pasted, chosen), chosen),
   );
 }
