@@ -294,6 +294,18 @@ test("script that is written by hand may indent and break its lines as Python le
   ]);
 });
 
+test("a robot that begins at a machine is brought there before it picks: other steps may have moved it", () => {
+  const pick = 'self.robot.pick({"value": 1, "object": "box"})';
+  const run = ['self.robot = ctx.get("robot01", at="itemInventory01")'];
+  const ours = taskOf(["self.robot.move((9, 9))"], ['self.robot = ctx.get("robot01")']);
+  expect(added(taskOf([pick], run), ours)).toEqual([
+    "self.robot.move(self.robot_stands.location)",
+    pick,
+    'self.robot_stands = ctx.get("itemInventory01")',
+  ]);
+  expect(added(taskOf(["self.robot.move((1, 1))"], run), ours)).toEqual(["self.robot.move((1, 1))"]);
+});
+
 test("an empty text is nothing to paste", () => {
   expect(scriptWith(" \n", EMPTY, null, [])).toBeNull();
 });

@@ -11,6 +11,7 @@ import { ROBOT_STEPS } from "@/program/operation";
 import { blockOf, indentOf, type Printed } from "./scriptLines";
 import { type Chosen, withChosen } from "../edits/holes";
 import { differenceOf, withFreshIds } from "./difference";
+import { withFirstMoves } from "./firstMoves";
 import { type Brought, broughtInto } from "./pastedNames";
 import { atMargin, codeOf, methodsOf, tidied } from "./pieces";
 import { partsOf } from "./scriptParts";
@@ -26,7 +27,7 @@ export function scriptWith(
   behind: string | null,
   devices: readonly NamedDevice[],
 ): string | null {
-  const brought = broughtInto(script, tidied(text), devices);
+  const brought = broughtInto(script, withFirstMoves(tidied(text)), devices);
   const body = bodyOf(brought.text);
   if (body.length === 0) return null;
   const printed = script.split("\n");
@@ -87,7 +88,7 @@ function guessed(name: string, code: string, devices: readonly NamedDevice[]): s
 
 /** Draw the pasted lines behind the selected step; devices that are not known here are asked for first. */
 export function pasteScript(open: OpenProgram, text: string): void {
-  const pasted = tidied(text);
+  const pasted = withFirstMoves(tidied(text));
   const devices = new Set(open.devices.map(({ id }) => id));
   putWith(
     strangersInScript(pasted, devices),
