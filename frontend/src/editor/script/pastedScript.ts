@@ -89,9 +89,9 @@ function guessed(name: string, code: string, devices: readonly NamedDevice[]): s
 /** Draw the pasted lines behind the selected step; devices that are not known here are asked for first. */
 export function pasteScript(open: OpenProgram, text: string): void {
   const pasted = withFirstMoves(tidied(text));
-  const devices = new Set(open.devices.map(({ id }) => id));
+  const idsOf = (all: readonly { readonly id: string }[] = []) => new Set(all.map(({ id }) => id));
   putWith(
-    strangersInScript(pasted, devices),
+    strangersInScript(pasted, idsOf(open.devices), idsOf(open.plan?.places)),
     (chosen) => void drawPasted(open, scriptWithChosen(pasted, chosen), chosen),
   );
 }
