@@ -160,8 +160,11 @@ test("zones and roles come along that steps, their conditions and their function
   expect(document.zones).toEqual({ z1: cleaning.zones.z1, z2: cleaning.zones.z2 });
   expect(document.roles).toEqual(cleaning.roles);
   expect(params.map((each) => each?.zone ?? each?.until)).toEqual(["z1", inHall, undefined]);
-  const known = { ...EMPTY_DOCUMENT, functions: cleaning.functions };
-  expect(pasted(cleaning, ["call"], known).document.zones).toEqual({});
+  const { cover, inner } = cleaning.steps;
+  const known = { ...cleaning, steps: { cover, inner } as ProgramDocument["steps"] };
+  expect(pasted(cleaning, ["call"], known).document.functions).toEqual(cleaning.functions);
+  const open = { ...EMPTY_DOCUMENT, functions: cleaning.functions };
+  expect(pasted(cleaning, ["call"], open, "a").document.zones).toEqual({});
 });
 
 test("a zone comes under another id where another program has that id for another zone, once", () => {
@@ -182,6 +185,51 @@ test("a zone is not taken for another one that only its id is left of, and stays
   expect([id === "z1", document.zones]).toEqual([false, { [id]: hall }]);
   const alike = pasted(cleaning, ["cover"], { ...EMPTY_DOCUMENT, zones: { z3: hall, z1: hall } });
   expect([alike.document.zones, alike.params[0]?.zone]).toEqual([{ z3: hall, z1: hall }, "z1"]);
+});
+
+/** A function that calls another one, which drives the usual robot. */
+const nested: ProgramDocument = {
+  ...bound,
+  functions: { outer: { name: "outer", parameters: [] }, inner: { name: "inner", parameters: [] } },
+  steps: {
+    call: at("call", first, { function: "outer" }),
+    deeper: at("call", ["outer", "body", "A"], { function: "inner" }),
+    again: at("call", ["inner", "body", "B"], { function: "inner" }),
+    drive: at("move", ["inner", "body", "A"], { to: { place: "dock" } }),
+  },
+};
+
+/** What a step does through all that it calls: its kind, its robot and where to. */
+function doneBy(document: ProgramDocument, id: string, above: readonly string[] = []): unknown[] {
+  const step = document.steps[id];
+  const called = String(step?.params.function);
+  if (step?.kind !== "call") return [[step?.kind, document.roles[roleOfStep(step) ?? ""]?.device, step?.params.to]];
+  const inside = Object.entries(document.steps).filter(([, each]) => each.place?.[0] === called);
+  inside.sort(([, one], [, other]) => ((one.place?.[2] ?? "") < (other.place?.[2] ?? "") ? -1 : 1));
+  return above.includes(called) ? [] : inside.flatMap(([each]) => doneBy(document, each, [...above, called]));
+}
+
+test.each<[what: string, own: Partial<ProgramDocument>, after: number]>([
+  ["has it alike", {}, 2],
+  [
+    "has changed what it calls",
+    { steps: { ...nested.steps, drive: at("move", ["inner", "body", "A"], { to: { place: "lab" } }) } },
+    4,
+  ],
+  ["has emptied it", { steps: {} }, 4],
+  ["has given it another robot", { roles: { robot: { name: "Robot", device: "robot02" } } }, 4],
+  ["has another one of its id", { functions: { ...nested.functions, outer: { name: "other", parameters: [] } } }, 3],
+])("a pasted call does what it did where a copy of its program %s, and is brought once", (_, own, after) => {
+  const target = { ...nested, ...own };
+  const { document } = pasted(nested, ["call"], target);
+  const [copy = ""] = Object.keys(document.steps).filter(
+    (id) => document.steps[id]?.place?.[0] === "program" && !target.steps[id],
+  );
+  expect(doneBy(document, copy)).toEqual(doneBy(nested, "call"));
+  expect(doneBy(document, "call")).toEqual(doneBy(target, "call"));
+  expect(Object.keys(document.functions)).toHaveLength(after);
+  expect(pasted(nested, ["call"], document).document.functions).toEqual(document.functions);
+  expect(pasted(nested, ["call"], target, "a").document.functions).toEqual(target.functions);
 });
 
 test("in their own program pasted steps mean the zone as it is now", () => {

@@ -12,7 +12,7 @@ import { isSameValue } from "@/program/document/sameValue";
 import { endOfBranch, roomAt, type Goal, type MakeId } from "./joints";
 import { DEFAULT_ROLE, givenToRole, roleOfStep } from "@/program/operation";
 import { EVENTS, outermost, readTree, withDescendants, type ProgramTree } from "@/program/document/tree";
-import { paramsWithIds, withIds } from "./substitution";
+import { type IdKey, paramsWithIds, withIds } from "./substitution";
 import { idsNamedBy } from "./uses";
 
 /** Steps with all inside them, the functions they call with their bodies, and the roles and zones that they name. */
@@ -136,12 +136,15 @@ export function paste(
   here = clipping.program,
 ): { edits: Edit[]; added: string[] } {
   const fresh = new Map(Object.keys(clipping.steps).map((id) => [id, makeId()]));
-  const missing = missingFunctions(document, clipping);
-  const brought = [...Object.values(clipping.steps), ...Object.values(missing.bodies)];
-  const company = companyOf(document, clipping, brought, here === clipping.program, makeId);
+  const own = here === clipping.program;
+  const functions = functionsOf(document, clipping, own, makeId);
+  const bodies = bodiesWith(clipping, functions.fresh);
+  const brought = [...Object.values(clipping.steps), ...Object.values(bodies)];
+  const { edits: named, others: rest } = companyOf(document, clipping, brought, own, makeId);
+  const others = { ...rest, function: functions.others };
   const copies = Object.entries(clipping.steps).map(([id, step]): Edit => {
     const inner = clipping.outer.includes(id) ? null : placeInCopy(step, fresh);
-    const copy = withOthers({ ...step, place: inner }, company.others);
+    const copy = withOthers({ ...step, place: inner }, others);
     return { do: "add_step", id: fresh.get(id) ?? id, step: moved(copy, BESIDE) };
   });
   const among = (id: string) => fresh.get(id) ?? id;
@@ -149,7 +152,7 @@ export function paste(
     ...placesFor(document, clipping, goal, among, (kind) => kind !== "comment" && kind !== "on_event"),
     ...placesFor(document, clipping, endOfBranch(document, EVENTS), among, (kind) => kind === "on_event"),
   ];
-  const edits = [...company.edits, ...functionEdits(missing, company.others, makeId), ...copies];
+  const edits = [...named, ...functionEdits(functions.fresh, bodies, others, makeId), ...copies];
   return { edits: [...edits, ...places], added: clipping.outer.map((id) => fresh.get(id) ?? id) };
 }
 
@@ -176,9 +179,9 @@ function placesFor(
 /** What steps name and the program lacks, and other ids for what it has under the same ids for something else. */
 interface Company {
   readonly edits: readonly Edit[];
-  readonly others: Others;
+  readonly others: Omit<Others, "function">;
 }
-type Others = Readonly<Record<"role" | "zone", ReadonlyMap<string, string>>>;
+type Others = Readonly<Record<IdKey, ReadonlyMap<string, string>>>;
 
 function companyOf(
   document: ProgramDocument,
@@ -218,13 +221,18 @@ interface Rules<T> {
   readonly isAlike: (there: Named<T>, wanted: Named<T>) => boolean;
 }
 
+interface Meeting<T> {
+  readonly fresh: readonly (readonly [id: string, other: string, value: T])[];
+  readonly others: ReadonlyMap<string, string>;
+}
+
 /** What comes in, each with its id before and now, and the ids by which the steps have to name what they named. */
 function meeting<T>(
   wanted: Readonly<Record<string, T>>,
   there: Readonly<Record<string, T>>,
   makeId: MakeId,
   { stays, isTaken, isAlike }: Rules<T>,
-): { fresh: [id: string, other: string, value: T][]; others: Map<string, string> } {
+): Meeting<T> {
   const fresh: [string, string, T][] = [];
   const others = new Map<string, string>();
   for (const [id, value] of Object.entries(wanted)) {
@@ -258,29 +266,64 @@ function isNamed(document: ProgramDocument, id: string, key: "role" | "zone"): b
 }
 
 function withOthers(step: Step, others: Others): Step {
-  const params = paramsWithIds(step.params, (id, key) => (key === "function" ? id : (others[key].get(id) ?? id)));
+  const params = paramsWithIds(step.params, (id, key) => others[key].get(id) ?? id);
   const role = others.role.get(roleOfStep(step) ?? "");
   if (role === undefined) return { ...step, params };
   const { name, value } = givenToRole(step, role);
   return { ...step, params: { ...params, [name]: value } };
 }
 
-type Missing = Pick<Clipping, "functions" | "bodies">;
-
-/** Functions that the document does not have, with their bodies. */
-function missingFunctions(document: ProgramDocument, { functions, bodies }: Clipping): Missing {
-  const missing = Object.fromEntries(Object.entries(functions).filter(([id]) => !(id in document.functions)));
-  return {
-    functions: missing,
-    bodies: Object.fromEntries(Object.entries(bodies).filter(([, step]) => topOf(bodies, step) in missing)),
-  };
+/** Functions meet as roles and zones do; those are alike whose steps say the same. */
+function functionsOf(document: ProgramDocument, clipping: Clipping, own: boolean, makeId: MakeId) {
+  const isTaken = (id: string) => id in document.functions;
+  const there = { ...clipping, steps: clipping.bodies };
+  return meeting(clipping.functions, document.functions, makeId, {
+    stays: (id) => own && isTaken(id),
+    isTaken,
+    isAlike: ([one, known], [id, value]) =>
+      isSameValue(known, value) && isSameValue(saidBy(document, one), saidBy(there, id)),
+  });
 }
 
-function functionEdits({ functions, bodies }: Missing, others: Others, makeId: MakeId): Edit[] {
-  const kept = Object.keys(functions).map((id) => [id, id] as const);
-  const fresh = new Map([...kept, ...Object.keys(bodies).map((id) => [id, makeId()] as const)]);
+/** What a function says, with what they mean in place of the ids that its steps name; each function in it once. */
+function saidBy(
+  parts: Pick<ProgramDocument, "functions" | "roles" | "steps" | "zones">,
+  id: string,
+  said: string[] = [],
+): unknown {
+  said.push(id);
+  // Only compared: what stands in an id's place need be no text.
+  const meant = (each: string, key: IdKey) => meaning(each, key) as string;
+  const meaning = (each: string, key: IdKey) => {
+    if (key === "zone") return parts.zones[each];
+    if (key === "function") return said.includes(each) ? said.indexOf(each) : saidBy(parts, each, said);
+    const role = parts.roles[each];
+    return role?.device ?? (role && roleAs(role, each, ""));
+  };
+  const within = (parent: string): unknown[] =>
+    Object.entries(parts.steps)
+      .flatMap(([each, step]) => (step.place?.[0] === parent ? [[each, step, step.place.join()] as const] : []))
+      .sort(([, , one], [, , other]) => (one < other ? -1 : 1))
+      .map(([each, step]) => {
+        const params = paramsWithIds({ ...step.params, role: roleOfStep(step) ?? "" }, meant);
+        return [step.kind, step.place?.[1], params, within(each)];
+      });
+  return [parts.functions[id], within(id)];
+}
+
+type Fresh = Meeting<FunctionDefinition>["fresh"];
+
+/** The steps in the functions that come in. */
+function bodiesWith({ bodies }: Clipping, functions: Fresh): Clipping["bodies"] {
+  const ids = functions.map(([id]) => id);
+  return Object.fromEntries(Object.entries(bodies).filter(([, step]) => ids.includes(topOf(bodies, step))));
+}
+
+function functionEdits(functions: Fresh, bodies: Clipping["bodies"], others: Others, makeId: MakeId): Edit[] {
+  const fresh = new Map<string, string>(functions.map(([id, other]) => [id, other]));
+  for (const id of Object.keys(bodies)) fresh.set(id, makeId());
   return [
-    ...Object.entries(functions).map(([id, value]): Edit => ({ do: "set_function", id, value })),
+    ...functions.map(([, id, value]): Edit => ({ do: "set_function", id, value })),
     ...Object.entries(bodies).map(([id, step]): Edit => {
       const copy = withOthers({ ...step, place: placeInCopy(step, fresh) }, others);
       return { do: "add_step", id: fresh.get(id) ?? id, step: copy };
