@@ -17,7 +17,7 @@ import {
 } from "@/api/queries";
 import type { Comparison, ConstructChange, Device, Program, RunSummary, Site, Version } from "@/api/types";
 import { Chip } from "@/design/Chip";
-import { useTitle } from "@/design/useTitle";
+import { useTitle } from "@/shell/useTitle";
 import { useSiteLive } from "@/live/site";
 import type { SiteDevice } from "@/program/surroundings";
 import { LoadProblem } from "@/shell/LoadProblem";

@@ -13,7 +13,7 @@ import { useEditorText, useScene } from "@/program/canvas/useScene";
 import { openKeymap } from "@/shell/keys/keymap";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { floorMark } from "@/map/floor/floor";
-import { useTitle } from "@/design/useTitle";
+import { useTitle } from "@/shell/useTitle";
 import classes from "./editor.module.css";
 import { EditorWorkspace } from "./EditorWorkspace";
 import type { Edit } from "./edits/edits";

@@ -12,7 +12,7 @@ import { shownQuestions } from "@/shell/questions/openQuestions";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { Crumb, TopBar } from "@/shell/TopBar";
 import { Chip } from "@/design/Chip";
-import { useTitle } from "@/design/useTitle";
+import { useTitle } from "@/shell/useTitle";
 import { ProgramMap } from "@/program/ProgramMap";
 import { byStep } from "@/device/paces/paces";
 import { StandInMark } from "@/device/standIn/StandInMark";

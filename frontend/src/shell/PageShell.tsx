@@ -1,7 +1,7 @@
 /** The frame of the management pages: side bar, title bar with Stop all, page, and a pane for details. */
 import { type ReactNode } from "react";
 import { useSiteLive } from "@/live/site";
-import { useTitle } from "@/design/useTitle";
+import { useTitle } from "./useTitle";
 import { LateBell } from "./admissions/LateBell";
 import { AlertsBell } from "./alerts/AlertsBell";
 import { ConnectionStrip } from "./ConnectionStrip";

@@ -11,7 +11,7 @@ import { momentIn, useMomentInAddress } from "./address";
 import { Actions } from "./Actions";
 import { Filming } from "./film/Filming";
 import { type Incident, incidentsOf } from "@/scene3d/incidents";
-import { useTitle } from "@/design/useTitle";
+import { useTitle } from "@/shell/useTitle";
 import { incidentWords } from "./incidents/incidentWords";
 import { MapPane } from "./MapPane";
 import { useFloorAt } from "./obstacles";

@@ -10,7 +10,7 @@ import type { ConstructChange, Device, LibraryFunction, Program, Site } from "@/
 import { useSiteLive } from "@/live/site";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { Crumb, TopBar } from "@/shell/TopBar";
-import { useTitle } from "@/design/useTitle";
+import { useTitle } from "@/shell/useTitle";
 import { ChangeList } from "../ChangeList";
 import { Frame, MapOf, useChoice } from "../ComparedParts";
 import styles from "../compare.module.css";

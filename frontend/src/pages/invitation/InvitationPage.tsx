@@ -11,7 +11,7 @@ import type { Me, NewPerson, Offer, User } from "@/api/types";
 import { EmptyState } from "@/design/EmptyState";
 import { Logo } from "@/design/Logo";
 import { Panel } from "@/design/Panel";
-import { useTitle } from "@/design/useTitle";
+import { useTitle } from "@/shell/useTitle";
 import { LoadProblem, problemText, Waiting } from "@/shell/LoadProblem";
 import { SignOutQuestion, useSignOut } from "@/shell/SignOut";
 import { ProviderButtons } from "../signin/ProviderButtons";

@@ -13,7 +13,7 @@ import { Avatar } from "@/design/Avatar";
 import { Logo } from "@/design/Logo";
 import { Panel } from "@/design/Panel";
 import { takeKeyboard } from "@/design/takeKeyboard";
-import { useTitle } from "@/design/useTitle";
+import { useTitle } from "@/shell/useTitle";
 import { useWaitingCount } from "@/shell/waitingCopies";
 import { ProviderButtons } from "./ProviderButtons";
 import { safeNext } from "./safeNext";

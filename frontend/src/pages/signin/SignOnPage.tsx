@@ -12,7 +12,7 @@ import { EmptyState } from "@/design/EmptyState";
 import { Logo } from "@/design/Logo";
 import { Panel } from "@/design/Panel";
 import { takeKeyboard } from "@/design/takeKeyboard";
-import { useTitle } from "@/design/useTitle";
+import { useTitle } from "@/shell/useTitle";
 import { problemText, Waiting } from "@/shell/LoadProblem";
 import { useProviders } from "./providers";
 import { safeNext } from "./safeNext";

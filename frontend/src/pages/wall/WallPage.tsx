@@ -6,7 +6,7 @@ import { EmptyState } from "@/design/EmptyState";
 import { Logo } from "@/design/Logo";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { useNow } from "@/design/useNow";
-import { useTitle } from "@/design/useTitle";
+import { useTitle } from "@/shell/useTitle";
 import { formatAgo, formatTime } from "@/i18n/format";
 import { waitWords } from "@/i18n/waits";
 import { StaticMap } from "@/map/StaticMap";
