@@ -26,12 +26,16 @@ function send(slug: string, change: PlaceChange): Promise<MapPlace | undefined> 
   }
 }
 
-/** Change a place; whatever comes of it, the map's places are fetched anew. Changes go out one after another. */
-export function useChangePlace(slug: string) {
+/**
+ * Change a place; whatever comes of it, the map's places are fetched anew. Changes go out one after another. Each refusal
+ * is told, also where another change has followed, or nobody shows the place any more.
+ */
+export function useChangePlace(slug: string, onRefused: (error: Error) => void) {
   const queries = useQueryClient();
   return useMutation({
     scope: { id: `places ${slug}` },
     mutationFn: (change: PlaceChange) => send(slug, change),
+    onError: onRefused,
     onSettled: () =>
       Promise.all(staleWithSiteMap(slug).map((queryKey) => queries.invalidateQueries({ queryKey, exact: false }))),
   });

@@ -43,12 +43,16 @@ export const useZoneCosts = (slug: string, zones: readonly MapZone[]) =>
     enabled: zones.some(({ rule }) => rule === "one_at_a_time"),
   });
 
-/** Change a zone; whatever comes of it, the map's zones are fetched anew. Changes go out one after another. */
-export function useChangeZone(slug: string) {
+/**
+ * Change a zone; whatever comes of it, the map's zones are fetched anew. Changes go out one after another. Each refusal
+ * is told, also where another change has followed, or nobody shows the zone any more.
+ */
+export function useChangeZone(slug: string, onRefused: (error: Error) => void) {
   const queries = useQueryClient();
   return useMutation({
     scope: { id: `zones ${slug}` },
     mutationFn: (change: ZoneChange) => send(slug, change),
+    onError: onRefused,
     onSettled: () =>
       Promise.all(staleWithSiteMap(slug).map((queryKey) => queries.invalidateQueries({ queryKey, exact: false }))),
   });

@@ -1,4 +1,5 @@
 import { MantineProvider } from "@mantine/core";
+import { notifications, Notifications } from "@mantine/notifications";
 import { QueryClientProvider, type QueryClient } from "@tanstack/react-query";
 import { cleanup, render, type RenderResult } from "@testing-library/react";
 import type { ReactNode } from "react";
@@ -7,7 +8,7 @@ import { afterEach, beforeAll, vi } from "vitest";
 import { makeQueryClient } from "@/api/queries";
 import { loadScreenTexts, startI18n } from "@/i18n";
 
-/** Tests of this file read all texts of the screens, and leave no page and no stubbed global behind. */
+/** Tests of this file read all texts of the screens, and leave no page, nothing told and no stubbed global behind. */
 export function testsPages(): void {
   beforeAll(async () => {
     await startI18n();
@@ -15,6 +16,7 @@ export function testsPages(): void {
   });
   afterEach(() => {
     cleanup();
+    notifications.clean();
     vi.unstubAllGlobals();
   });
 }
@@ -30,6 +32,20 @@ function inside(queries: QueryClient, what: ReactNode): ReactNode {
 /** What an element of a page shows that stands at no address of its own. */
 export function show(what: ReactNode, queries: QueryClient = makeQueryClient()): RenderResult {
   return render(inside(queries, <MemoryRouter>{what}</MemoryRouter>));
+}
+
+/** The same with the corner where refusals are told, which stays when people `leave` the element. */
+export function showWithCorner(what: ReactNode, queries: QueryClient = makeQueryClient()) {
+  const page = (shown: ReactNode) =>
+    inside(
+      queries,
+      <MemoryRouter>
+        <Notifications />
+        {shown}
+      </MemoryRouter>,
+    );
+  const { rerender } = render(page(what));
+  return { leave: () => rerender(page(null)) };
 }
 
 /** What a page shows at an address; `go` leads to another one. */

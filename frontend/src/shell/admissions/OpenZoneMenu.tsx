@@ -22,10 +22,9 @@ interface OpenZoneMenuProps {
 
 export function OpenZoneMenu({ slug, zone, name, isOpen = false, onMenu }: OpenZoneMenuProps) {
   const { t } = useTranslation();
-  const change = useChangeZone(slug);
+  const change = useChangeZone(slug, (error) => tellRefusal(error, t));
   const words = t(isOpen ? "admission.opening.again" : "admission.opening.menu");
-  const open = (minutes: number) =>
-    change.mutate({ do: "open", id: zone, minutes }, { onError: (error) => tellRefusal(error, t) });
+  const open = (minutes: number) => change.mutate({ do: "open", id: zone, minutes });
   useEffect(() => () => onMenu?.(false), [onMenu]);
   return (
     <Menu shadow="md" position="bottom-start" onChange={onMenu}>

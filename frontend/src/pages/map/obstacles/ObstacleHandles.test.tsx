@@ -1,15 +1,14 @@
 // @vitest-environment jsdom
-import { notifications, Notifications } from "@mantine/notifications";
-import { act, fireEvent, screen, waitFor } from "@testing-library/react";
+import { fireEvent, screen, waitFor } from "@testing-library/react";
 import { useState } from "react";
-import { afterEach, expect, test, vi } from "vitest";
+import { expect, test } from "vitest";
 import type { SiteMap } from "@/api/types";
-import { show, testsPages } from "@/testing/page";
+import { showWithCorner, testsPages } from "@/testing/page";
+import { slowServer } from "@/testing/slowServer";
 import { ObstacleHandles } from "./ObstacleHandles";
 import { useObstacles } from "./useObstacles";
 
 testsPages();
-afterEach(() => notifications.clean());
 
 const MAP = {
   width: 100,
@@ -35,18 +34,9 @@ function Floor() {
 
 /** Two obstacles, and a server that answers when it is told to. */
 function begun() {
-  const waiting: { asked: string; answer: (status: number) => void }[] = [];
-  vi.stubGlobal("fetch", (path: string, { method, body }: RequestInit) => {
-    const asked = `${method} ${path.split("/").at(-1)} ${body as string}`;
-    return new Promise((done) => waiting.push({ asked, answer: (status) => done(new Response("{}", { status })) }));
-  });
-  show(
-    <>
-      <Notifications />
-      <Floor />
-    </>,
-  );
-  return waiting;
+  const server = slowServer();
+  showWithCorner(<Floor />);
+  return server;
 }
 
 function moved(name: RegExp) {
@@ -55,33 +45,33 @@ function moved(name: RegExp) {
 }
 
 test("an obstacle that is moved while another is being sent is sent after it", async () => {
-  const waiting = begun();
+  const { nth, waiting } = begun();
   moved(/50.cm/);
   moved(/30.cm/);
-  await waitFor(() => expect(waiting).toHaveLength(1));
-  await act(() => Promise.resolve(waiting[0]?.answer(200)));
-  await waitFor(() => expect(waiting).toHaveLength(2));
-  expect(waiting.map(({ asked }) => asked)).toEqual([
-    'PUT 1 {"x":2.1,"y":2,"size_m":0.5}',
-    'PUT 2 {"x":6.1,"y":6,"size_m":0.3}',
+  await nth(1);
+  await waiting[0]?.answer(200);
+  await nth(2);
+  expect(waiting.map(({ asked, sent }) => [asked, sent])).toEqual([
+    ["PUT /obstacles/1", { x: 2.1, y: 2, size_m: 0.5 }],
+    ["PUT /obstacles/2", { x: 6.1, y: 6, size_m: 0.3 }],
   ]);
 });
 
 test("a move that is refused is told also where obstacles are not changed any more", async () => {
-  const waiting = begun();
+  const { nth, waiting } = begun();
   moved(/50.cm/);
-  await waitFor(() => expect(waiting).toHaveLength(1));
+  await nth(1);
   fireEvent.click(screen.getByText("Done"));
-  await act(() => Promise.resolve(waiting[0]?.answer(422)));
+  await waiting[0]?.answer(422);
   expect(await screen.findByRole("alert")).toBeTruthy();
 });
 
 test("an obstacle whose move is refused goes back, and that is told", async () => {
-  const waiting = begun();
+  const { nth, waiting } = begun();
   moved(/50.cm/);
   expect(screen.getByRole("button", { name: /2\.10/ })).toBeTruthy();
-  await waitFor(() => expect(waiting).toHaveLength(1));
-  await act(() => Promise.resolve(waiting[0]?.answer(422)));
+  await nth(1);
+  await waiting[0]?.answer(422);
   await waitFor(() => expect(screen.queryByRole("button", { name: /2\.10/ })).toBeNull());
   expect(await screen.findByRole("alert")).toBeTruthy();
 });

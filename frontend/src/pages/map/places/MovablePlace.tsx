@@ -23,12 +23,9 @@ interface MovablePlaceProps {
 
 export function MovablePlace({ slug, map, place, isSelected, onSelect }: MovablePlaceProps) {
   const { t } = useTranslation();
-  const change = useChangePlace(slug);
+  const change = useChangePlace(slug, (error) => tellRefusal(error, t));
   const draft = useDraftPoint(map, [place.x, place.y], change.isPending, ([x, y], done) =>
-    change.mutate(
-      { do: "edit", id: place.id, fields: { x, y } },
-      { ...done, onError: (error) => (done.onError(), tellRefusal(error, t)) },
-    ),
+    change.mutate({ do: "edit", id: place.id, fields: { x, y } }, done),
   );
   const { at, keep } = draft;
   const pixel = toPixels(at);

@@ -1,15 +1,16 @@
 /** The selected place: its name, what it is, how a robot parks there, who goes there. */
-import { Button, TextInput } from "@mantine/core";
+import { Button } from "@mantine/core";
 import { Trash2 } from "lucide-react";
-import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useChangePlace, type PlaceFields } from "@/api/places";
 import type { MapPlace } from "@/api/types";
 import { NumberField } from "@/design/NumberField";
 import { formatPoint } from "@/i18n/format";
+import { tellRefusal } from "@/shell/refusal";
+import { KeptName } from "../KeptName";
+import { useSettled, type Keep } from "../useSettled";
 import { KindField } from "./KindField";
 import { PlaceUses } from "./RemovePlace";
-import { tellRefusal } from "@/shell/refusal";
 import styles from "./places.module.css";
 
 interface PlaceFormProps {
@@ -20,13 +21,17 @@ interface PlaceFormProps {
 
 export function PlaceForm({ slug, place, remove }: PlaceFormProps) {
   const { t } = useTranslation();
-  const change = useChangePlace(slug);
-  const edit = (fields: PlaceFields, refused?: () => void) =>
-    change.mutate({ do: "edit", id: place.id, fields }, { onError: (error) => (refused?.(), tellRefusal(error, t)) });
+  const change = useChangePlace(slug, (error) => tellRefusal(error, t));
+  /** Whether it was taken: each change is answered for itself, also where another one has followed. */
+  const edit = (fields: PlaceFields) =>
+    change.mutateAsync({ do: "edit", id: place.id, fields }).then(
+      () => true,
+      () => false,
+    );
   return (
     <div className={styles.form} role="group" aria-label={t("place.about", { name: place.name })}>
-      <NameField place={place} keep={(name, refused) => edit({ name }, refused)} />
-      <KindField kind={place.kind} change={(kind) => edit({ kind })} />
+      <KeptName label={t("place.name")} name={place.name} keep={(name) => edit({ name })} />
+      <KindField kind={place.kind} change={(kind) => void edit({ kind })} />
       {place.kind === "dock" ? <HeadingField place={place} keep={(theta) => edit({ theta })} /> : null}
       <p className={styles.quiet}>
         {t("place.id")} <code>{place.id}</code>, {formatPoint(place.x, place.y)}
@@ -39,40 +44,13 @@ export function PlaceForm({ slug, place, remove }: PlaceFormProps) {
   );
 }
 
-/** Kept when the field is left or Enter is pressed; Esc takes back what was typed. */
-function NameField({ place, keep }: { place: MapPlace; keep: (name: string, refused: () => void) => void }) {
-  const { t } = useTranslation();
-  const [name, setName] = useState(place.name);
-  useEffect(() => setName(place.name), [place.name]);
-  const settle = () => {
-    const next = name.trim();
-    if (next && next !== place.name) keep(next, () => setName(place.name));
-    else setName(place.name);
-  };
-  return (
-    <TextInput
-      label={t("place.name")}
-      maxLength={60}
-      value={name}
-      onChange={(event) => setName(event.currentTarget.value)}
-      onBlur={settle}
-      onKeyDown={(event) => {
-        if (event.key === "Enter") settle();
-        if (event.key === "Escape") setName(place.name);
-      }}
-    />
-  );
-}
-
-function HeadingField({ place, keep }: { place: MapPlace; keep: (theta: number) => void }) {
+function HeadingField({ place, keep }: { place: MapPlace; keep: Keep<number> }) {
   const { t } = useTranslation();
   const known = Math.round((place.theta * 180) / Math.PI);
-  const [degrees, setDegrees] = useState<number | string>(known);
-  useEffect(() => setDegrees(known), [known]);
-  const settle = () => {
-    if (typeof degrees === "number" && degrees !== known) keep((degrees * Math.PI) / 180);
-    else setDegrees(known);
-  };
+  const { value, setValue, settle, takeBack } = useSettled<number | string>(known, (degrees) =>
+    keep((Number(degrees) * Math.PI) / 180),
+  );
+  const leave = () => (typeof value === "number" ? settle(value) : takeBack());
   return (
     <NumberField
       label={t("place.heading")}
@@ -81,11 +59,11 @@ function HeadingField({ place, keep }: { place: MapPlace; keep: (theta: number) 
       step={15}
       min={-360}
       max={360}
-      value={degrees}
-      onChange={setDegrees}
-      onBlur={settle}
+      value={value}
+      onChange={setValue}
+      onBlur={leave}
       onKeyDown={(event) => {
-        if (event.key === "Enter") settle();
+        if (event.key === "Enter") leave();
       }}
     />
   );

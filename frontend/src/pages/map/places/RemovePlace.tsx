@@ -7,6 +7,7 @@ import { useOpenRuns, usePrograms } from "@/api/queries";
 import type { MapPlace, RunSummary } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import { useFreshUses } from "../useFreshUses";
 import { isGone } from "../useRemovedMeanwhile";
 import { begun, planned } from "../zones/uses";
@@ -67,7 +68,8 @@ interface RemovePlaceProps {
 export function RemovePlace({ slug, place, select, onClose }: RemovePlaceProps) {
   const { t } = useTranslation();
   useReturnFocus();
-  const change = useChangePlace(slug);
+  const tellUnseen = useTellUnseen();
+  const change = useChangePlace(slug, (error) => isGone(error) || tellUnseen(error));
   const uses = usePlaceUses(slug, place.id);
   const later = planned(useOpenRuns(slug).data ?? [], uses ?? []);
   const remove = () => {

@@ -46,7 +46,7 @@ export function ReleasedZone({ slug, zone, at }: ReleasedZoneProps) {
 
 function CloseButton({ slug, zone }: { slug: string; zone: MapZone }) {
   const { t } = useTranslation();
-  const change = useChangeZone(slug);
+  const change = useChangeZone(slug, (error) => tellRefusal(error, t));
   return (
     <Button
       variant="default"
@@ -54,7 +54,7 @@ function CloseButton({ slug, zone }: { slug: string; zone: MapZone }) {
       loading={change.isPending}
       leftSection={<Lock size={14} aria-hidden="true" />}
       aria-label={t("admission.opening.of", { words: t("admission.opening.close"), zone: zone.name })}
-      onClick={() => change.mutate({ do: "close", id: zone.id }, { onError: (error) => tellRefusal(error, t) })}
+      onClick={() => change.mutate({ do: "close", id: zone.id })}
     >
       {t("admission.opening.close")}
     </Button>

@@ -1,10 +1,11 @@
 // @vitest-environment jsdom
-import { screen } from "@testing-library/react";
+import { fireEvent, screen } from "@testing-library/react";
 import { expect, test } from "vitest";
 import type { MapZone, Program, SiteMap } from "@/api/types";
-import { show, testsPages } from "@/testing/page";
+import { show, showWithCorner, testsPages } from "@/testing/page";
 import { FINISHED, run, serveRuns } from "@/testing/runs";
-import { ZoneUses } from "./RemoveZone";
+import { slowServer } from "@/testing/slowServer";
+import { RemoveZone, ZoneUses } from "./RemoveZone";
 
 testsPages();
 
@@ -25,4 +26,15 @@ test("who removes a zone is told of a run that goes there since before the newes
   show(<ZoneUses slug="a" map={MAP} zone={ZONE} />);
   const link = await screen.findByRole("link", { name: /5/ });
   expect(link.getAttribute("href")).toBe("/runs/run-5");
+});
+
+test("who has closed the question before a removal is refused is told", async () => {
+  const { nth } = slowServer();
+  const { leave } = showWithCorner(
+    <RemoveZone slug="hall" map={MAP} zone={ZONE} select={() => undefined} onClose={() => undefined} />,
+  );
+  fireEvent.click(screen.getByText("Remove the zone"));
+  leave();
+  await (await nth(1)).answer(409);
+  expect(await screen.findByRole("alert")).toBeTruthy();
 });

@@ -7,6 +7,7 @@ import type { MapZone, SiteMap } from "@/api/types";
 import { useChangeZone } from "@/api/zones";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import styles from "../places/places.module.css";
 import { useFreshUses } from "../useFreshUses";
 import { isGone } from "../useRemovedMeanwhile";
@@ -67,7 +68,8 @@ interface RemoveZoneProps extends ZoneUsesProps {
 export function RemoveZone({ slug, map, zone, select, onClose }: RemoveZoneProps) {
   const { t } = useTranslation();
   useReturnFocus();
-  const change = useChangeZone(slug);
+  const tellUnseen = useTellUnseen();
+  const change = useChangeZone(slug, (error) => isGone(error) || tellUnseen(error));
   const remove = () => {
     select(null);
     const onError = (error: Error) => (isGone(error) ? onClose() : select(zone.id));

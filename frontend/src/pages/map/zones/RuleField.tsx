@@ -1,12 +1,12 @@
 /** What a zone asks of robots, with a sentence about it: how fast they may be there, how many at once, or where to. */
 import { NativeSelect, Radio } from "@mantine/core";
-import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { MapZone } from "@/api/types";
 import { ZONE_RULES, type ZoneRule } from "@/api/zones";
 import { NumberField } from "@/design/NumberField";
 import { formatNumber } from "@/i18n/format";
 import styles from "../places/places.module.css";
+import { useSettled, type Keep } from "../useSettled";
 
 export const USUAL_SPEED_M_S = 0.3;
 const SLOWEST_M_S = 0.05;
@@ -20,7 +20,7 @@ export type RuleOfZone = Pick<MapZone, "rule" | "speed_m_s" | "robots" | "headin
 
 interface RuleFieldProps {
   value: RuleOfZone;
-  change: (rule: RuleOfZone) => void;
+  change: Keep<RuleOfZone>;
 }
 
 export function RuleField({ value, change }: RuleFieldProps) {
@@ -35,7 +35,7 @@ export function RuleField({ value, change }: RuleFieldProps) {
     });
   return (
     <>
-      <Radio.Group label={t("zone.rule")} value={rule} onChange={(next) => choose(next)}>
+      <Radio.Group label={t("zone.rule")} value={rule} onChange={(next) => void choose(next)}>
         <div className={styles.adding}>
           {ZONE_RULES.map((each) => (
             <Radio key={each} value={each} label={t(`zone.rules.${each}`)} description={t(`zone.means.${each}`)} />
@@ -73,10 +73,9 @@ export function RuleField({ value, change }: RuleFieldProps) {
 }
 
 /** Where robots drive: one of eight directions, or another one that somebody has said elsewhere. */
-function HeadingField({ known, keep }: { known: number; keep: (heading_deg: number) => void }) {
+function HeadingField({ known, keep }: { known: number; keep: Keep<number> }) {
   const { t } = useTranslation();
-  const [value, setValue] = useState(known); // at once: who presses a key twice goes on from what is shown
-  useEffect(() => setValue(known), [known]);
+  const { value, settle } = useSettled(known, keep); // at once: who presses a key twice goes on from what is shown
   const others = HEADINGS.some((each) => each === value) ? [] : [value];
   const words = (each: number) =>
     HEADINGS.some((usual) => usual === each)
@@ -86,11 +85,7 @@ function HeadingField({ known, keep }: { known: number; keep: (heading_deg: numb
     <NativeSelect
       label={t("zone.heading")}
       value={String(value)}
-      onChange={(event) => {
-        const next = Number(event.currentTarget.value);
-        setValue(next);
-        keep(next);
-      }}
+      onChange={(event) => settle(Number(event.currentTarget.value))}
       data={[...HEADINGS, ...others].map((each) => ({ value: String(each), label: words(each) }))}
     />
   );
@@ -104,25 +99,21 @@ interface SettledNumberProps {
   max: number;
   decimalScale: number;
   known: number;
-  keep: (value: number) => void;
+  keep: Keep<number>;
 }
 
 /** A number that is kept when its field is left or Enter is pressed. */
 function SettledNumber({ known, keep, ...field }: SettledNumberProps) {
-  const [value, setValue] = useState<number | string>(known);
-  useEffect(() => setValue(known), [known]);
-  const settle = () => {
-    if (typeof value === "number" && value !== known) keep(value);
-    else setValue(known);
-  };
+  const { value, setValue, settle, takeBack } = useSettled<number | string>(known, (next) => keep(Number(next)));
+  const leave = () => (typeof value === "number" ? settle(value) : takeBack());
   return (
     <NumberField
       {...field}
       value={value}
       onChange={setValue}
-      onBlur={settle}
+      onBlur={leave}
       onKeyDown={(event) => {
-        if (event.key === "Enter") settle();
+        if (event.key === "Enter") leave();
       }}
     />
   );

@@ -6,8 +6,9 @@ import { useTranslation } from "react-i18next";
 import type { MapZone, SiteMap } from "@/api/types";
 import { useChangeZone, type ZoneFields } from "@/api/zones";
 import { formatNumber, withUnit } from "@/i18n/format";
-import styles from "../places/places.module.css";
 import { tellRefusal } from "@/shell/refusal";
+import { KeptName } from "../KeptName";
+import styles from "../places/places.module.css";
 import { areaOf } from "./outline";
 import { RuleField, type RuleOfZone } from "./RuleField";
 import { ZoneUses } from "./RemoveZone";
@@ -32,12 +33,16 @@ interface ZoneFormProps {
 
 export function ZoneForm({ slug, map, zone, remove }: ZoneFormProps) {
   const { t } = useTranslation();
-  const change = useChangeZone(slug);
-  const edit = (fields: ZoneFields, refused?: () => void) =>
-    change.mutate({ do: "edit", id: zone.id, fields }, { onError: (error) => (refused?.(), tellRefusal(error, t)) });
+  const change = useChangeZone(slug, (error) => tellRefusal(error, t));
+  /** Whether it was taken: each change is answered for itself, also where another one has followed. */
+  const edit = (fields: ZoneFields) =>
+    change.mutateAsync({ do: "edit", id: zone.id, fields }).then(
+      () => true,
+      () => false,
+    );
   return (
     <div className={styles.form} role="group" aria-label={t("zone.about", { name: zone.name })}>
-      <NameField name={zone.name} keep={(name, refused) => edit({ name }, refused)} />
+      <KeptName label={t("zone.name")} name={zone.name} keep={(name) => edit({ name })} />
       <RuleField value={zone} change={(rule) => edit(said(rule))} />
       <p className={styles.quiet}>{t("zone.area", { area: withUnit(formatNumber(areaOf(zone.points), 1), "m²") })}</p>
       <ZoneUses slug={slug} map={map} zone={zone} />
@@ -45,31 +50,6 @@ export function ZoneForm({ slug, map, zone, remove }: ZoneFormProps) {
         {t("zone.remove")}
       </Button>
     </div>
-  );
-}
-
-/** Kept when the field is left or Enter is pressed; Esc takes back what was typed. */
-function NameField({ name, keep }: { name: string; keep: (name: string, refused: () => void) => void }) {
-  const { t } = useTranslation();
-  const [value, setValue] = useState(name);
-  useEffect(() => setValue(name), [name]);
-  const settle = () => {
-    const next = value.trim();
-    if (next && next !== name) keep(next, () => setValue(name));
-    else setValue(name);
-  };
-  return (
-    <TextInput
-      label={t("zone.name")}
-      maxLength={60}
-      value={value}
-      onChange={(event) => setValue(event.currentTarget.value)}
-      onBlur={settle}
-      onKeyDown={(event) => {
-        if (event.key === "Enter") settle();
-        if (event.key === "Escape") setValue(name);
-      }}
-    />
   );
 }
 
@@ -101,7 +81,7 @@ export function NewZoneForm({ editing }: { editing: ZoneEditing }) {
           if (event.key === "Escape") editing.stop();
         }}
       />
-      <RuleField value={rule} change={setRule} />
+      <RuleField value={rule} change={(next) => (setRule(next), true)} />
       <p className={styles.quiet}>
         {t("zone.area", { area: withUnit(formatNumber(areaOf(editing.drawn?.corners ?? []), 1), "m²") })}
       </p>

@@ -16,12 +16,9 @@ export interface OutlineDraft {
 
 export function useOutlineDraft(slug: string, zone: MapZone): OutlineDraft {
   const { t } = useTranslation();
-  const change = useChangeZone(slug);
+  const change = useChangeZone(slug, (error) => tellRefusal(error, t));
   const draft = useDraft<Outline>(zone.points, isSameOutline, change.isPending, (points, done) =>
-    change.mutate(
-      { do: "edit", id: zone.id, fields: { points } },
-      { ...done, onError: (error) => (done.onError(), tellRefusal(error, t)) },
-    ),
+    change.mutate({ do: "edit", id: zone.id, fields: { points } }, done),
   );
   return { points: draft.at, show: draft.setDraft, keep: draft.keep };
 }

@@ -1,0 +1,34 @@
+/** A field that is kept when it is left. */
+import { useEffect, useRef, useState } from "react";
+
+/** Keep a value; whether it was taken. */
+export type Keep<Value> = (value: Value) => boolean | Promise<boolean>;
+
+/**
+ * What a field shows: what is `known`, and what is typed until it is kept.
+ *
+ * `settle` keeps a value that is another than the known one. Where that is refused, what is known by then is shown
+ * again, unless something else was typed meanwhile. What is on its way is not sent a second time, such as when the field
+ * is left after Enter; `takeBack` goes back to it, or to what is known.
+ */
+export function useSettled<Value>(known: Value, keep: Keep<Value>) {
+  const [value, setValue] = useState(known);
+  const latest = useRef(known);
+  const sent = useRef<{ readonly value: Value } | null>(null);
+  useEffect(() => {
+    latest.current = known;
+    setValue(known);
+  }, [known]);
+  const settle = (next: Value) => {
+    setValue(next);
+    if (Object.is(next, sent.current ? sent.current.value : known)) return;
+    const mine = { value: next };
+    sent.current = mine;
+    void Promise.resolve(keep(next)).then((isTaken) => {
+      if (sent.current === mine) sent.current = null;
+      if (!isTaken) setValue((now) => (Object.is(now, next) ? latest.current : now));
+    });
+  };
+  const takeBack = () => setValue(sent.current ? sent.current.value : known);
+  return { value, setValue, settle, takeBack };
+}
