@@ -43,11 +43,13 @@ function send(slug: string, decision: Decision): Promise<Told> {
   }
 }
 
+/** Decide about a device. Decisions, as moves on the map, go out one after another. */
 export function useDecide(slug: string) {
   const { t } = useTranslation();
   const queries = useQueryClient();
   const show = useShownKey((state) => state.show);
   return useMutation({
+    scope: { id: `places ${slug}` },
     mutationFn: (decision: Decision) => send(slug, decision),
     onSuccess: ({ credential, taken = false }, decision) => {
       const { device } = decision;
