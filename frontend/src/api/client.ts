@@ -22,10 +22,14 @@ export class ApiProblem extends Error {
   }
 }
 
-/** Ask anew so often (ms), until the server says that this person may not know it, or that it is gone. */
+/** The code of an answer that is not our server's own, such as that of a proxy before it. */
+const UNEXPECTED = "unexpected";
+
+/** Ask anew so often (ms), until our server says that this person may not know it, or that it is gone. */
 export const untilRefused = (everyMs: number) => (query: { state: { error: Error | null } }) => {
   const { error } = query.state;
-  return error instanceof ApiProblem && [403, 404].includes(error.status) ? false : everyMs;
+  const isRefused = error instanceof ApiProblem && [403, 404].includes(error.status) && error.code !== UNEXPECTED;
+  return isRefused ? false : everyMs;
 };
 
 interface ProblemBody {
@@ -69,11 +73,13 @@ async function problemOf(response: Response): Promise<ApiProblem> {
   const body = await response.json().then(asProblem, (): ProblemBody => ({}));
   const told = refusalWords(body.code ?? "", body.args);
   const detail = told ?? body.detail ?? i18next.t("shell.problem.unexpected", { status: response.status });
-  return new ApiProblem(response.status, body.code ?? "unexpected", detail, body.fields, body.args);
+  return new ApiProblem(response.status, body.code ?? UNEXPECTED, detail, body.fields, body.args);
 }
 
+/** Others have codes that are no words, such as the number of a proxy. */
 function asProblem(body: unknown): ProblemBody {
-  return typeof body === "object" && body !== null ? body : {};
+  if (typeof body !== "object" || body === null) return {};
+  return "code" in body && typeof body.code !== "string" ? {} : body;
 }
 
 async function receive<T>(response: Response): Promise<T> {
