@@ -87,6 +87,22 @@ test("a map of the same number after a backup came back is not shown with the ce
   await waitFor(() => expect(shown.current.data?.cells).toEqual(new Uint8Array([2])));
 });
 
+test("a newer map is not shown with the cells of the known one where a browser has kept both without a tag", async () => {
+  let version = 1;
+  vi.stubGlobal("fetch", (address: string) =>
+    Promise.resolve(address.endsWith("/cells") ? cellsOf(version) : Response.json({ version })),
+  );
+  const shown = openMap();
+  await waitFor(() => expect(shown.current.data?.cells).toEqual(new Uint8Array([1])));
+  version = 2;
+  await shown.current.refetch();
+  await waitFor(() => expect(shown.current.data?.version).toBe(2));
+  expect(shown.current.data?.cells).toEqual(new Uint8Array([2]));
+});
+
+const cellsOf = (version: number) =>
+  new Response(new Uint8Array([version]), { headers: { ETag: `"hall-${version}"` } });
+
 function after(ask: typeof fetch, address: string, then: () => void): typeof fetch {
   return async (path, init) => {
     const answer = await ask(path, init);

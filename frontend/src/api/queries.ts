@@ -26,7 +26,7 @@ import type {
   Version,
   WholeVersion,
 } from "./types";
-import { areOf } from "./wholeMap";
+import { areOf, isSameMap } from "./wholeMap";
 
 /** The names of the caches. */
 export const keys = {
@@ -111,7 +111,7 @@ async function getMap(slug: string, known: SiteMap | undefined): Promise<SiteMap
   const getInfo = () => api.get<SiteMapInfo>(path);
   const getNewest = () => api.tagged(`${path}/cells`); // kept for the time without a server, as a version's are not
   const [info, newest] = known ? [await getInfo(), null] : await Promise.all([getInfo(), getNewest()]);
-  if (known && info.tag === known.tag) return { ...info, cells: known.cells };
+  if (known && isSameMap(info, known)) return { ...info, cells: known.cells };
   const { tag, bytes } = newest ?? (await getNewest());
   return { ...info, cells: areOf(info, tag) ? bytes : await api.bytes(`${path}/versions/${info.version}/cells`) };
 }

@@ -1,5 +1,5 @@
 import { afterEach, expect, test, vi } from "vitest";
-import { getWholeMap } from "./wholeMap";
+import { getWholeMap, isSameMap } from "./wholeMap";
 
 afterEach(() => vi.unstubAllGlobals());
 
@@ -42,4 +42,11 @@ test("one that never rests is a failure, no skewed picture", async () => {
   const asked = growing(Infinity);
   await expect(getWholeMap(PATH)).rejects.toThrow(PATH);
   expect(asked).toHaveLength(8);
+});
+
+test("two maps are the same by tag and number: a map of the version before has no tag", () => {
+  const [first, second] = [{ version: 1 }, { version: 2 }];
+  expect([isSameMap(first, first), isSameMap(first, second)]).toEqual([true, false]);
+  expect(isSameMap({ version: 1, tag: '"hall-1-0"' }, { version: 1, tag: '"hall-1-4"' })).toBe(false);
+  expect(isSameMap(first, { version: 1, tag: '"hall-1-4"' })).toBe(false);
 });

@@ -13,6 +13,9 @@ interface Header {
 /** Whether cells are those of a header: by its tag, which a proxy may have made a weak one (`W/` before it). */
 export const areOf = (info: Header, tag: string) => tag.endsWith(info.tag ?? `-${info.version}"`);
 
+/** Whether two headers are of the same map; of two without a tag that is told by their numbers alone. */
+export const isSameMap = (a: Header, b: Header) => a.version === b.version && a.tag === b.tag;
+
 /**
  * A map with its cells; the cells are at `/cells` behind its path.
  * Both are fetched anew where they do not belong together; where a proxy takes the tags away, nobody can tell.

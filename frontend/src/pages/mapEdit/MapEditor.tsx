@@ -6,6 +6,7 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate } from "react-router-dom";
 import { useDevices } from "@/api/queries";
+import { isSameMap } from "@/api/wholeMap";
 import { rosForm } from "@/map/floor/rosFiles";
 import type { Site, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
@@ -84,7 +85,7 @@ export function MapEditor({ site, newest }: { site: Site; newest: SiteMap }) {
           />
         </Panel>
         <Panel className={styles.about}>
-          {newest.tag !== base.tag && stage !== "saved" ? (
+          {!isSameMap(newest, base) && stage !== "saved" ? (
             <p role="status" className={styles.overtaken}>
               {t("mapEdit.overtaken", { version: newest.version })}
             </p>

@@ -7,6 +7,7 @@ import { Link } from "react-router-dom";
 import { ApiProblem } from "@/api/client";
 import { useBringMap, useLookAtMap, type BroughtMapDifference, type MapSource } from "@/api/siteMaps";
 import type { SiteMap } from "@/api/types";
+import { isSameMap } from "@/api/wholeMap";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatNumber, withUnit } from "@/i18n/format";
 import { problemText } from "@/shell/LoadProblem";
@@ -43,7 +44,7 @@ export function SaveDialog({ slug, title, action, makeForm, source, base, newest
   const bring = useBringMap(slug);
   const [form] = useState(makeForm);
   useEffect(() => lookAt(form), [lookAt, form]);
-  const isOvertaken = newest.tag !== base.tag || (bring.error instanceof ApiProblem && bring.error.status === 412);
+  const isOvertaken = !isSameMap(newest, base) || (bring.error instanceof ApiProblem && bring.error.status === 412);
   const save = () =>
     bring.mutate({ form, source, replaces: newest.tag }, { onSuccess: ({ version }) => onSaved(version) });
   const problem = look.error ?? (isOvertaken ? null : bring.error);
