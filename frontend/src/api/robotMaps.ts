@@ -64,11 +64,12 @@ export const staleWithSiteMap = (slug: string) => [
 ];
 
 /** Change the site's map; whatever comes of it, what is shown of it is fetched anew. */
-export function useChangeMap(slug: string) {
+export function useChangeMap(slug: string, onRefused: (error: Error) => void) {
   const queries = useQueryClient();
   return useMutation({
     mutationFn: ({ do: act, ...body }: MapChange) =>
       api.post<{ version: number }>(`/sites/${slug}/map/${act === "use" ? "from-device" : "restore"}`, body),
+    onError: onRefused,
     onSettled: () => {
       for (const queryKey of staleWithSiteMap(slug)) void queries.invalidateQueries({ queryKey });
     },

@@ -11,7 +11,7 @@ import { factsOf, findingsOf, isReviewed, useReview, useVerdict, type Verdict } 
 import { factOfTests, useVersionTests } from "@/shell/review/versionTests";
 import { mayOperate } from "@/api/roles";
 import type { Review, Role } from "@/api/types";
-import { problemText } from "@/shell/LoadProblem";
+import { tellRefusal } from "@/shell/refusal";
 import styles from "./compare.module.css";
 import { DRAFT } from "./sides";
 
@@ -64,17 +64,14 @@ function Say({ program, review, number }: { program: string; review: Review; num
   const { t } = useTranslation();
   const [asks, setAsks] = useState(false);
   const verdict = useVerdict(program, number);
+  /** The answer is told also where another version is looked at by then. */
   const say = (said: Verdict, note = "") =>
-    verdict.mutate(
-      { verdict: said, note },
-      {
-        onSuccess: () => {
-          setAsks(false);
-          notifications.show({ message: t(`review.said.${said}`, { number }) });
-        },
-        onError: (error) =>
-          notifications.show({ color: "red", message: problemText(error, t("shell.problem.screen")) }),
+    verdict.mutateAsync({ verdict: said, note }).then(
+      () => {
+        setAsks(false);
+        notifications.show({ message: t(`review.said.${said}`, { number }) });
       },
+      (error: Error) => tellRefusal(error, t),
     );
   const mine = review.history.filter((word) => word.mine && word.kind !== "asked").at(-1);
   if (asks)
@@ -85,7 +82,7 @@ function Say({ program, review, number }: { program: string; review: Review; num
         required
         busy={verdict.isPending}
         error={null}
-        onSend={(note) => say("changes", note)}
+        onSend={(note) => void say("changes", note)}
         onCancel={() => setAsks(false)}
       />
     );
@@ -101,7 +98,7 @@ function Say({ program, review, number }: { program: string; review: Review; num
               aria-label={t("review.approve_label", { number })}
               leftSection={<Check size={14} aria-hidden="true" />}
               loading={verdict.isPending}
-              onClick={() => say("approved")}
+              onClick={() => void say("approved")}
             >
               {t("review.approve")}
             </Button>
@@ -117,7 +114,7 @@ function Say({ program, review, number }: { program: string; review: Review; num
         </>
       ) : null}
       {mine && mine.kind !== "withdrawn" ? (
-        <Button size="xs" variant="default" loading={verdict.isPending} onClick={() => say("withdrawn")}>
+        <Button size="xs" variant="default" loading={verdict.isPending} onClick={() => void say("withdrawn")}>
           {t("review.withdraw")}
         </Button>
       ) : null}

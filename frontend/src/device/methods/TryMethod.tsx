@@ -12,6 +12,7 @@ import { NumberField } from "@/design/NumberField";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { unitSign } from "@/i18n/units";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import { ownEntry } from "@/design/ownEntry";
 import { type Argument, emptyForm, type Problem, readArguments, type Typed } from "./arguments";
 import styles from "./call.module.css";
@@ -174,7 +175,9 @@ export interface Order {
 /** `call` is what was asked for last, as it is now; null before. */
 export function useCall(slug: string, device: string) {
   const begin = useOnce();
+  const onError = useTellUnseen();
   const start = useMutation({
+    onError,
     mutationFn: (order: Order) => begin<MethodCall>(`/sites/${slug}/devices/${encodeURIComponent(device)}/call`, order),
   });
   const path = start.data ? `/sites/${slug}/calls/${start.data.id}` : null;
@@ -184,6 +187,6 @@ export function useCall(slug: string, device: string) {
     refetchInterval: (query) => (query.state.data?.over ? false : FOLLOW_MS),
     staleTime: 0,
   });
-  const cancel = useMutation({ mutationFn: (id: string) => api.post(`/sites/${slug}/calls/${id}/cancel`) });
+  const cancel = useMutation({ mutationFn: (id: string) => api.post(`/sites/${slug}/calls/${id}/cancel`), onError });
   return { start, cancel, call: start.data ? (followed.data ?? start.data) : null };
 }

@@ -9,6 +9,7 @@ import { mayOperate } from "@/api/roles";
 import type { Device, MethodPace, Site } from "@/api/types";
 import { formatMoment, formatNumber } from "@/i18n/format";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import { PaceStrip } from "./PaceStrip";
 import styles from "./paces.module.css";
 import { percentOver } from "./paces";
@@ -110,6 +111,7 @@ function Decision(props: OfDevice & { pace: MethodPace }) {
   const path = `${pathOf(props)}/${encodeURIComponent(pace.method)}`;
   const decide = useMutation({
     mutationFn: (take: boolean) => (take ? api.put<MethodPace>(path, {}) : api.delete<MethodPace>(path)),
+    onError: useTellUnseen(),
     onSettled: () => queries.invalidateQueries({ queryKey: keys.paces(site.slug, device.id) }),
   });
   if (!pace.can_be_taken && !pace.calibrated) return null;

@@ -9,6 +9,7 @@ import { mayOperate } from "@/api/roles";
 import type { Device, Site } from "@/api/types";
 import { formatPoint } from "@/i18n/format";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import styles from "./standin.module.css";
 
 interface OfDevice {
@@ -16,12 +17,13 @@ interface OfDevice {
   device: Device;
 }
 
-/** Switches a device; a refusal stays until the next try. */
+/** Switches a device; a refusal stays until the next try, and is told who has left the device by then. */
 function useSwitch({ site, device }: OfDevice) {
   const client = useQueryClient();
   const path = `/sites/${site.slug}/devices/${device.id}/stand-in`;
   return useMutation({
     mutationFn: () => (device.stand_in ? api.delete(path) : api.put(path, undefined)),
+    onError: useTellUnseen(),
     onSettled: () =>
       Promise.all([
         client.invalidateQueries({ queryKey: keys.devices(site.slug) }),

@@ -8,6 +8,7 @@ import { useDevices } from "@/api/queries";
 import { useChangeMap, useMapVersions } from "@/api/robotMaps";
 import type { MapVersion, Site } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatMoment } from "@/i18n/format";
 import styles from "../devices/robotMap/robotmap.module.css";
@@ -68,10 +69,10 @@ function Version({ version, words, look, choose }: VersionProps) {
   );
 }
 
-function AskBack({ site, version, current, onClose }: AskProps) {
+export function AskBack({ site, version, current, onClose }: AskProps) {
   const { t } = useTranslation();
   useReturnFocus();
-  const change = useChangeMap(site.slug);
+  const change = useChangeMap(site.slug, useTellUnseen());
   const restore = () =>
     change.mutate(
       {

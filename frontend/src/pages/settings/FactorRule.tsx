@@ -5,7 +5,8 @@ import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import type { FactorRule as Rule } from "@/api/types";
 import { Panel } from "@/design/Panel";
-import { LoadProblem, problemText } from "@/shell/LoadProblem";
+import { LoadProblem } from "@/shell/LoadProblem";
+import { tellRefusal } from "@/shell/refusal";
 import { TableSkeleton } from "../TableSkeleton";
 import { useFactorRule, useMembers, useSetFactorRule } from "./people";
 import styles from "./settings.module.css";
@@ -21,12 +22,12 @@ export function FactorRule({ slug }: { slug: string }) {
   if (rule.isLoadingError) return <LoadProblem error={rule.error} again={() => void rule.refetch()} />;
   if (!rule.data) return <TableSkeleton />;
   const { demanded_from: demanded, of_server: ofServer } = rule.data;
+  /** The answer is told also where nobody looks at this any more. */
   const choose = (role: Demanded) =>
-    set.mutate(role, {
-      onSuccess: () => notifications.show({ message: t("factor.rule.saved") }),
-      onError: (error) =>
-        notifications.show({ color: "red", message: problemText(error, t("shell.problem.screen")), autoClose: 8000 }),
-    });
+    set.mutateAsync(role).then(
+      () => notifications.show({ message: t("factor.rule.saved") }),
+      (error: Error) => tellRefusal(error, t),
+    );
   return (
     <Panel className={styles.section} role="region" aria-labelledby="factor-rule">
       <div className={styles.head}>
@@ -38,7 +39,7 @@ export function FactorRule({ slug }: { slug: string }) {
           description={t("factor.rule.text")}
           value={set.isPending ? (set.variables ?? "") : (demanded ?? "")}
           disabled={set.isPending}
-          onChange={(event) => choose((event.currentTarget.value || null) as Demanded)}
+          onChange={(event) => void choose((event.currentTarget.value || null) as Demanded)}
         >
           <option value="">{t("factor.rule.nobody")}</option>
           {ROLES.map((role) => (

@@ -7,7 +7,7 @@ import type { Invitation } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { Panel } from "@/design/Panel";
 import { formatMoment } from "@/i18n/format";
-import { problemText } from "@/shell/LoadProblem";
+import { tellRefusal } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import { useRevoke } from "./people";
 import { RoleChip } from "./RoleSelect";
@@ -65,12 +65,12 @@ interface Props {
 export function Invitations({ slug, invitations, onNew }: Props) {
   const { t } = useTranslation();
   const revoke = useRevoke(slug);
+  /** Each answer is told, also where another invitation is ended meanwhile. */
   const end = (id: number) =>
-    revoke.mutate(id, {
-      onSuccess: () => notifications.show({ message: t("people.invitations.revoked") }),
-      onError: (error) =>
-        notifications.show({ color: "red", message: problemText(error, t("shell.problem.screen")), autoClose: 8000 }),
-    });
+    revoke.mutateAsync(id).then(
+      () => notifications.show({ message: t("people.invitations.revoked") }),
+      (error: Error) => tellRefusal(error, t),
+    );
   return (
     <Panel className={styles.section} aria-label={t("people.invitations.title")}>
       <div className={styles.head}>
@@ -107,7 +107,7 @@ export function Invitations({ slug, invitations, onNew }: Props) {
                 <Row
                   key={each.id}
                   invitation={each}
-                  revoke={() => end(each.id)}
+                  revoke={() => void end(each.id)}
                   busy={revoke.isPending && revoke.variables === each.id}
                 />
               ))}

@@ -1,9 +1,10 @@
 // @vitest-environment jsdom
-import { screen } from "@testing-library/react";
+import { fireEvent, screen, waitFor } from "@testing-library/react";
 import { expect, test, vi } from "vitest";
 import type { Member } from "@/api/types";
-import { show, testsPages } from "@/testing/page";
-import { AccessEnd } from "./MemberDialogs";
+import { show, showWithCorner, testsPages } from "@/testing/page";
+import { slowServer } from "@/testing/slowServer";
+import { AccessEnd, AskLeave, AskRemove, AskReset } from "./MemberDialogs";
 
 testsPages();
 
@@ -15,4 +16,24 @@ test.each([
   const member = { id: 1, name: "Bo", ends_at } as Member;
   show(<AccessEnd slug="hall" member={member} onClose={() => undefined} />);
   expect(screen.getByLabelText<HTMLInputElement>("Last day").value).toBe("2026-12-01");
+});
+
+const BO = { id: 7, name: "Bo", ends_at: "2026-12-01T12:00:00Z" } as Member;
+const OF_BO = { slug: "hall", member: BO, onClose: () => undefined };
+
+test.each([
+  ["Set the end", () => <AccessEnd {...OF_BO} />],
+  ["Remove", () => <AskRemove {...OF_BO} />],
+  ["Leave", () => <AskLeave {...OF_BO} />],
+  ["Reset", () => <AskReset {...OF_BO} />],
+])("who has closed the question before it is refused is told: %s", async (word, dialog) => {
+  const { nth } = slowServer({ "/members/7": { ...BO, ending: { tokens: [], invitations: 0, signs_out: false } } });
+  const { leave } = showWithCorner(dialog());
+  const go = screen.getByText(word, { selector: "button *" });
+  await waitFor(() => expect(go.closest("button")?.disabled).toBe(false));
+  fireEvent.click(go);
+  const asked = await nth(1);
+  leave();
+  await asked.answer(409);
+  expect(await screen.findByText("No.")).toBeTruthy();
 });

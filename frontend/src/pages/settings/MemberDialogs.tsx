@@ -10,6 +10,7 @@ import type { Member, MemberDetail } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatMoment } from "@/i18n/format";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import { dayOf, endOfDay, useChangeMember, useLeave, useMember, useRemoveMember, useResetFactor } from "./people";
 import styles from "./settings.module.css";
@@ -29,7 +30,7 @@ export function AccessEnd({ slug, member, onClose }: OfMember) {
   const { t } = useTranslation();
   useReturnFocus();
   const [day, setDay] = useState(member.ends_at ? dayOf(new Date(member.ends_at)) : "");
-  const change = useChangeMember(slug);
+  const change = useChangeMember(slug, useTellUnseen());
   const { name } = member;
   const set = (ends_at: string | null) =>
     change.mutate(
@@ -130,7 +131,7 @@ function Ask({ title, go, stay, busy, disabled, error, onGo, onClose, children }
 export function AskRemove({ slug, member, onClose }: OfMember) {
   const { t } = useTranslation();
   const known = useMember(slug, member.id);
-  const remove = useRemoveMember(slug);
+  const remove = useRemoveMember(slug, useTellUnseen());
   const { name } = member;
   const done = () => {
     notifications.show({ message: t("people.remove.done", { name }) });
@@ -158,7 +159,7 @@ export function AskLeave({ slug, onClose }: Omit<OfMember, "member">) {
   const { t } = useTranslation();
   const queries = useQueryClient();
   const navigate = useNavigate();
-  const leave = useLeave(slug);
+  const leave = useLeave(slug, useTellUnseen());
   /** Also where the page has closed before the answer: it does for who is no member any more. */
   const go = () =>
     leave.mutateAsync().then(
@@ -186,7 +187,7 @@ export function AskLeave({ slug, onClose }: Omit<OfMember, "member">) {
 export function AskReset({ slug, member, onClose }: OfMember) {
   const { t } = useTranslation();
   useReturnFocus();
-  const reset = useResetFactor(slug);
+  const reset = useResetFactor(slug, useTellUnseen());
   const { name } = member;
   const go = () =>
     reset.mutate(member.id, {

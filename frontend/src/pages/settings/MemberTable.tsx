@@ -11,7 +11,7 @@ import { IconButton } from "@/design/IconButton";
 import { Panel } from "@/design/Panel";
 import { useNow } from "@/design/useNow";
 import { formatAgo, formatMoment } from "@/i18n/format";
-import { problemText } from "@/shell/LoadProblem";
+import { tellRefusal } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import { AccessEnd, AskLeave, AskRemove, AskReset } from "./MemberDialogs";
 import { findMembers, isLastAdmin, useChangeMember } from "./people";
@@ -149,17 +149,11 @@ function Row({ member, now, manages, last, busy, setRole, begin }: RowProps) {
 function useSetRole(slug: string) {
   const { t } = useTranslation();
   const change = useChangeMember(slug);
+  /** Each answer is told, also where another role is set meanwhile. */
   const setRole = (member: Member, role: Role) =>
-    change.mutate(
-      { id: member.id, role },
-      {
-        onSuccess: () =>
-          notifications.show({
-            message: t("people.roleSet", { name: member.name, role: t(`role.${role}`) }),
-          }),
-        onError: (error) =>
-          notifications.show({ color: "red", message: problemText(error, t("shell.problem.screen")), autoClose: 8000 }),
-      },
+    change.mutateAsync({ id: member.id, role }).then(
+      () => notifications.show({ message: t("people.roleSet", { name: member.name, role: t(`role.${role}`) }) }),
+      (error: Error) => tellRefusal(error, t),
     );
   return { setRole, busy: change.isPending ? change.variables.id : null };
 }
@@ -218,7 +212,7 @@ export function MemberTable({ slug, members, manages }: { slug: string; members:
                 manages={manages}
                 last={isLastAdmin(member, members) && manages}
                 busy={busy === member.id}
-                setRole={(role) => setRole(member, role)}
+                setRole={(role) => void setRole(member, role)}
                 begin={setDoing}
               />
             ))}

@@ -6,6 +6,7 @@ import { SecretField } from "@/design/SecretField";
 import type { MadeInvitation, Role } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import { useInvite } from "./people";
 import { ROLES } from "./RoleSelect";
@@ -82,14 +83,15 @@ export function NewInvitation({ slug, canMail, onMade, onClose }: Props) {
   const { t } = useTranslation();
   useReturnFocus();
   const [wanted, setWanted] = useState(FRESH);
-  const invite = useInvite(slug);
+  const invite = useInvite(slug, useTellUnseen());
   return (
     <Modal opened onClose={onClose} title={t("people.new.title")} size={480}>
       <form
         className={pages.form}
         onSubmit={(event) => {
           event.preventDefault();
-          invite.mutate({ ...wanted, email: wanted.email.trim() }, { onSuccess: onMade });
+          // The link is shown also to who has closed the form before it came: it is shown this one time.
+          invite.mutateAsync({ ...wanted, email: wanted.email.trim() }).then(onMade, () => undefined);
         }}
       >
         <Fields wanted={wanted} set={(some) => setWanted({ ...wanted, ...some })} canMail={canMail} />

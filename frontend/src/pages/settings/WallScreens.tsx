@@ -12,6 +12,7 @@ import { useNow } from "@/design/useNow";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatAgo, formatMoment } from "@/i18n/format";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
+import { tellRefusal, useTellUnseen } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import { TableSkeleton } from "../TableSkeleton";
 import { useMakeWallScreen, useTurnOff, useWallScreens } from "./people";
@@ -58,14 +59,15 @@ function NewScreen({
   useReturnFocus();
   const [name, setName] = useState("");
   const [days, setDays] = useState(365);
-  const make = useMakeWallScreen(slug);
+  const make = useMakeWallScreen(slug, useTellUnseen());
   return (
     <Modal opened onClose={onClose} title={t("wall.admin.form")} size={480}>
       <form
         className={pages.form}
         onSubmit={(event) => {
           event.preventDefault();
-          make.mutate({ name: name.trim(), days }, { onSuccess: onMade });
+          // The link is shown also to who has closed the form before it came: it is shown this one time.
+          make.mutateAsync({ name: name.trim(), days }).then(onMade, () => undefined);
         }}
       >
         <p className={styles.hint}>{t("wall.admin.about")}</p>
@@ -120,12 +122,12 @@ function LinkOnce({ made, onClose }: { made: MadeWallScreen; onClose: () => void
 function Table({ slug, screens }: { slug: string; screens: readonly WallScreen[] }) {
   const { t } = useTranslation();
   const off = useTurnOff(slug);
+  /** Each answer is told, also where another screen is turned off meanwhile. */
   const turnOff = ({ id, name }: WallScreen) =>
-    off.mutate(id, {
-      onSuccess: () => notifications.show({ message: t("wall.admin.turnedOff", { name }) }),
-      onError: (error) =>
-        notifications.show({ color: "red", message: problemText(error, t("shell.problem.screen")), autoClose: 8000 }),
-    });
+    off.mutateAsync(id).then(
+      () => notifications.show({ message: t("wall.admin.turnedOff", { name }) }),
+      (error: Error) => tellRefusal(error, t),
+    );
   return (
     <div className={pages.scroll}>
       <table className={pages.table}>
@@ -145,7 +147,7 @@ function Table({ slug, screens }: { slug: string; screens: readonly WallScreen[]
             <Row
               key={screen.id}
               screen={screen}
-              turnOff={() => turnOff(screen)}
+              turnOff={() => void turnOff(screen)}
               busy={off.isPending && off.variables === screen.id}
             />
           ))}

@@ -86,34 +86,48 @@ export const useAudit = (slug: string, filter: AuditFilter) =>
     refetchInterval: untilRefused(EVERY_MS),
   });
 
+type Refused = (error: Error) => void;
+
 /** Something that is changed about the people of a site; all of it is read anew afterwards. */
-function useChange<Wanted, Told>(slug: string, change: (wanted: Wanted) => Promise<Told>) {
+function useChange<Wanted, Told>(slug: string, change: (wanted: Wanted) => Promise<Told>, onRefused?: Refused) {
   const queries = useQueryClient();
   return useMutation({
     mutationFn: change,
+    onError: onRefused,
     onSettled: () => queries.invalidateQueries({ queryKey: keyOf(slug) }),
   });
 }
 
-export const useChangeMember = (slug: string) =>
-  useChange(slug, ({ id, ...change }: MemberChange & { id: number }) =>
-    api.patch<Member>(`${siteOf(slug)}/members/${id}`, change),
+export const useChangeMember = (slug: string, onRefused?: Refused) =>
+  useChange(
+    slug,
+    ({ id, ...change }: MemberChange & { id: number }) => api.patch<Member>(`${siteOf(slug)}/members/${id}`, change),
+    onRefused,
   );
-export const useRemoveMember = (slug: string) =>
-  useChange(slug, (id: number) => api.delete(`${siteOf(slug)}/members/${id}`));
-export const useResetFactor = (slug: string) =>
-  useChange(slug, (id: number) => api.delete(`${siteOf(slug)}/members/${id}/second-factor`));
-export const useLeave = (slug: string) => useChange(slug, () => api.post(`${siteOf(slug)}/leave`));
-export const useInvite = (slug: string) =>
-  useChange(slug, (wanted: NewInvitation) => api.post<MadeInvitation>(`${siteOf(slug)}/invitations`, wanted));
+export const useRemoveMember = (slug: string, onRefused: Refused) =>
+  useChange(slug, (id: number) => api.delete(`${siteOf(slug)}/members/${id}`), onRefused);
+export const useResetFactor = (slug: string, onRefused: Refused) =>
+  useChange(slug, (id: number) => api.delete(`${siteOf(slug)}/members/${id}/second-factor`), onRefused);
+export const useLeave = (slug: string, onRefused: Refused) =>
+  useChange(slug, () => api.post(`${siteOf(slug)}/leave`), onRefused);
+export const useInvite = (slug: string, onRefused: Refused) =>
+  useChange(
+    slug,
+    (wanted: NewInvitation) => api.post<MadeInvitation>(`${siteOf(slug)}/invitations`, wanted),
+    onRefused,
+  );
 export const useWallScreens = (slug: string) =>
   useQuery({
     queryKey: [...keyOf(slug), "wallScreens"],
     queryFn: () => api.get<WallScreen[]>(`${siteOf(slug)}/wall-screens`),
     refetchInterval: untilRefused(EVERY_MS),
   });
-export const useMakeWallScreen = (slug: string) =>
-  useChange(slug, (wanted: NewWallScreen) => api.post<MadeWallScreen>(`${siteOf(slug)}/wall-screens`, wanted));
+export const useMakeWallScreen = (slug: string, onRefused: Refused) =>
+  useChange(
+    slug,
+    (wanted: NewWallScreen) => api.post<MadeWallScreen>(`${siteOf(slug)}/wall-screens`, wanted),
+    onRefused,
+  );
 export const useTurnOff = (slug: string) =>
   useChange(slug, (id: number) => api.delete(`${siteOf(slug)}/wall-screens/${id}`));
 export const useRevoke = (slug: string) =>

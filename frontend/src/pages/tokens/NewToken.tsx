@@ -6,6 +6,7 @@ import { SecretField } from "@/design/SecretField";
 import type { MadeToken, Site, TokenScope } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import styles from "./tokens.module.css";
 import { isFixed, scopesOf, useMakeToken } from "./tokens";
@@ -24,16 +25,17 @@ export function NewToken({ site, onMade, onClose }: Props) {
   const [name, setName] = useState("");
   const [days, setDays] = useState(90);
   const [scopes, setScopes] = useState<TokenScope[]>(["read"]);
-  const make = useMakeToken(site.slug);
+  const make = useMakeToken(site.slug, useTellUnseen());
   const chosen = scopesOf(site.role).filter((scope) => scope === "read" || scopes.includes(scope));
-  const send = () => make.mutate({ name: name.trim(), scopes: chosen, days }, { onSuccess: onMade });
+  /** The token is shown also to who has closed the form before it came: it is shown this one time. */
+  const send = () => make.mutateAsync({ name: name.trim(), scopes: chosen, days }).then(onMade, () => undefined);
   return (
     <Modal opened onClose={onClose} title={t("tokens.new")} size={480}>
       <form
         className={pages.form}
         onSubmit={(event) => {
           event.preventDefault();
-          send();
+          void send();
         }}
       >
         <TextInput

@@ -16,6 +16,7 @@ import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatAgo, formatMoment } from "@/i18n/format";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
+import { useTellUnseen } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import { SettingsTabs } from "../settings/SettingsTabs";
 import { TableSkeleton } from "../TableSkeleton";
@@ -87,10 +88,10 @@ function TokenTable({ tokens, choose }: { tokens: Token[]; choose: (token: Token
   );
 }
 
-function AskRevoke({ slug, token, onClose }: { slug: string; token: Token; onClose: () => void }) {
+export function AskRevoke({ slug, token, onClose }: { slug: string; token: Token; onClose: () => void }) {
   const { t } = useTranslation();
   useReturnFocus();
-  const revoke = useRevokeToken(slug);
+  const revoke = useRevokeToken(slug, useTellUnseen());
   const done = () => {
     notifications.show({ message: t("tokens.revoked", { name: token.name }) });
     onClose();

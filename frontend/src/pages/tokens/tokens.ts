@@ -9,18 +9,20 @@ const pathOf = (slug: string) => `/sites/${encodeURIComponent(slug)}/tokens`;
 export const useTokens = (slug: string) =>
   useQuery({ queryKey: keyOf(slug), queryFn: () => api.get<Token[]>(pathOf(slug)) });
 
-export function useMakeToken(slug: string) {
+export function useMakeToken(slug: string, onRefused: (error: Error) => void) {
   const queries = useQueryClient();
   return useMutation({
     mutationFn: (wanted: NewToken) => api.post<MadeToken>(pathOf(slug), wanted),
+    onError: onRefused,
     onSettled: () => queries.invalidateQueries({ queryKey: keyOf(slug) }),
   });
 }
 
-export function useRevokeToken(slug: string) {
+export function useRevokeToken(slug: string, onRefused: (error: Error) => void) {
   const queries = useQueryClient();
   return useMutation({
     mutationFn: (token: Token) => api.delete(`${pathOf(slug)}/${token.id}`),
+    onError: onRefused,
     onSettled: () => queries.invalidateQueries({ queryKey: keyOf(slug) }),
   });
 }

@@ -4,6 +4,7 @@ import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { AskedReview, Review } from "@/api/types";
 import type { Fact } from "@/design/FactList";
+import { useTellUnseen } from "../refusal";
 
 export type Verdict = "approved" | "changes" | "withdrawn";
 
@@ -38,6 +39,7 @@ export function useAskForReview(program: string, version: number | null, before?
       await before?.();
       return api.post<Review>(`${pathOf(program)}/ask`, { version, note });
     },
+    onError: useTellUnseen(),
     onSuccess: () => queries.invalidateQueries({ queryKey: keys.reviews }),
   });
 }

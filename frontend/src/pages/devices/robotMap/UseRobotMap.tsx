@@ -13,6 +13,7 @@ import { formatNumber, withUnit } from "@/i18n/format";
 import { differencePaths, sharedBox } from "@/map/floor/mapDifference";
 import { StaticMap } from "@/map/StaticMap";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import styles from "./robotmap.module.css";
 import { planOf } from "./robotPlan";
 
@@ -76,7 +77,7 @@ export function UseRobotMap({ site, device, map, onClose }: UseProps) {
   const { t } = useTranslation();
   useReturnFocus();
   const difference = useMapDifference(site.slug, device.id);
-  const change = useChangeMap(site.slug);
+  const change = useChangeMap(site.slug, useTellUnseen());
   const problem = change.error ?? difference.error;
   const { data } = difference;
   // Only what is on the screen is decided about: a newer map is shown first.
