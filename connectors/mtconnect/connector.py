@@ -14,7 +14,7 @@ from time import monotonic
 
 from connectors.mtconnect.agent import Agent
 from connectors.mtconnect.condition import MachineCondition
-from connectors.mtconnect.description import DescribedMachine, Stand, describe_machine
+from connectors.mtconnect.description import DescribedMachine, Stand, describe_machine, device_id
 from connectors.mtconnect.documents import BadDocument, Machine, Observation
 from connectors.mtconnect.follower import AgentEvent, AgentLost, Follower, MachinesListed, Observed
 from vipo_device.kit.connection import (
@@ -38,12 +38,16 @@ ONLY_READ = "This machine is only read over MTConnect; it cannot be told anythin
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """What all machines of a connector share; the first one stands at `stand`, the others in a row beside it."""
+    """What all machines of a connector share; the first one stands at `stand`, the others in a row beside it.
+
+    `name_device` gives one its id by the one that its uuid makes.
+    """
 
     site: str
     stand: Stand
     interval_s: float
     connect: ConnectionMaker
+    name_device: Callable[[str], str]
     clock: Callable[[], datetime]
 
 
@@ -157,8 +161,9 @@ class Connector:
             if uuid not in named:
                 device.lose()
         for place, (uuid, machine) in enumerate(named.items()):
+            name = self._setting.name_device(device_id(uuid))
             try:
-                described = describe_machine(machine, self._setting.site, self._stand(place))
+                described = describe_machine(machine, self._setting.site, self._stand(place), name)
             except BadDocument as error:
                 log.warning("%s", error)
                 continue

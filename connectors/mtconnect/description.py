@@ -106,16 +106,22 @@ class DescribedMachine:
 
 
 def device_id(uuid: str) -> str:
-    """Return the id of a machine's device; a hash keeps those apart that would look the same without it."""
+    """Return the id of a machine's device, before a site puts its own name before it.
+
+    A hash keeps those apart that would look the same without it.
+    """
     return fit_device_id(uuid, uuid)
 
 
-def describe_machine(machine: Machine, site: str, stand: Stand) -> DescribedMachine:
-    """Return how a machine shows itself: numbers first, as many as a description holds. Raises BadDocument."""
+def describe_machine(machine: Machine, site: str, stand: Stand, device: str) -> DescribedMachine:
+    """Return how a machine shows itself, as this device: numbers first, as many as a description holds.
+
+    Raises BadDocument.
+    """
     found = list(_readings(machine.items))
     shown = found[: MOST_PROPERTIES - len(OF_ALL)]
     while True:
-        description = _describe(machine, site, stand, shown)
+        description = _describe(machine, site, stand, device, shown)
         turtle = write_description(description).encode()
         if len(turtle) <= MAX_BYTES - 256 or not shown:
             break
@@ -144,9 +150,11 @@ def _availabilities(machine: Machine) -> frozenset[str]:
     return own or _of_type(machine, "AVAILABILITY")
 
 
-def _describe(machine: Machine, site: str, stand: Stand, shown: Iterable[tuple[Reading, PropertySpec]]) -> Description:
+def _describe(
+    machine: Machine, site: str, stand: Stand, device: str, shown: Iterable[tuple[Reading, PropertySpec]]
+) -> Description:
     return Description(
-        id=device_id(machine.uuid),
+        id=device,
         name=machine.name[:100],
         kind="machine",
         device_class="mtconnect",

@@ -129,14 +129,19 @@ def _action(fields: Fields) -> Action:
 
 
 def device_id(name: VehicleName) -> str:
-    """Return the id of a vehicle's device; a hash keeps those apart that would look the same without it."""
+    """Return the id of a vehicle's device, before a site puts its own name before it.
+
+    A hash keeps those apart that would look the same without it.
+    """
     plain = f"{name.manufacturer}-{name.serial_number}"
     return fit_device_id(plain, "/".join(name), is_unambiguous="-" not in name.manufacturer)
 
 
-def describe(name: VehicleName, sheet: Factsheet, home: Pose, site: str) -> Description:
-    """Return the description of a vehicle that was first seen at `home` (site frame). Raises BadMessage."""
-    device = device_id(name)
+def describe(name: VehicleName, sheet: Factsheet, home: Pose, site: str, device: str) -> Description:
+    """Return the description of a vehicle, as this device, that was first seen at `home` (site frame).
+
+    Raises BadMessage.
+    """
     description = Description(
         id=device,
         name=f"{name.manufacturer} {name.serial_number}"[:100],

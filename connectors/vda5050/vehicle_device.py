@@ -37,13 +37,14 @@ Publish = Callable[[VehicleName, str, bytes], None]
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """What all vehicles of a connector share."""
+    """What all vehicles of a connector share; `name_device` gives one its id by the one that its names make."""
 
     site: str
     frame: Frame
     station_type: str
     folder: Path
     connect: ConnectionMaker
+    name_device: Callable[[str], str]
     new_id: Callable[[], str]
     clock: Callable[[], datetime]
 
@@ -54,7 +55,7 @@ class VehicleDevice:
     def __init__(
         self, name: VehicleName, setting: Setting, publish: Publish, inbox: Callable[[ConnectionEvent], None]
     ) -> None:
-        self.name, self.id = name, device_id(name)
+        self.name, self.id = name, setting.name_device(device_id(name))
         self._publish = publish
         self.control: VehicleControl | None = None
         self._setting, self._inbox = setting, inbox
@@ -193,7 +194,7 @@ class VehicleDevice:
             return
         self._described_facts = facts
         home = self._memory.home or self._setting.frame.to_site(self._located.pose)
-        description = describe(self.name, self._sheet, home, self._setting.site)
+        description = describe(self.name, self._sheet, home, self._setting.site, self.id)
         vehicle = Vehicle(description, self._sheet, self._setting.frame, self._version, self._setting.station_type)
         self._memory.home, self._description = home, write_description(description).encode()
         if self.control is not None:

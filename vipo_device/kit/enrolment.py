@@ -25,7 +25,10 @@ PATIENCE_S = 5.0
 PAUSE_S = (5.0, 30.0)
 """So long a device waits before it brings its key again."""
 UNKNOWN = "%s has no key that is known: write one into secrets/devices.json, or name an enrolment key."
-PENDING = "%s is not let in at %s: it brings a key of its own, and waits for an admin. %s"
+PENDING = (
+    "%s is not let in at %s: it brings a key of its own, and waits for an admin, or was refused: "
+    "the site's What was done says why. %s"
+)
 GIVEN_KEYS = "A key that it was given belongs into secrets/devices.json."
 
 

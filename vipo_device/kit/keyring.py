@@ -70,6 +70,10 @@ class KeyRing:
         """Return the key to begin with, empty where none is known. Raises OSError."""
         return self._given.find_readable(device) or self._own.find_or_make(device)
 
+    def knows(self, device: str) -> bool:
+        """Tell whether a device has a key, whatever has become of it."""
+        return bool(self._given.find_readable(device) or self._own.find_readable(device))
+
     def keys(self, device: str) -> list[str]:
         """Return the keys that may be right now, the likeliest first. Raises OSError, ValueError."""
         return [self.first_key(device)]

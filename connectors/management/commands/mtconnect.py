@@ -15,7 +15,7 @@ from django.core.management.base import BaseCommand, CommandError
 from connectors.mtconnect.agent import Agent, read_address
 from connectors.mtconnect.connector import Connector, Setting
 from connectors.mtconnect.description import Stand
-from connectors.settings import connections
+from connectors.settings import add_prefix, connections, device_names
 from vipo_device.kit.shutdown import stop_on_signals
 from vipo_device.protocol.description import Pose, Size
 from vipo_device.protocol.errors import VipoError
@@ -34,6 +34,7 @@ class Command(BaseCommand):
     def add_arguments(self, parser: ArgumentParser) -> None:
         """Say what can be chosen."""
         parser.add_argument("--site", default=settings.VIPO_DEFAULT_SITE, help="the site's short name")
+        add_prefix(parser, "VIPO_MTCONNECT_PREFIX")
         parser.add_argument(
             "--agent",
             default=os.environ.get("VIPO_MTCONNECT_AGENT", ""),
@@ -61,11 +62,13 @@ def make_connector(options: dict[str, Any]) -> Connector:
         raise CommandError("--site must be a word of letters, digits, '_', '.' and '-'.")
     if not LEAST_INTERVAL_S <= interval_s <= MOST_INTERVAL_S:
         raise CommandError(f"--interval must lie between {LEAST_INTERVAL_S} and {MOST_INTERVAL_S:.0f} seconds.")
+    secrets = Path(settings.VIPO_STATE_DIR) / "secrets"
     setting = Setting(
         site=site,
         stand=read_stand(options["place"], options["size"]),
         interval_s=interval_s,
-        connect=connections(site, Path(settings.VIPO_STATE_DIR) / "secrets", "mtconnect"),
+        connect=connections(site, secrets, "mtconnect"),
+        name_device=device_names(site, secrets, "mtconnect", options["prefix"]),
         clock=lambda: datetime.now(UTC),
     )
     return Connector(make_agent(options), setting)

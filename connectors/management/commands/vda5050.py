@@ -15,7 +15,7 @@ from urllib.parse import unquote, urlsplit
 from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
-from connectors.settings import connections
+from connectors.settings import add_prefix, connections, device_names
 from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.fleet import Fleet
 from connectors.vda5050.vehicle_device import Setting
@@ -36,6 +36,7 @@ class Command(BaseCommand):
     def add_arguments(self, parser: ArgumentParser) -> None:
         """Say what can be chosen."""
         parser.add_argument("--site", default=settings.VIPO_DEFAULT_SITE, help="the site's short name")
+        add_prefix(parser, "VIPO_VDA5050_PREFIX")
         parser.add_argument("--interface", default="uagv", help="the first level of the vehicles' topics (uagv)")
         parser.add_argument(
             "--broker",
@@ -67,6 +68,7 @@ def make_fleet(options: dict[str, Any]) -> Fleet:
         station_type=options["station_type"],
         folder=folder / "vda5050" / site,
         connect=connections(site, folder / "secrets", "vda5050"),
+        name_device=device_names(site, folder / "secrets", "vda5050", options["prefix"]),
         new_id=lambda: uuid.uuid4().hex,
         clock=lambda: datetime.now(UTC),
     )

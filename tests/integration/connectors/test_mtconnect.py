@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import threading
 from collections.abc import Iterator
 from datetime import UTC, datetime
@@ -17,6 +18,8 @@ from connectors.mtconnect.connector import Connector, FollowerEnded, Setting
 from connectors.mtconnect.description import Stand
 from connectors.mtconnect.documents import BadDocument, Document
 from connectors.mtconnect.follower import AgentEvent, Follower, MachinesListed, Observed
+from registry import services as registry
+from registry.models import Device
 from tests.integration.connectors.agents import Handler, MachineConnector, Misbehaviour, ScriptedAgent
 from tests.kit.mqtt import Ear, ServerSide
 from tests.kit.servers import run_mosquitto
@@ -125,6 +128,26 @@ def _comes_and_goes(server: ServerSide, agent: ScriptedAgent) -> None:
     server.wait_state(Xact=0.008)
 
 
+@pytest.mark.django_db
+def test_a_machine_of_a_second_site_comes_with_an_id_that_the_site_takes(tmp_path: Path, agent: ScriptedAgent) -> None:
+    registry.create_site(name="Yard", slug="yard")
+    registry.create_site(name="Hall", slug="hall")
+    accounts = {"server": ACCOUNTS["server"], "join:hall": "the key of the door"}
+    with run_mosquitto(tmp_path, accounts) as vipo, Ear(vipo.port, accounts["server"], "vipo/v1/join/#") as ear:
+        connector = MachineConnector(tmp_path, vipo, f"http://127.0.0.1:{agent.port}/")
+        connector.start({"join": accounts["join:hall"]})
+        try:
+            asked = ear.wait(lambda h: h.topic.startswith("vipo/v1/join/hall/"), 60)
+        finally:
+            connector.kill()
+    device = asked.topic.rpartition("/")[2]
+    registry.enrol_device(site="hall", device_id=device, payload=asked.payload, at=datetime.now(UTC))
+    assert list(Device.objects.values_list("pk", "site__slug", "lifecycle")) == [(f"hall.{LATHE}", "hall", "pending")]
+    assert json.loads((tmp_path / "secrets" / "mtconnect-hall.json").read_text()) == {device: asked.json["key"]}
+    told = connector.log.read_text()
+    assert "waits for an admin, or was refused: the site's What was done says why." in told
+
+
 def test_what_is_missed_at_the_beginning_is_asked_again(agent: ScriptedAgent) -> None:
     """A probe without the picture that belongs to it is of no use: the next one counts."""
     agent.say("exec", "READY")
@@ -155,7 +178,7 @@ class BrokenAgent(Agent):
 def test_a_connector_that_does_not_follow_any_more_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(threading, "excepthook", lambda _: None)
     stand = Stand(Pose(0, 0), Size(1, 1, 1))
-    setting = Setting("hall", stand, 0.1, lambda *_: pytest.fail("no machine is known"), lambda: datetime.now(UTC))
+    setting = Setting("hall", stand, 0.1, lambda *_: pytest.fail("no machine is known"), str, lambda: datetime.now(UTC))
     with pytest.raises(FollowerEnded):
         Connector(BrokenAgent(read_address("http://127.0.0.1:1")), setting).run(Event())
 

@@ -13,7 +13,7 @@ from django.utils import timezone
 
 from connectors.mtconnect.agent import Agent, AgentAway, read_address
 from connectors.mtconnect.condition import MachineCondition
-from connectors.mtconnect.description import Stand, describe_machine
+from connectors.mtconnect.description import Stand, describe_machine, device_id
 from connectors.mtconnect.follower import AgentEvent, Follower, MachinesListed, Observed
 from registry import services
 from registry.devices import samples
@@ -58,7 +58,7 @@ def test_a_device_of_one_site_can_be_a_machine_of_another(told: Queue[AgentEvent
     probed = told.get(timeout=60)
     assert isinstance(probed, MachinesListed)
     (machine,) = probed.machines
-    described = describe_machine(machine, "other", Stand(Pose(0, 0), Size(1, 1, 1)))
+    described = describe_machine(machine, "other", Stand(Pose(0, 0), Size(1, 1, 1)), device_id(machine.uuid))
     assert (machine.uuid, machine.name) == ("urn:vipo:device:mixer1", "mixer1")
     assert [(p.name, p.type, p.unit) for p in described.description.properties[3:]] == [
         ("width", "number", "M"),

@@ -76,11 +76,11 @@ def test_a_new_device_makes_a_key_of_its_own_and_enrols_with_it(connector: Conne
     with Ear(connector.vipo.port, ACCOUNTS["server"], "vipo/v1/join/#") as ear:
         vehicle = VirtualVehicle(connector.vehicles_port, "new")
         try:
-            enrolled = ear.wait(lambda h: h.topic == "vipo/v1/join/hall/Acme-new", 60)
+            enrolled = ear.wait(lambda h: h.topic == "vipo/v1/join/hall/hall.Acme-new", 60)
         finally:
             vehicle.kill()
     kept = connector.folder / "secrets" / "vda5050-hall.json"
-    assert json.loads(kept.read_text()) == {"Acme-new": enrolled.json["key"]}
+    assert json.loads(kept.read_text()) == {"hall.Acme-new": enrolled.json["key"]}
     assert len(enrolled.json["key"]) == 32
     assert kept.stat().st_mode & 0o777 == 0o600
 

@@ -27,7 +27,7 @@ def fleet(tmp_path: Path) -> Fleet:
     """Return a connector that is not connected to anything."""
     never: Callable[..., Any] = lambda *_: None  # noqa: E731 - nothing is to connect
     at = datetime(2026, 1, 1, tzinfo=UTC)
-    setting = Setting("hall", Frame(), "floor", tmp_path, never, lambda: "id", lambda: at)
+    setting = Setting("hall", Frame(), "floor", tmp_path, never, lambda plain: plain, lambda: "id", lambda: at)
     client = MqttClient(host="127.0.0.1", port=1, username="", password="", client_id="fleet")
     return Fleet(client, "uagv", setting)
 

@@ -35,7 +35,7 @@ def asked() -> list[tuple[str, Any]]:
 @pytest.fixture
 def member(tmp_path: Path, asked: list[tuple[str, Any]]) -> Iterator[VehicleDevice]:
     at = datetime(2026, 1, 1, tzinfo=UTC)
-    setting = Setting("hall", Frame(), "floor", tmp_path, away, lambda: "id", lambda: at)
+    setting = Setting("hall", Frame(), "floor", tmp_path, away, lambda plain: plain, lambda: "id", lambda: at)
     member = VehicleDevice(
         NAME, setting, lambda _, topic, body: asked.append((topic, json.loads(body))), lambda _: None
     )

@@ -31,7 +31,7 @@ def machine_of(*devices: str, version: str = "1.2") -> Machine:
 
 @pytest.fixture
 def lathe() -> MachineCondition:
-    return MachineCondition(describe_machine(machine_of(), "hall", STAND))
+    return MachineCondition(describe_machine(machine_of(), "hall", STAND, "M8010-1"))
 
 
 def hear(condition: MachineCondition, *told: str, version: str = "1.2") -> dict[str, Any]:
@@ -45,7 +45,7 @@ def hear(condition: MachineCondition, *told: str, version: str = "1.2") -> dict[
 
 @pytest.mark.parametrize("version", ["1.2", "1.7", "2.0"])
 def test_a_machine_describes_itself_by_its_probe(version: str) -> None:
-    described = describe_machine(machine_of(version=version), "hall", STAND)
+    described = describe_machine(machine_of(version=version), "hall", STAND, "M8010-1")
     found = read_description(described.turtle, device_id="M8010-1")
     assert (found.name, found.kind, found.site, found.methods) == ("Lathe", "machine", "hall", ())
     assert (found.pose, found.size) == (STAND.pose, STAND.size)
@@ -121,6 +121,7 @@ def test_the_largest_machine_fits_into_a_description_and_a_state() -> None:
         machine_of(f'<Device uuid="{"é" * 300}" name="{"n" * 300}"><DataItems>{items}</DataItems></Device>'),
         "hall",
         STAND,
+        device_id("é" * 300),
     )
     assert len(described.turtle) <= MAX_BYTES
     assert 20 < len(described.readings) <= 61

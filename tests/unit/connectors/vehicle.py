@@ -9,7 +9,7 @@ from typing import Any
 
 from connectors.vda5050.control import Send, VehicleControl
 from connectors.vda5050.coordinates import Frame
-from connectors.vda5050.factsheet import describe, read_factsheet
+from connectors.vda5050.factsheet import describe, device_id, read_factsheet
 from connectors.vda5050.messages import VehicleName, VehicleState, read_state
 from connectors.vda5050.tasks import Vehicle
 from tests.integration.connectors.factsheet import FACTSHEET
@@ -62,7 +62,7 @@ def make_vehicle(without: str = "", frame: Frame | None = None, more: Sequence[d
     actions = [*(a for a in features["agvActions"] if a["actionType"] != without), *more]
     sheet = read_factsheet(payload({**HEADER, **FACTSHEET}, protocolFeatures={**features, "agvActions": actions}), NAME)
     frame = frame or Frame()
-    return Vehicle(describe(NAME, sheet, Pose(0.0, 0.0), "hall"), sheet, frame, "2.0.0")
+    return Vehicle(describe(NAME, sheet, Pose(0.0, 0.0), "hall", device_id(NAME)), sheet, frame, "2.0.0")
 
 
 class Bench:

@@ -61,7 +61,7 @@ def test_the_connectors_command_line_is_one() -> None:
     assert words[1:4] == [".venv/bin/python", "manage.py", "vda5050"]
     assert (told.site, told.broker) == ("painting-factory", "mqtt://vipo@10.0.0.5:1883")
     table = re.findall(r"^\| `(--[a-z-]+)", (DOCS / "devices" / "vda5050.md").read_text(), re.MULTILINE)
-    assert table == ["--broker", "--interface", "--origin", "--station-type"]
+    assert table == ["--broker", "--prefix", "--interface", "--origin", "--station-type"]
     assert set(table) <= set(Command().create_parser("", "")._option_string_actions)
 
 

@@ -58,7 +58,8 @@ def test_a_device_without_a_known_key_brings_the_one_it_has(tmp_path: Path, capl
     assert [refuse(vehicle), refuse(vehicle)] == [own, own]
     assert desk.brought == [("Acme-1", own)] * 2
     assert caplog.messages[1:] == [
-        "Acme-1 is not let in at hall: it brings a key of its own, and waits for an admin. "
+        "Acme-1 is not let in at hall: it brings a key of its own, and waits for an admin, or was refused: "
+        "the site's What was done says why. "
         "A key that it was given belongs into secrets/devices.json."
     ]
 
