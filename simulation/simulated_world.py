@@ -56,6 +56,8 @@ class SimulatedWorld:
         self._nearness = NearnessWatch(layout, self._motions)
         self._actors = {**self._by_kind.machines, **self._by_kind.robots}
         self._delivery_s = scene.delivery_s
+        here = frozenset(self._actors)
+        self._delivered = here if scene.delivered is None else scene.delivered & here
         self._due_s: dict[str, float] = {}
         self._asked_s = 0.0
         self._ticks = 0
@@ -185,6 +187,8 @@ class SimulatedWorld:
 
     def _deliver(self, t_s: float, after_s: float) -> None:
         for name, machine in self._by_kind.machines.items():
+            if name not in self._delivered:
+                continue
             goods = machine.wanted_stock()
             if goods is None:
                 self._due_s.pop(name, None)
@@ -192,7 +196,7 @@ class SimulatedWorld:
                 del self._due_s[name]
                 machine.set_stock(t_s, goods)
         for name, robot in self._by_kind.robots.items():
-            if not robot.is_flat:
+            if name not in self._delivered or not robot.is_flat:
                 self._due_s.pop(name, None)
             elif t_s >= self._due_s.setdefault(name, t_s + after_s):
                 robot.change_battery(t_s)

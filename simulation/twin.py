@@ -20,7 +20,7 @@ from simulation.services import DriverName, make_world
 from simulation.site_facts import NothingToSimulate, SiteFacts, SiteUnread
 from simulation.twin_memory import TwinMemory, read_memory, snapshot, write_memory
 from simulation.virtual_device import Appearance, VirtualDevice, look_at
-from simulation.world import Ack, Obstacle, Scene, World
+from simulation.world import DELIVERY_S, Ack, Obstacle, Scene, World
 from vipo_device.kit.connection import (
     CommandReceived,
     ConnectionEvent,
@@ -41,7 +41,6 @@ REFRESH_EVERY_S = 5.0
 LOOK_EVERY_S = 1.0
 """How often it is looked what people have put on the floor: a robot drives about a metre meanwhile."""
 WARN_EVERY_S = 60.0
-DELIVERY_S = 60.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,8 @@ from vipo_device.protocol.messages import AckStatus, is_final
 
 MOST_SEED = 2**31 - 1
 """The largest seed that can be asked for; the least is 0, which leaves nothing to chance in rehearsals."""
+DELIVERY_S = 60.0
+"""After so long people see to a simulated machine that is empty or full."""
 FaultKind = Literal[
     "stop", "fail_next", "offline", "lose_ack", "late", "dead", "deaf", "doubled", "wrong_value", "drops", "battery",
     "obstacle",
@@ -78,7 +80,8 @@ class Scene:
 
     `stocks` says what each machine holds, `poses` where a robot stands (its description says where it is at home),
     `carrying` what it carries, `readings` what properties show. After `delivery_s` (none: never) an empty source is
-    filled, a full sink is emptied and a robot whose battery is empty gets a full one, as people would do. `bodiless`
+    filled, a full sink is emptied and a robot whose battery is empty gets a full one, as people would do; where
+    `delivered` is said, that is done to these devices alone. `bodiless`
     machines are not in anybody's way. `remembered` are the final answers that devices would give again, oldest first.
     `kinds` say how devices behave (none: those that VIPO comes with); the seed 0 leaves nothing to chance, each
     other one is a course of its own. `paces` say, by device and method, how many times as long as that something takes:
@@ -95,6 +98,7 @@ class Scene:
     carrying: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
     readings: Mapping[str, Mapping[str, Scalar]] = field(default_factory=dict)
     delivery_s: float | None = None
+    delivered: frozenset[str] | None = None
     bodiless: frozenset[str] = frozenset()
     remembered: Mapping[str, Sequence[Ack]] = field(default_factory=dict)
     kinds: Sequence[Kind] | None = None

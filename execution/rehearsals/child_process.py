@@ -50,6 +50,8 @@ def scene_to_json(scene: Scene, places: Sequence[PlaceFacts], zones: Sequence[Zo
         "poses": {device: asdict(pose) for device, pose in scene.poses.items()},
         "carrying": {device: dict(load) for device, load in scene.carrying.items()},
         "readings": {device: dict(values) for device, values in scene.readings.items()},
+        "delivery_s": scene.delivery_s,
+        "delivered": None if scene.delivered is None else sorted(scene.delivered),
         "faults": faults_to_json(scene.faults),
         "paces": {device: dict(paces) for device, paces in scene.paces.items()},
         "idless": sorted(scene.idless),
@@ -57,7 +59,7 @@ def scene_to_json(scene: Scene, places: Sequence[PlaceFacts], zones: Sequence[Zo
 
 
 def scene_from_json(data: Mapping[str, Any]) -> tuple[Scene, tuple[PlaceFacts, ...], tuple[ZoneFacts, ...]]:
-    """Read what `scene_to_json` wrote; jobs that wait since before there were zones have none."""
+    """Read what `scene_to_json` wrote; jobs that wait since before there were zones or deliveries have none."""
     grid = Grid(**{**data["grid"], "cells": zlib.decompress(base64.b64decode(data["grid"]["cells"]))})
     devices: list[Description] = [description_from_json(device) for device in data["devices"]]
     scene = Scene(
@@ -68,6 +70,8 @@ def scene_from_json(data: Mapping[str, Any]) -> tuple[Scene, tuple[PlaceFacts, .
         poses={device: Pose(**pose) for device, pose in data["poses"].items()},
         carrying=data["carrying"],
         readings=data["readings"],
+        delivery_s=data.get("delivery_s"),
+        delivered=None if data.get("delivered") is None else frozenset(data["delivered"]),
         faults=read_faults(data["faults"]) if "faults" in data else (),
         paces=data.get("paces", {}),
         idless=frozenset(data.get("idless", ())),

@@ -23,6 +23,7 @@ from execution.errors import NotFound, NotPossibleNow, TooManyRehearsals
 from execution.floor.layouts import place_facts
 from execution.mirror.calibrations import find_paces
 from execution.models import Lease, Rehearsal
+from execution.rehearsals.beginnings import beginning_readings
 from execution.rehearsals.child_process import scene_to_json
 from execution.rehearsals.queue_order import Entry, order_fairly
 from execution.rehearsals.recording_file import write_json, write_mcap
@@ -30,7 +31,7 @@ from execution.rehearsals.views import RehearsalView, view_rehearsal
 from execution.runs.programs import Prepared
 from registry import services as registry
 from simulation.fault_form import check_faults, read_faults
-from simulation.world import Scene
+from simulation.world import DELIVERY_S, Scene
 
 QUEUE = "rehearsals"
 RUNNING = Rehearsal.Status.RUNNING
@@ -117,7 +118,10 @@ def order_of_queue() -> tuple[UUID, ...]:
 
 
 def _scene(prepared: Prepared, seed: int, faults: Mapping[str, Any] | None) -> dict[str, Any]:
-    """Return the site as it stands: its approved devices where they are, with what they hold."""
+    """Return the site as it stands: its approved devices where they are, with what they hold and what they show.
+
+    Simulated sources and sinks are seen to as the twin does, once they are empty or full; nobody knows of the others.
+    """
     site = prepared.site
     devices = registry.list_devices(site=site, lifecycle="approved")
     places = [place_facts(place) for place in registry.list_places(site=site)]
@@ -129,7 +133,9 @@ def _scene(prepared: Prepared, seed: int, faults: Mapping[str, Any] | None) -> d
         faults=() if faults is None else read_faults(faults),
         poses={name: robot.pose for name, robot in robots.items()},
         carrying={name: robot.carrying for name, robot in robots.items()},
-        readings={d.id: {"battery": d.readings["battery"]} for d in robots.values() if "battery" in d.readings},
+        readings={d.id: begin for d in devices if (begin := beginning_readings(d))},
+        delivery_s=DELIVERY_S,
+        delivered=frozenset(d.id for d in devices if d.kind == "machine" and d.played.simulated),
         paces=find_paces(site=site),
         idless=frozenset(d.id for d in devices if d.only_done_flag),
     )

@@ -222,7 +222,7 @@ def shown_stock(
     """Return what a machine holds as far as its readings show it; None where they do not."""
     stock, free = readings.get("stock"), readings.get("freeSlots")
     if isinstance(stock, int | float) and len(description.gives) == 1:
-        return {description.gives[0]: int(stock)}
+        return {description.gives[0]: max(0, int(stock))}
     places = slots or _declared_slots(description)
     if isinstance(free, int | float) and len(description.takes) == 1 and places:
         return {description.takes[0]: max(0, places - int(free))}

@@ -15,14 +15,12 @@ from simulation.stand_ins.hand_overs import HandOver, HandOvers
 from simulation.stand_ins.shared_connection import SharedConnection
 from simulation.twin_memory import TwinMemory, read_memory, snapshot, write_memory
 from simulation.virtual_device import VirtualDevice, look_at
-from simulation.world import Ack, Obstacle, Scene, World, open_floor
+from simulation.world import DELIVERY_S, Ack, Obstacle, Scene, World, open_floor
 from vipo_device.kit.connection import CommandReceived, ConnectionEvent, IntroductionDue, StopChanged
 from vipo_device.protocol.description import Description, Pose, Scalar
 from vipo_device.protocol.loads import read_load
 from vipo_device.protocol.messages import AckMessage
 
-DELIVERY_S = 60.0
-"""After so long people would have filled an empty source and emptied a full sink."""
 SLICE_S = 0.25
 PATIENCE_S = 3.0
 MakeWorld = Callable[[Scene], World]

@@ -17,7 +17,10 @@ from execution.errors import NotFound, NotPossibleNow
 from execution.models import Rehearsal
 from execution.reasons import cause_of
 from execution.rehearsals import worker
+from execution.rehearsals.child_process import scene_from_json
 from registry.models import Device
+from simulation.services import make_world
+from simulation.world import DELIVERY_S
 from tests.integration.execution.rehearsals.conftest import ENDLESS, SHORT, queue, row, wait_until
 from tests.kit.programs import SITE, describe_anew
 from tests.kit.waiting import wait_for
@@ -56,6 +59,47 @@ def test_a_robot_that_stands_elsewhere_charges_at_its_home_once_it_is_there(fact
     assert result["robots"]["robot01"]["battery"] > 80
     assert result["robots"]["robot02"]["distance_m"] > 10, "it is sent to its dock"
     assert result["robots"]["robot02"]["battery"] > 80
+
+
+def test_a_rehearsal_begins_with_what_devices_hold_and_show(factory):
+    """A machine at work keeps what it holds and how warm it is; what does not fit its description is left out."""
+    counts = {"itemInventory01": "stock", "paintInventory01": "stock", "dropOff01": "freeSlots"}
+    counts |= dict.fromkeys(("curingOven01", "paintMixer02"), "jobStatus")
+    for device, name in counts.items():
+        said = Device.objects.get(pk=device).description
+        spec = PropertySpec(name, "number", "", 0, 100 if name == "jobStatus" else 9)
+        describe_anew(device, said | {"properties": [*said["properties"], asdict(spec)]})
+    for device, shown in {
+        "itemInventory01": {"stock": 2},
+        "paintInventory01": {"stock": -3},
+        "dropOff01": {"freeSlots": 4},
+        "curingOven01": {"temperature": 90.0, "quality": 7, "jobStatus": 100, "unheard of": 1},
+    }.items():
+        Device.objects.filter(pk=device).update(properties=shown, done=True)
+    Device.objects.filter(pk="paintMixer02").update(properties={"temperature": 30.0, "jobStatus": 57}, done=False)
+    queue(SHORT, driver="kinematic")
+    scene, *_ = scene_from_json(row(str(Rehearsal.objects.get().id)).job["scene"])
+    assert scene.readings["curingOven01"] == {"temperature": 90.0, "jobStatus": 100}
+    assert scene.readings["paintMixer02"] == {"temperature": 30.0}
+    world = make_world(scene=scene, driver="kinematic")
+    begun = {name: world.stocks()[name] for name in ("itemInventory01", "paintInventory01", "dropOff01")}
+    assert begun == {"itemInventory01": {"box": 2}, "paintInventory01": {"can": 0}, "dropOff01": {"box": 5}}
+    assert world.readings()["curingOven01"]["temperature"] == 90.0
+    world.advance(DELIVERY_S + 10.0)
+    assert world.stocks()["paintInventory01"] == {"can": 9}, "people fill a simulated source in the twin, too"
+    assert 50.0 < world.readings()["curingOven01"]["temperature"] < 85.0
+
+
+def test_nobody_fills_a_real_source_in_a_rehearsal(factory):
+    said = Device.objects.get(pk="paintInventory01").description
+    stock = asdict(PropertySpec("stock", "number", "", 0, 9))
+    describe_anew("paintInventory01", said | {"simulated": False, "properties": [stock]})
+    Device.objects.filter(pk="paintInventory01").update(properties={"stock": 0})
+    queue(SHORT, driver="kinematic")
+    scene, *_ = scene_from_json(row(str(Rehearsal.objects.get().id)).job["scene"])
+    world = make_world(scene=scene, driver="kinematic")
+    world.advance(DELIVERY_S * 3)
+    assert world.stocks()["paintInventory01"] == {"can": 0}
 
 
 def test_a_program_that_never_ends_says_so_within_the_limit_and_where_it_was(factory, settings):
