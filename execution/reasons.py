@@ -48,6 +48,11 @@ SENTENCES: Mapping[str, str] = {
     "body_stands": (
         "The real {body} stands where {robot} has to pass to {target}. Let it be moved, or use the real one again."
     ),
+    "no_turning": (
+        "{robot} stands where it has no room to turn: it needs {room} m to all sides. "
+        "Drive it by hand to about ({point})."
+    ),
+    "cut_off": "No way leads to where {robot} stands. Drive it by hand to about ({point}).",
     "no_standing": (
         "No robot can stand at {place}; there is no free side that it can reach. The map's floor check says why."
     ),

@@ -134,7 +134,7 @@ class _Rehearsal:
         facts |= self._stations() | self._surroundings()
         for event in self.world.advance(0.0):  # faults that are there from the first moment on
             self.recorder.note_world(event)
-        self._report_poses()
+        self._report_standing()
         self.state, actions = machine.start(self.plan, self.parameters, facts, watch=self.watch)
         self._do_run(actions)
         self._settle()
@@ -217,6 +217,12 @@ class _Rehearsal:
         if news:
             self.run_events.append(r.Facts(news))
         return bool(news)
+
+    def _report_standing(self) -> None:
+        """Report where the robots are, as in a run: physics has already pushed off the wall who stands too near."""
+        for name in self.world.robots():
+            pose = self.layout.devices[name].pose
+            self.floor_events.append(m.RobotMoved(name, pose.x, pose.y, pose.theta))
 
     def _report_poses(self) -> None:
         for name, robot in self.world.robots().items():

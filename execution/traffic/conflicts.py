@@ -10,7 +10,7 @@ from execution.traffic.doors import report_stuck, shut_door, why_not_waited_for
 from execution.traffic.floor_state import Door, Robot
 from execution.traffic.layout import Node
 from execution.traffic.messages import FloorZone
-from execution.traffic.path_release import cut_path, may_enter, set_path
+from execution.traffic.path_release import cut_path, may_enter, set_path, why_stranded
 from execution.traffic.route_points import path_along, points_ahead, set_points
 from execution.traffic.turn import Turn
 from execution.traffic.zones import cells_of, closed_cells, in_the_way, kept_out, path_for
@@ -202,6 +202,8 @@ def _go_round(turn: Turn, robot: Robot) -> None:
 
 def make_room_for(turn: Turn, robot: Robot, other: Robot) -> bool:
     """Send a standing robot off another's path: home if it is free, else to the nearest cell that is; tell if so."""
+    if why_stranded(turn, robot):
+        return False
     if robot.run == "" and _go_home(turn, robot, set(_ahead(turn, other))):
         return True
     return _evade(turn, robot, other)
@@ -267,5 +269,5 @@ def send_home(turn: Turn) -> None:
     for robot in list(turn.robots.values()):
         rested = turn.now - robot.idle_since >= HOME_AFTER_S
         free = robot.online and robot.run == "" and robot.path and turn.is_idle(robot) and rested and not turn.stopped
-        if free and turn.node(robot) not in turn.layout.docks:
+        if free and turn.node(robot) not in turn.layout.docks and not why_stranded(turn, robot):
             _go_home(turn, robot, set())

@@ -21,7 +21,7 @@ from execution.traffic.floor_state import FloorTask, Robot, Sent
 from execution.traffic.layout import NoSuchSpot, Spot
 from execution.traffic.messages import RoleBound, RoleReleased
 from execution.traffic.path_planner import plan_path
-from execution.traffic.path_release import cut_path, set_path
+from execution.traffic.path_release import cut_path, set_path, why_stranded
 from execution.traffic.precedence import Waiting, in_groups, note_behind
 from execution.traffic.route_points import leads_along, path_along, points_ahead, set_points
 from execution.traffic.turn import Turn
@@ -199,6 +199,9 @@ def _dispatch_with(turn: Turn, task: FloorTask, robot: Robot) -> None:
         return
     if task.order.kind == "perform":
         _perform(turn, task, robot)
+        return
+    if why := why_stranded(turn, robot):
+        turn.finish(task, "blocked", why)
         return
     if task.order.kind == "cover":
         cover(turn, task, robot)

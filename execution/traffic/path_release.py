@@ -15,7 +15,8 @@ from execution.traffic.path_planner import drawn
 from execution.traffic.route_points import pass_points
 from execution.traffic.turn import Turn
 from execution.traffic.zones import enters_at, in_the_way, leads_through, speed_limit, take_zones
-from registry.floorplan.lattice import Point, attach
+from registry.floorplan.lattice import STANDING_MARGIN_M, Point, attach
+from vipo_device.kit.arguments import ASTRAY_M
 
 AHEAD = 4
 """Nodes that a robot may be released ahead of where it is."""
@@ -54,6 +55,25 @@ def _nearest_node(turn: Turn, robot: Robot) -> Node:
     if _can_stand(turn, here):
         return f"@{here[0]:.3f},{here[1]:.3f}"
     return (cells or [min(layout.lattice.links, default=0)])[0]
+
+
+def why_stranded(turn: Turn, robot: Robot) -> str:
+    """Return why a robot at rest cannot be sent anywhere, or an empty text.
+
+    No way begins so near that it would drive there: robots refuse to drive straight on to one that is farther off,
+    which may lead through walls.
+    """
+    begin, here = turn.layout.point(turn.node(robot)), (robot.x, robot.y)
+    if turn.is_driving(robot) or hypot(begin[0] - here[0], begin[1] - here[1]) <= ASTRAY_M:
+        return ""
+    name, point = turn.name(robot.id), f"{begin[0]:.2f}, {begin[1]:.2f}"
+    room_m = turn.layout.ground.radius_m + STANDING_MARGIN_M
+    if turn.layout.ground.room_m(here) < room_m:
+        return (
+            f"{name} stands where it has no room to turn: it needs {room_m:.2f} m to all sides. "
+            f"Drive it by hand to about ({point})."
+        )
+    return f"No way leads to where {name} stands. Drive it by hand to about ({point})."
 
 
 def _can_stand(turn: Turn, point: Point) -> bool:

@@ -117,3 +117,42 @@ def test_what_was_kept_before_lines_went_through_doors_is_numbered_otherwise_and
     floor.run_until(lambda: floor.over)
     assert floor.over == {("a", 1): ("", "")}
     assert hypot(floor.at["robot01"][0] - goal[0], floor.at["robot01"][1] - goal[1]) < 0.1
+
+
+def test_a_robot_that_stands_too_far_from_every_way_is_sent_nowhere_and_its_step_says_why():
+    """It would refuse the way: straight on to where it begins may lead through a wall."""
+    layout = make_layout(hall(), robots(0.6, 1))
+    floor = PretendFloor(layout, {"robot01": (0.2, 5.0)})
+    go(floor, "r", (12.0, 7.0), "robot01")
+    for _ in range(100):
+        floor.pass_time()
+    begin = layout.point(floor.state.robots["robot01"].path[0])
+    assert floor.sent == []
+    assert floor.over["r", 1] == (
+        "blocked",
+        f"{layout.name('robot01')} stands where it has no room to turn: it needs 0.62 m to all sides. "
+        f"Drive it by hand to about ({begin[0]:.2f}, {begin[1]:.2f}).",
+    )
+    floor.tell(m.RunOver("r"))
+    floor.at["robot01"] = begin
+    floor.pass_time()
+    go(floor, "again", (12.0, 7.0), "robot01")
+    floor.run_until(lambda: len(floor.over) == 2)
+    assert floor.over["again", 1] == ("", "")
+
+
+def test_a_robot_in_a_room_to_which_no_way_leads_is_told_from_one_without_room():
+    grid = hall()
+    shut = bytearray(grid.cells)
+    for row in range(grid.height):
+        shut[row * grid.width + 40] = OCCUPIED
+    layout = make_layout(replace(grid, cells=bytes(shut)), robots(0.3, 1))
+    floor = PretendFloor(layout, {"robot01": (2.0, 7.0)})
+    go(floor, "r", (12.0, 7.0), "robot01")
+    begin = layout.point(floor.state.robots["robot01"].path[0])
+    assert floor.over["r", 1] == (
+        "blocked",
+        f"No way leads to where {layout.name('robot01')} stands. Drive it by hand to about "
+        f"({begin[0]:.2f}, {begin[1]:.2f}).",
+    )
+    assert floor.sent == []
