@@ -21,15 +21,18 @@ _UNSAYABLE = re.compile("[^\\t\\n\\r\\x20-\\ud7ff\\ue000-\\ufffd\\U00010000-\\U0
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """How a reading in a QUDT unit is said in MTConnect: its type, MTConnect's unit, and what to multiply with."""
+    """How a reading in a QUDT unit is said in MTConnect: its type, MTConnect's unit, what to multiply with and add."""
 
     type: str
     units: str
     factor: float = 1.0
+    offset: float = 0.0
 
 
 MEASURES: Mapping[str, Measure] = {
     "DEG_C": Measure("TEMPERATURE", "CELSIUS"),
+    "DEG_F": Measure("TEMPERATURE", "CELSIUS", 5 / 9, -160 / 9),
+    "K": Measure("TEMPERATURE", "CELSIUS", offset=-273.15),
     "PERCENT": Measure("LOAD", "PERCENT"),
     "M": Measure("DISPLACEMENT", "MILLIMETER", 1000.0),
     "CentiM": Measure("DISPLACEMENT", "MILLIMETER", 10.0),
@@ -127,7 +130,7 @@ def say_value(item: DataItem, value: Scalar) -> str:
         return str(value).lower() if isinstance(value, bool) else sayable(str(value))
     if isinstance(value, bool) or not isinstance(value, int | float):
         return UNAVAILABLE
-    measured = float(value) * item.measure.factor
+    measured = float(value) * item.measure.factor + item.measure.offset
     return repr(round(measured, 6)) if isfinite(measured) else UNAVAILABLE
 
 

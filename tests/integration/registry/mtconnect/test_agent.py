@@ -22,8 +22,13 @@ from vipo_device.protocol.description import PropertySpec
 
 SCHEMAS = ROOT / "tests" / "fixtures" / "mtconnect"
 ADDRESS = "/api/sites/hall/mtconnect"
+OTHER_TEMPERATURES = {"DEG_F", "K"}
 PROPERTIES = (
-    *(PropertySpec(f"in_{unit.replace('-', '_')}", "number", unit) for unit in MEASURES),
+    *(
+        PropertySpec(f"in_{unit.replace('-', '_')}", "number", unit)
+        for unit in MEASURES
+        if unit not in OTHER_TEMPERATURES
+    ),
     PropertySpec("lid", "text"),
     PropertySpec("wet", "boolean"),
     PropertySpec("stock", "number"),
