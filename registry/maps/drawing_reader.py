@@ -11,6 +11,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import re
 import resource
 import sys
 from collections import Counter
@@ -43,6 +44,9 @@ SAG = 0.002
 """How far a line may cut a curve short, as a share of the curve's size."""
 METRES = {1: 0.0254, 2: 0.3048, 4: 0.001, 5: 0.01, 6: 1.0, 10: 0.9144, 14: 0.1}
 """What a drawing's unit is by $INSUNITS: inches, feet, millimetres, centimetres, metres, yards, decimetres."""
+VERSION = re.compile(rb"\$ACADVER[ \t]*\r?\n[ \t]*1[ \t]*\r?\n[ \t]*(AC\d{4})[ \t]*\r?\n")
+UTF8_SINCE = b"AC1021"
+"""From this version on texts are UTF-8, also where no code page is named (AutoCAD 2007)."""
 END_BYTES = b" \t\r\n\0\x1a"
 """What may stand behind the mark at a drawing's end."""
 DRAWN = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
@@ -154,7 +158,7 @@ def read_drawing(data: bytes) -> dict[str, Any]:
     if b"SECTION" not in data:
         raise Refused(broken)
     try:
-        drawing, audit = recover.read(io.BytesIO(data))
+        drawing, audit = recover.read(io.BytesIO(with_code_page(data)))
     except (DXFError, OSError, ValueError, TypeError, LookupError, AttributeError, ArithmeticError) as error:
         raise Refused(broken) from error
     reader = Reader(drawing)
@@ -166,6 +170,21 @@ def read_drawing(data: bytes) -> dict[str, Any]:
         raise Refused(_why_empty(reader) if is_whole else broken)
     unit = drawing.header.get("$INSUNITS", 0)
     return {"metres": METRES.get(unit), "layers": list(_told(reader.layers)), "skipped": dict(reader.skipped)}
+
+
+def with_code_page(data: bytes) -> bytes:
+    """Return a drawing in UTF-8 with a code page, which ezdxf wants to see before it takes texts as such.
+
+    What is no UTF-8, though its version asks for that, is read as before.
+    """
+    version = VERSION.search(data)
+    if version is None or version[1] < UTF8_SINCE or b"$DWGCODEPAGE" in data:
+        return data
+    try:
+        data.decode()
+    except UnicodeDecodeError:
+        return data
+    return data[: version.end()] + b"  9\n$DWGCODEPAGE\n  3\nANSI_1252\n" + data[version.end() :]
 
 
 def _why_empty(reader: Reader) -> str:

@@ -2,6 +2,7 @@
 
 import io
 import os
+import re
 from itertools import pairwise
 
 import ezdxf
@@ -45,6 +46,21 @@ def test_the_unit_is_the_headers_or_to_be_asked(unit, metres):
     drawing, space = new(unit)
     space.add_line((0, 0), (1, 0))
     assert read_drawing(packed(drawing))["metres"] == metres
+
+
+@pytest.mark.parametrize("ends", [b"\n", b"\r\n"])
+@pytest.mark.parametrize(
+    ("version", "coding", "name"),
+    [("R2010", "utf-8", "MÖBEL"), ("R2010", "latin-1", "MÖBEL"), ("R2000", "latin-1", "MÖBEL")],
+)
+def test_names_of_layers_are_read_where_no_code_page_is_named(version, coding, name, ends):
+    drawing = ezdxf.new(version)
+    drawing.modelspace().add_line((0, 0), (1, 0), dxfattribs={"layer": name})
+    text = packed(drawing).decode()
+    named = re.search(r"  9\n\$DWGCODEPAGE\n  3\n\w+\n", text)
+    without = (text[: named.start()] + text[named.end() :]).encode(coding)
+    (layer,) = read_drawing(without.replace(b"\n", ends))["layers"]
+    assert (layer["name"], layer["lines"]) == (name, [[0, 0, 1, 0]])
 
 
 def test_curves_become_lines_that_stay_near_them():
