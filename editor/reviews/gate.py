@@ -81,7 +81,7 @@ def _refusal(standing: Standing) -> NotApproved:
             facts,
         )
     return NotApproved(
-        f"This site demands {standing.needed} approvals of what runs on its devices; {len(standing.approved)} of them "
-        "are there for the program as it is. Ask for a review of it, then start it again.",
+        f"What runs on this site's devices needs approvals: {standing.needed}. For the program as it is there are "
+        f"{len(standing.approved)}. Ask for a review of it, then start it again.",
         facts,
     )

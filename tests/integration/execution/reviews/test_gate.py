@@ -179,7 +179,7 @@ def test_a_refusal_names_what_is_missing_and_how_to_mend_it(team: Team) -> None:
         "not_approved", {"why": "approvals", "needed": 2, "given": 1, "by": ["Bob Person"]},
     )  # fmt: skip
     assert told["detail"] == (
-        "This site demands 2 approvals of what runs on its devices; 1 of them are there for the program as it is. "
+        "What runs on this site's devices needs approvals: 2. For the program as it is there are 1. "
         "Ask for a review of it, then start it again."
     )
 
