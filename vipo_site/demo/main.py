@@ -8,13 +8,11 @@ and so is each rehearsal.
 from __future__ import annotations
 
 import argparse
-import errno
 import json
 import logging
 import os
 import shutil
 import signal
-import socket
 import sys
 import threading
 from collections.abc import Callable
@@ -26,6 +24,7 @@ from daphne.server import Server  # installs Twisted's asyncio reactor, so it co
 from django.core.exceptions import ImproperlyConfigured
 
 from vipo_device.protocol.errors import VipoError
+from vipo_site.demo.broker import any_free_port, port_is_free, start_broker
 from vipo_site.demo.children import HOST, Part, say, start_children
 from vipo_site.http import MOST_MESSAGE_BYTES
 
@@ -38,26 +37,6 @@ EMPTY = "empty"
 
 class CannotStart(Exception):
     """The demo cannot start; the message says why and what to do."""
-
-
-def port_is_free(port: int) -> bool:
-    """Tell whether nothing listens on the port of this machine."""
-    with socket.socket() as probe:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            probe.bind((HOST, port))
-        except OSError as error:
-            if error.errno in {errno.EADDRINUSE, errno.EACCES}:
-                return False
-            raise
-        return True
-
-
-def any_free_port() -> int:
-    """Return a port that nothing listens on."""
-    with socket.socket() as probe:
-        probe.bind((HOST, 0))
-        return int(probe.getsockname()[1])
 
 
 def read_arguments(arguments: list[str]) -> argparse.Namespace:
@@ -93,7 +72,9 @@ def check_arguments(options: argparse.Namespace) -> None:
 
 def set_environment(options: argparse.Namespace) -> None:
     """Say to the settings what this start is; child processes inherit it."""
-    mqtt_port = int(os.environ.get("VIPO_MQTT_PORT", 0)) or (MQTT_PORT if port_is_free(MQTT_PORT) else any_free_port())
+    asked = int(os.environ.get("VIPO_MQTT_PORT", 0))
+    options.any_mqtt_port = not asked
+    mqtt_port = asked or (MQTT_PORT if port_is_free(MQTT_PORT) else any_free_port())
     os.environ.update(
         VIPO_MODE="embedded",
         VIPO_DEMO="1",
@@ -188,14 +169,6 @@ def start_loop(name: str, run: Callable[[threading.Event], None]) -> Part:
     return Part(name, stop)
 
 
-def start_broker() -> Part:
-    """Run the MQTT broker in a thread."""
-    from vipo_site.embedded_broker.server import start_broker as start
-
-    handle = start(port=int(os.environ["VIPO_MQTT_PORT"]), host=HOST)
-    return Part("broker", handle.stop)
-
-
 def greet(options: argparse.Namespace, state: Path) -> None:
     """Say where the demo is and who can sign in."""
     from django.conf import settings
@@ -228,7 +201,7 @@ def start_parts(options: argparse.Namespace, state: Path) -> list[Part]:
     from execution.stand_ins.stand_ins import StandIns
     from registry.services import HeartbeatWriter
 
-    parts = [start_broker(), *start_workers()]
+    parts = [start_broker(any_port=options.any_mqtt_port), *start_workers()]
     gateway = HeartbeatWriter("gateway", settings.VIPO_GATEWAY)
     ticker, mirror, stand_ins = HeartbeatWriter("ticker"), HeartbeatWriter("mirror"), HeartbeatWriter("stand-ins")
     heartbeats = (("gateway", gateway), ("ticker", ticker), ("mirror", mirror), ("stand-ins", stand_ins))

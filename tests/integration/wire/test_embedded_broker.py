@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import socket
 import threading
 import time
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 
@@ -14,6 +16,7 @@ from tests.integration.wire.raw import Raw, connect
 from tests.kit.mqtt import Ear
 from tests.kit.waiting import wait_for
 from vipo_device.protocol.mqtt_client import MqttClient
+from vipo_site.demo import broker as demo
 from vipo_site.embedded_broker.server import EmbeddedBroker, PortInUse, start_broker
 
 WORDS = {"robot01": "one", "mixer01": "two"}
@@ -251,3 +254,23 @@ def talk_until_closed(talker: socket.socket) -> None:
             talker.sendall(bytes([0x30, len(body)]) + body)
     except OSError:
         return
+
+
+def test_the_demo_takes_another_port_if_somebody_has_taken_its_own_meanwhile(
+    broker: EmbeddedBroker, monkeypatch: pytest.MonkeyPatch, settings: Any
+) -> None:
+    """Unless it was said which one."""
+    settings.VIPO_MQTT = {**settings.VIPO_MQTT, "port": broker.port}
+    settings.VIPO_BROKER_URL = ""
+    monkeypatch.setenv("VIPO_MQTT_PORT", str(broker.port))
+    monkeypatch.delenv("VIPO_BROKER_URL", raising=False)
+    with pytest.raises(PortInUse):
+        demo.start_broker(any_port=False)
+    part = demo.start_broker(any_port=True)
+    try:
+        port = int(os.environ["VIPO_MQTT_PORT"])
+        assert port != broker.port
+        assert (settings.VIPO_MQTT["port"], settings.VIPO_BROKER_URL) == (port, f"mqtt://127.0.0.1:{port}/")
+        assert not demo.port_is_free(port)
+    finally:
+        part.stop()
