@@ -52,7 +52,7 @@ function useOrders({ run, onProblem, onDone }: RunActionsProps) {
   return { busy, send };
 }
 
-/** Pause, resume and cancel; where there is little room only those that can be pressed. */
+/** Pause, resume and cancel; where there is little room only those that can be pressed, on a tablet by their signs. */
 export function RunActions(props: RunActionsProps) {
   const { t } = useTranslation();
   const [asking, setAsking] = useState(false);
@@ -62,12 +62,13 @@ export function RunActions(props: RunActionsProps) {
   const order = (what: Order, icon: ReactNode, possible: boolean) => (
     <Button
       variant="default"
-      className={possible ? undefined : styles.spare}
+      className={`${styles.order} ${possible ? "" : styles.spare}`}
+      title={t(`run.${what}`)}
       leftSection={icon}
       disabled={busy || !possible}
       onClick={() => send(what)}
     >
-      {t(`run.${what}`)}
+      <span className={styles.words}>{t(`run.${what}`)}</span>
     </Button>
   );
   if (["finished", "failed", "cancelled"].includes(run.status)) return <BackToEditor program={run.program.id} />;
@@ -76,8 +77,14 @@ export function RunActions(props: RunActionsProps) {
     <>
       {order("pause", <Pause size={16} aria-hidden />, !paused)}
       {order("resume", <Play size={16} aria-hidden />, paused)}
-      <Button variant="default" className={styles.cancel} leftSection={<X size={16} />} onClick={() => setAsking(true)}>
-        {t("run.cancel")}
+      <Button
+        variant="default"
+        className={`${styles.order} ${styles.cancel}`}
+        title={t("run.cancel")}
+        leftSection={<X size={16} aria-hidden />}
+        onClick={() => setAsking(true)}
+      >
+        <span className={styles.words}>{t("run.cancel")}</span>
       </Button>
       <CancelDialog opened={asking} onClose={() => setAsking(false)} onCancel={() => send("cancel")} />
     </>

@@ -142,9 +142,6 @@ function RunTop({ view, onProblem }: { view: RunView; onProblem: (problem: strin
         <span className={styles.chips}>
           {run.version !== null && <Chip mono>v{run.version}</Chip>}
           {run.archived && <Chip>{t("run.archived")}</Chip>}
-          {site?.simulated && <Chip>{t("run.simulated")}</Chip>}
-          {view.simulated.size > 0 && <Simulated view={view} />}
-          <RunTerms run={run} now={view.now} />
         </span>
       }
       actions={
@@ -158,6 +155,18 @@ function RunTop({ view, onProblem }: { view: RunView; onProblem: (problem: strin
     >
       <RunPill run={run} elapsed_s={elapsedSeconds(run, view.now)} now={view.now} />
     </TopBar>
+  );
+}
+
+/** What is not usual about the run, over its steps: the bar has no room for it. Empty where there is nothing. */
+function Facts({ view }: { view: RunView }) {
+  const { t } = useTranslation();
+  return (
+    <div className={styles.facts}>
+      {view.site?.simulated && <Chip>{t("run.simulated")}</Chip>}
+      {view.simulated.size > 0 && <Simulated view={view} />}
+      <RunTerms run={view.run} now={view.now} />
+    </div>
   );
 }
 
@@ -176,6 +185,7 @@ function Side({ view }: { view: RunView }) {
   const measured = useMemo(() => byStep(measurements ?? []), [measurements]);
   return (
     <aside className={styles.side}>
+      <Facts view={view} />
       <RunSteps
         lines={lines}
         current={view.over ? null : currentStep(lines)}

@@ -40,7 +40,7 @@ export function TopBar({ site, crumbs, chips, children, presence, actions }: Top
             {crumbs}
           </nav>
         ) : null}
-        {chips ? <div className={styles.group}>{chips}</div> : null}
+        {chips ? <div className={`${styles.group} ${styles.facts}`}>{chips}</div> : null}
         <div className={styles.middle}>{children}</div>
         <div className={styles.spring} />
         <div className={styles.middle}>
