@@ -7,6 +7,7 @@ import { useDevices, useMe, useProgram, useSite, useSiteMap } from "@/api/querie
 import { mayOperate } from "@/api/roles";
 import type { Device, Program, Site, User } from "@/api/types";
 import { activityWords } from "@/i18n/activity";
+import { useAsHeld } from "@/live/held";
 import { useSiteLive } from "@/live/site";
 import { isRobot, progressOf } from "@/map/devices/device";
 import { useEditorText, useScene } from "@/program/canvas/useScene";
@@ -31,6 +32,7 @@ export function EditorScreen() {
   const slug = program.data?.site;
   const site = useSite(slug);
   const devices = useDevices(slug);
+  const told = useAsHeld(devices.data);
   const me = useMe();
   useSiteLive(slug);
   useTitle(program.data?.name);
@@ -44,12 +46,12 @@ export function EditorScreen() {
   const failed = missing(program, site, devices);
   if (failed)
     return <Failed error={failed} again={() => void [program, site, devices].map((read) => read.refetch())} />;
-  if (!program.data || !site.data || !devices.data || !shared) return <p className={classes.wait}>{t("opening")}</p>;
+  if (!program.data || !site.data || !told || !shared) return <p className={classes.wait}>{t("opening")}</p>;
   return (
     <Loaded
       program={program.data}
       site={site.data}
-      devices={devices.data}
+      devices={told}
       shared={shared}
       canEdit={canEdit}
       user={user}

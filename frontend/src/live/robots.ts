@@ -4,6 +4,7 @@ import { waitWords } from "@/i18n/waits";
 import { statusOf } from "@/map/devices/device";
 import { interpolatePose, type RobotSource, type RobotView } from "@/map/robots/robots";
 import { ownEntry } from "@/design/ownEntry";
+import { asHeld } from "./held";
 import { poseOf } from "./readings";
 import { useLiveStore } from "./store";
 
@@ -17,10 +18,14 @@ export const liveRobots: RobotSource = (now) => {
   return told.views;
 };
 
-function read(now: number, { deviceById, traffic, copies }: ReturnType<typeof useLiveStore.getState>): RobotView[] {
+function read(
+  now: number,
+  { deviceById, traffic, copies, held }: ReturnType<typeof useLiveStore.getState>,
+): RobotView[] {
   const views: RobotView[] = [];
-  for (const device of Object.values(deviceById)) {
-    if (device.kind !== "robot") continue;
+  for (const known of Object.values(deviceById)) {
+    if (known.kind !== "robot") continue;
+    const device = asHeld(known, held);
     const pair = poseOf(device.id);
     const pose = pair ? interpolatePose(pair.previous, pair.current, now) : device.location;
     const path = ownEntry(traffic, device.id);

@@ -28,6 +28,8 @@ export interface LiveState {
   /** The mirror's copies of robots at work, by their ids. */
   copies: Readonly<Record<string, CopyPose>>;
   stop: SiteStop | null;
+  /** Who has something to do and stands, while the site is stopped. */
+  held: readonly string[];
   /** The last ones, oldest first. */
   notices: readonly Notice[];
 }
@@ -40,6 +42,7 @@ export const EMPTY: LiveState = {
   traffic: {},
   copies: {},
   stop: null,
+  held: [],
   notices: [],
 };
 

@@ -4,6 +4,7 @@ import { useDevices, useSiteMap } from "@/api/queries";
 import { type GrowingTimeline, useRunTimeline } from "@/api/runs";
 import { mayOperate } from "@/api/roles";
 import type { Device, Run, Site } from "@/api/types";
+import { useAsHeld } from "@/live/held";
 import { type AboutMoment, useRunComments } from "./comments/useRunComments";
 import { isSimulated } from "./RunSteps";
 import { useJournalLines } from "./journalLines";
@@ -48,7 +49,7 @@ function momentOfRun(run: Run, t_s: number): number {
 
 /** All that the parts of the screen show of a run. */
 export function useRunView({ run, site }: LoadedProps) {
-  const devices = useDevices(run.site).data ?? NO_DEVICES;
+  const devices = useAsHeld(useDevices(run.site).data) ?? NO_DEVICES;
   const map = useSiteMap(run.site).data ?? null;
   const journal = useJournalLines(run.id);
   const timeline = useRunTimeline(run.id).data ?? NO_TIMELINE;

@@ -18,7 +18,7 @@ const LOOK_MS = 2000;
  */
 function useOpenCall(site: Site, device: Device): MethodCall | undefined {
   const mine = (calls: MethodCall[] | undefined) => calls?.find((each) => each.device === device.id);
-  const isBusy = device.lifecycle === "approved" && device.status === "busy";
+  const isBusy = device.lifecycle === "approved" && ["busy", "waiting"].includes(device.status);
   const calls = useQuery({
     queryKey: ["open-calls", site.slug],
     queryFn: () => api.get<MethodCall[]>(`/sites/${site.slug}/calls`),

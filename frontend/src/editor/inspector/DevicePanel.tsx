@@ -15,6 +15,7 @@ import { TryButton } from "@/device/methods/TryButton";
 import { LiveProperties } from "@/device/readings/LiveProperties";
 import { activityWords } from "@/i18n/activity";
 import { formatAge } from "@/i18n/format";
+import { useAsHeld } from "@/live/held";
 import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import { chipLabel } from "@/program/scene/announcements";
 import { DeviceAlerts } from "@/shell/alerts/DeviceAlerts";
@@ -41,7 +42,7 @@ function close(): void {
 export function DevicePanel({ id }: { id: string }) {
   const { site, t } = useOpenProgram();
   // As it is now: what the drawing knows of devices changes only with what is drawn.
-  const device = useDevices(site.slug).data?.find((each) => each.id === id);
+  const device = useAsHeld(useDevices(site.slug).data)?.find((each) => each.id === id);
   return (
     <aside className={classes.panel} aria-label={t("device_panel.label")}>
       <header className={classes.head}>

@@ -4,6 +4,7 @@ import { Cpu, Download } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useParams } from "react-router-dom";
+import { useAsHeld } from "@/live/held";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { missing } from "@/api/failed";
@@ -91,7 +92,8 @@ export function DevicesPage() {
   const { slug = "", id } = useParams();
   const site = useSite(slug);
   const devices = useDevices(slug);
-  const chosen = devices.data?.find((device) => device.id === id);
+  const told = useAsHeld(devices.data);
+  const chosen = told?.find((device) => device.id === id);
   const problem = missing(site, devices);
   return (
     <PageShell
@@ -111,7 +113,7 @@ export function DevicesPage() {
       ) : null}
       {!problem && (site.isPending || devices.isPending) ? <TableSkeleton rows={10} /> : null}
       {id && devices.data && !chosen ? <NoSuchDevice slug={slug} id={id} /> : null}
-      {site.data && devices.data ? <Registry site={site.data} devices={devices.data} chosen={chosen?.id} /> : null}
+      {site.data && told ? <Registry site={site.data} devices={told} chosen={chosen?.id} /> : null}
     </PageShell>
   );
 }

@@ -9,6 +9,7 @@ import { StatusGlyph } from "@/design/StatusGlyph";
 import { activityWords } from "@/i18n/activity";
 import { formatClock } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
+import { useAsHeld } from "@/live/held";
 import { outerProgress, stepLines } from "@/run/stepList";
 import { secondsOfRun, statusOfRun, underWay } from "../runs/runStatus";
 import { useNow } from "@/design/useNow";
@@ -58,7 +59,7 @@ export function LiveNow({ slug }: { slug: string }) {
   const { t } = useTranslation();
   const known = useOpenRuns(slug).data;
   const runs = underWay(known ?? [], useNow());
-  const devices = (useDevices(slug).data ?? [])
+  const devices = (useAsHeld(useDevices(slug).data) ?? [])
     .filter((device) => TELLING.includes(device.status))
     .sort((a, b) => TELLING.indexOf(a.status) - TELLING.indexOf(b.status));
   return (

@@ -13,6 +13,7 @@ import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
 import { formatNumber, formatPoint, withUnit } from "@/i18n/format";
 import { StaticMap } from "@/map/StaticMap";
+import { useAsHeld } from "@/live/held";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { type Point, toPixels } from "@/map/plane/projection";
@@ -139,7 +140,7 @@ function MapView({ site, map, mode, change, stopMeasuring }: MapViewProps) {
   const check = useFloorCheckView(site.slug, map, mode === null);
   const asked = map.places.find((each) => each.id === query.get("place"));
   const layers = useLayers(site.slug, map, { on: mode === null, asked: asked?.id ?? null });
-  const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
+  const devices = (useAsHeld(useDevices(site.slug).data) ?? []).filter((device) => device.lifecycle !== "retired");
   const measure = useMeasuring(map, devices, stopMeasuring !== null);
   const movable = mode === "machines" ? devices.filter((device) => device.kind === "machine") : [];
   const bare = useMemo(() => ({ ...map, places: [] }), [map]);

@@ -7,6 +7,7 @@ import type { Device, SiteMap } from "@/api/types";
 import { useNow } from "@/design/useNow";
 import { activityWords } from "@/i18n/activity";
 import { formatNumber, formatTime, withUnit } from "@/i18n/format";
+import { asHeld } from "@/live/held";
 import { poseOf } from "@/live/readings";
 import { liveRobots } from "@/live/robots";
 import { useLiveStore } from "@/live/store";
@@ -23,11 +24,11 @@ interface LiveSceneProps {
 
 /** How the devices are, by the live store and, where that has not told yet, by what was last known. */
 function look(devices: readonly Device[], now_ms: number): Seen {
-  const { deviceById } = useLiveStore.getState();
+  const { deviceById, held } = useLiveStore.getState();
   const robots: Record<string, Seen["robots"][string]> = {};
   const machines: Record<string, boolean> = {};
   for (const known of devices) {
-    const device = ownEntry(deviceById, known.id) ?? known;
+    const device = asHeld(ownEntry(deviceById, known.id) ?? known, held);
     const { x, y, theta } = device.location;
     if (device.kind === "robot") robots[device.id] = { pose: [x, y, theta], carrying: device.carrying, route: [] };
     else machines[device.id] = device.status === "busy";

@@ -2,6 +2,7 @@
 import { act, fireEvent, screen } from "@testing-library/react";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient } from "@/api/queries";
+import type { Device } from "@/api/types";
 import { EMPTY, useLiveStore } from "@/live/store";
 import { show, testsPages } from "@/testing/page";
 import { StopAllButton } from "./StopAllButton";
@@ -33,4 +34,19 @@ test.each([
   fireEvent.click(screen.getByText("Stopped"));
   await act(() => new Promise<void>((done) => setTimeout(done)));
   expect(sent).toEqual(wanted);
+});
+
+test("the dialog tells robots that stand as held", async () => {
+  const known = { id: "robot", name: "Robin", kind: "robot", lifecycle: "approved", status: "busy", properties: [] };
+  const activity = { code: "driving", args: {} };
+  const device = { ...known, doing: "Driving", activity, carrying: {}, location: { x: 0, y: 0, z: 0, theta: 0 } };
+  const queries = makeQueryClient();
+  queries.setQueryData(keys.site("hall"), SITE);
+  queries.setQueryData(keys.devices("hall"), [device]);
+  const deviceById = { robot: device as unknown as Device };
+  useLiveStore.setState({ ...EMPTY, site: "hall", connection: "live", deviceById });
+  useLiveStore.setState({ stop: SITE.stop });
+  show(<StopAllButton slug="hall" />, queries);
+  expect(await screen.findByText("Held", {}, { timeout: 10_000 })).toBeDefined();
+  expect(screen.queryByText("Driving")).toBeNull();
 });

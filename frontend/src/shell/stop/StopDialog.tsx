@@ -7,6 +7,7 @@ import type { Device, Site } from "@/api/types";
 import { StatusBadge } from "@/design/StatusBadge";
 import { activityWords } from "@/i18n/activity";
 import { formatMoment } from "@/i18n/format";
+import { useAsHeld } from "@/live/held";
 import { HoldButton } from "./HoldButton";
 import styles from "./stop.module.css";
 
@@ -36,7 +37,7 @@ function Robots({ devices }: { devices: Device[] }) {
 
 export function StopDialog({ site, opened, busy, onReset, onClose }: StopDialogProps) {
   const { t } = useTranslation();
-  const devices = useDevices(opened ? site.slug : undefined).data ?? [];
+  const devices = useAsHeld(useDevices(opened ? site.slug : undefined).data) ?? [];
   const robots = devices.filter((device) => device.kind === "robot" && device.lifecycle === "approved");
   const { by, at } = site.stop;
   const who = by ?? t("shell.stop.somebody");

@@ -1,0 +1,59 @@
+/** Devices that have something to do and stand, because their site is stopped: they are told as held. */
+import { useMemo } from "react";
+import type { Device } from "@/api/types";
+import { poseOf, readingsOf } from "./readings";
+import { useLiveStore } from "./store";
+
+/** So long a robot's place has not changed when it stands, and a machine's progress when it does nothing. */
+const ROBOT_STILL_MS = 2000;
+const MACHINE_STILL_MS = 10_000;
+const LOOK_MS = 500;
+const DOING = ["driving", "working", "working_percent"];
+
+let timer: ReturnType<typeof setTimeout> | undefined;
+const told = new WeakMap<Device, Device>();
+
+/** Whether a device is seen to stand; of a machine that tells no progress nobody knows. */
+function isStill({ id, kind }: Device, now: number): boolean {
+  if (kind === "robot") {
+    const pose = poseOf(id);
+    return !pose?.previous || now - pose.current.at >= ROBOT_STILL_MS;
+  }
+  const progress = readingsOf(id, "jobStatus");
+  const [before, last] = [progress.at(-2), progress.at(-1)];
+  if (!before || !last) return last !== undefined;
+  return now - (before.value === last.value ? before : last).at >= MACHINE_STILL_MS;
+}
+
+/** Look who stands, and again while anybody who has something to do still moves. */
+function look(): void {
+  clearTimeout(timer);
+  const { stop, deviceById, held } = useLiveStore.getState();
+  const busy = stop?.active ? Object.values(deviceById).filter(({ status }) => status === "busy") : [];
+  const still = busy.filter((device) => isStill(device, performance.now())).map(({ id }) => id);
+  if (still.join() !== held.join()) useLiveStore.setState({ held: still });
+  if (still.length < busy.length) timer = setTimeout(look, LOOK_MS);
+}
+
+useLiveStore.subscribe((state, before) => {
+  if (state.stop !== before.stop || state.deviceById !== before.deviceById) look();
+});
+look(); // of pages that need this late, such as the dialog of a stop
+
+/** A device as screens tell it: one that is held waits, whatever it has told of its work. */
+export function asHeld(device: Device, held: readonly string[]): Device {
+  if (device.status !== "busy" || !held.includes(device.id)) return device;
+  let waits = told.get(device);
+  if (!waits) {
+    const isDoing = device.activity && DOING.includes(device.activity.code);
+    waits = { ...device, status: "waiting", ...(isDoing ? { activity: { code: "held", args: {} } } : null) };
+    told.set(device, waits);
+  }
+  return waits;
+}
+
+/** Devices of the site that is looked at, as screens tell them. */
+export function useAsHeld(devices: Device[] | undefined): Device[] | undefined {
+  const held = useLiveStore((state) => state.held);
+  return useMemo(() => (held.length > 0 ? devices?.map((each) => asHeld(each, held)) : devices), [devices, held]);
+}
