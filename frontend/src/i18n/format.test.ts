@@ -6,6 +6,7 @@ import {
   formatClock,
   formatNumber,
   formatPoint,
+  formatReading,
   formatSpan,
   formatTimeOfDay,
   withUnit,
@@ -26,6 +27,13 @@ test("numbers follow the language", async () => {
   expect(formatNumber(1234.5, 1)).toBe("1,234.5");
   await i18next.changeLanguage("de");
   expect(formatNumber(1234.5, 1)).toBe("1.234,5");
+});
+
+test("small readings are told with the figures that they have, and none is a zero with a sign", async () => {
+  const told = [0.04, -0.0004, 1.5708, 62.34567, 22.5, 87, 1013.25, 123456, -0, 3.21e-7].map(formatReading);
+  expect(told).toEqual(["0.04", "-0.0004", "1.571", "62.35", "22.5", "87", "1,013.3", "123,456", "0", "3.21E-7"]);
+  await i18next.changeLanguage("de");
+  expect(formatReading(-0.0004)).toBe("-0,0004");
 });
 
 test("the numbers of a place can be told apart in every language", async () => {

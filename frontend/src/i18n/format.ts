@@ -12,6 +12,9 @@ const STEPS: readonly [Intl.RelativeTimeFormatUnit, number][] = [
   ["year", Infinity],
 ];
 
+/** What is smaller is written as `3.2E-7`. */
+const SMALLEST_PLAIN = 1e-5;
+
 /** By language and digits: making one takes longer than a frame's whole painting of a robot. */
 const numberFormats = new Map<string, Intl.NumberFormat>();
 
@@ -23,6 +26,14 @@ export function formatNumber(value: number, digits = 0): string {
     numberFormats.set(key, format);
   }
   return format.format(value);
+}
+
+/** A device's reading, which may be of any size: four figures below 1,000, then a tenth at most; never `-0`. */
+export function formatReading(value: number): string {
+  const size = Math.abs(value);
+  const digits: Intl.NumberFormatOptions = size < 1000 ? { maximumSignificantDigits: 4 } : { maximumFractionDigits: 1 };
+  const notation = size > 0 && size < SMALLEST_PLAIN ? "scientific" : "standard";
+  return new Intl.NumberFormat(i18next.language, { ...digits, notation, signDisplay: "negative" }).format(value);
 }
 
 /** A size in bytes, in the largest unit of 1,000 that fits. */

@@ -4,7 +4,7 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, DeviceProperty, Site } from "@/api/types";
 import { StatusBadge } from "@/design/StatusBadge";
-import { formatNumber } from "@/i18n/format";
+import { formatReading } from "@/i18n/format";
 import { unitSign } from "@/i18n/units";
 import { useNow } from "@/design/useNow";
 import { isOnline } from "../online";
@@ -17,8 +17,8 @@ const COLOURS = ["var(--busy)", "var(--machine)", "var(--brand)", "var(--logic)"
 /** A device that says nothing new for so long is online, but nothing flows. */
 const STREAMING_MS = 3000;
 
-function shown({ value, type }: DeviceProperty): string {
-  if (typeof value === "number") return formatNumber(value, type === "integer" || Number.isInteger(value) ? 0 : 1);
+function shown({ value }: DeviceProperty): string {
+  if (typeof value === "number") return formatReading(value);
   return value === null || value === "" ? "–" : String(value);
 }
 

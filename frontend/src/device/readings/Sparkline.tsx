@@ -2,7 +2,7 @@
 import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Series } from "@/api/types";
-import { formatNumber } from "@/i18n/format";
+import { formatReading } from "@/i18n/format";
 import { readingsOf, type Reading } from "@/live/readings";
 import { cornersOf, joinReadings, rangeOf, sparkPath } from "./spark";
 import { RANGE_MS, useHistory, type Range } from "./useHistory";
@@ -55,8 +55,7 @@ export function Sparkline({ slug, device, property, range, colour }: SparklinePr
   const path = sparkPath(readings, frame);
   if (!path) return null;
   const { low, high } = rangeOf(readings, frame);
-  const digits = [low, high].every(Number.isInteger) ? 0 : 1;
-  const words = { low: formatNumber(low, digits), high: formatNumber(high, digits) };
+  const words = { low: formatReading(low), high: formatReading(high) };
   return (
     <figure className={styles.spark}>
       <svg width={WIDTH} height={HEIGHT + 4} viewBox={`0 -2 ${WIDTH + 3} ${HEIGHT + 4}`} aria-hidden="true">

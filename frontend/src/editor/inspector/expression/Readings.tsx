@@ -1,6 +1,7 @@
 /** The current readings that a value looks at, straight from the live store. */
 import { useLiveStore } from "@/live/store";
 import { ownEntry } from "@/design/ownEntry";
+import { formatReading } from "@/i18n/format";
 import { readingsOf } from "../../edits/conditions";
 import type { Value } from "@/program/document/document";
 import { withUnit } from "@/program/words/stepWords";
@@ -25,10 +26,10 @@ export function Reading({ device, name }: { device: string; name: string }) {
   );
 }
 
-/** A reading as it is now, numbers to a tenth. */
+/** A reading as it is now, in the words of the screen. */
 export function useReading(device: string, name: string) {
   return useLiveStore((live) => {
     const found = ownEntry(live.deviceById, device)?.properties.find((each) => each.name === name)?.value;
-    return typeof found === "number" ? Math.round(found * 10) / 10 : (found ?? null);
+    return typeof found === "number" ? formatReading(found) : (found ?? null);
   });
 }
