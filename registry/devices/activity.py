@@ -53,11 +53,17 @@ def _busy(seen: Seen) -> Activity:
 def _idle(seen: Seen) -> Activity:
     stock, slots = seen.readings.get("stock"), seen.readings.get("freeSlots")
     if isinstance(stock, int | float):
-        name = (seen.description.gives or ("object",))[0]
-        return Activity("stock", counted(round(stock), name), {"count": round(stock), "object": name})
+        return _stock(round(stock), seen.description.gives)
     if isinstance(slots, int | float):
         return Activity("slots", f"{slots:.0f} slots free", {"count": round(slots)})
     return Activity("ready", "Ready")
+
+
+def _stock(count: int, gives: tuple[str, ...]) -> Activity:
+    if len(gives) == 1:
+        return Activity("stock", counted(count, gives[0]), {"count": count, "object": gives[0]})
+    # Of a device that gives several things nobody knows how many of each it has.
+    return Activity("objects", counted(count, "object"), {"count": count})
 
 
 def counted(count: int, name: str) -> str:

@@ -32,6 +32,13 @@ test("what a device is doing is said in the language of the screen", async () =>
   expect([activityWords(carries), activityWords(has)]).toEqual(["Carrying 1 box, 2 cans", "3 boxes"]);
 });
 
+test("what a device has in store that gives several things is so many objects", async () => {
+  const has = (count: number) => ({ doing: "", activity: { code: "objects", args: { count } } });
+  expect([activityWords(has(12)), activityWords(has(1))]).toEqual(["12 Objekte", "1 Objekt"]);
+  await i18next.changeLanguage("en");
+  expect([activityWords(has(12)), activityWords(has(1))]).toEqual(["12 objects", "1 object"]);
+});
+
 test("a device's own words stay as they are, in quotes; an unknown code leaves the server's words", () => {
   expect(activityWords({ doing: "Lid open", activity: { code: "said", args: { text: "Lid open" } } })).toBe(
     "„Lid open“",

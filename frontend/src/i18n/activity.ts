@@ -39,8 +39,10 @@ function wordsOf(doer: Doer): string {
 
 /** What it does, without that; the server's own words where the screens do not know the code. */
 export function doingWords({ doing, activity }: Doer): string {
-  if (!activity || !i18next.exists(`device.doing.${activity.code}`)) return doing;
+  if (!activity) return doing;
   const { args } = activity;
+  const count = typeof args.count === "number" ? args.count : undefined;
+  if (!i18next.exists(`device.doing.${activity.code}`, { count })) return doing;
   const load = Object.entries(args).map(([name, count]) => countedWords(Number(count), name));
   return i18next.t(`device.doing.${activity.code}`, {
     ...args,

@@ -11,6 +11,7 @@ from registry.devices.activity import Activity, Seen, activity_of
 from vipo_device.protocol.description import Description, Pose, Size
 
 MIXER = Description("mixer", "Mixer", "machine", "mixer", Pose(0, 0), Size(1, 1, 1), gives=("box",))
+SHELF = replace(MIXER, gives=("pot", "vase"))
 ROBOT = replace(MIXER, kind="robot", gives=())
 
 
@@ -31,6 +32,8 @@ ROBOT = replace(MIXER, kind="robot", gives=())
         (MIXER, {"done": False}, Activity("working", "Working")),
         (ROBOT, {"done": False}, Activity("driving", "Driving")),
         (MIXER, {"readings": {"stock": 3}}, Activity("stock", "3 boxes", {"count": 3, "object": "box"})),
+        (SHELF, {"readings": {"stock": 12}}, Activity("objects", "12 objects", {"count": 12})),
+        (ROBOT, {"readings": {"stock": 1}}, Activity("objects", "1 object", {"count": 1})),
         (MIXER, {"readings": {"freeSlots": 2}}, Activity("slots", "2 slots free", {"count": 2})),
         (MIXER, {}, Activity("ready", "Ready")),
     ],
