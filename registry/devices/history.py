@@ -40,7 +40,7 @@ SENTENCES: Mapping[str, str] = {
     "retired": "Retired",
     "readmitted": "May come back",
     "revoked": "Its key was revoked",
-    "credential": "Got a new key",
+    "credential": "New key given",
     "knocked": "Enrolled with the enrolment key and brought a key of its own",
     "online": "Came online",
     "offline": "Left",

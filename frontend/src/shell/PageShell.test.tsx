@@ -45,7 +45,7 @@ function openPage(slug: string) {
 test("the page of a site closes when its member is removed, and says why", () => {
   openPage("hall");
   act(() => Line.all[0]?.onclose?.({ code: 4403 }));
-  expect(screen.getByRole("main").textContent).toContain("You are no member of this site any more");
+  expect(screen.getByRole("main").textContent).toContain("Your access to this site has ended");
   expect(screen.getByRole("main").textContent).not.toContain("Carla");
 });
 
