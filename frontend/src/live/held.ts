@@ -1,7 +1,7 @@
 /** Devices that have something to do and stand, because their site is stopped: they are told as held. */
 import { useMemo } from "react";
 import type { Device } from "@/api/types";
-import { poseOf, readingsOf } from "./readings";
+import { poseOf, readingsOf, type PosePair } from "./readings";
 import { useLiveStore } from "./store";
 
 /** So long a robot's place has not changed when it stands, and a machine's progress when it does nothing. */
@@ -13,12 +13,14 @@ const DOING = ["driving", "working", "working_percent"];
 let timer: ReturnType<typeof setTimeout> | undefined;
 const told = new WeakMap<Device, Device>();
 
+/** Whether a robot with these last two poses stands. */
+export function standsAt(pose: PosePair | undefined, now: number): boolean {
+  return !pose?.previous || now - pose.current.at >= ROBOT_STILL_MS;
+}
+
 /** Whether a device is seen to stand; of a machine that tells no progress nobody knows. */
 function isStill({ id, kind }: Device, now: number): boolean {
-  if (kind === "robot") {
-    const pose = poseOf(id);
-    return !pose?.previous || now - pose.current.at >= ROBOT_STILL_MS;
-  }
+  if (kind === "robot") return standsAt(poseOf(id), now);
   const progress = readingsOf(id, "jobStatus");
   const [before, last] = [progress.at(-2), progress.at(-1)];
   if (!before || !last) return last !== undefined;
@@ -40,13 +42,18 @@ useLiveStore.subscribe((state, before) => {
 });
 look(); // of pages that need this late, such as the dialog of a stop
 
-/** A device as screens tell it: one that is held waits, whatever it has told of its work. */
+/** One that is held waits, whatever it has told of its work. */
+export function heldOf<D extends Pick<Device, "status" | "activity">>(device: D): D {
+  const isDoing = device.activity && DOING.includes(device.activity.code);
+  return { ...device, status: "waiting", ...(isDoing ? { activity: { code: "held", args: {} } } : null) };
+}
+
+/** A device as screens tell it. */
 export function asHeld(device: Device, held: readonly string[]): Device {
   if (device.status !== "busy" || !held.includes(device.id)) return device;
   let waits = told.get(device);
   if (!waits) {
-    const isDoing = device.activity && DOING.includes(device.activity.code);
-    waits = { ...device, status: "waiting", ...(isDoing ? { activity: { code: "held", args: {} } } : null) };
+    waits = heldOf(device);
     told.set(device, waits);
   }
   return waits;

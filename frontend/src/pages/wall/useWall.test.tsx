@@ -56,3 +56,31 @@ test("a wall screen that is switched on an hour before the server begins by itse
   act(() => Line.all[0]?.onmessage?.({ data: JSON.stringify({ type: "beat" }) }));
   expect([wall.result.current.line, location.hash]).toEqual(["live", ""]);
 });
+
+test("while all is stopped a robot that stands waits, and one that still moves does once it stands", async () => {
+  isUp = true;
+  const wall = showWall();
+  await pass(1000);
+  const robot = (id: string) => ({
+    id,
+    name: id,
+    kind: "robot",
+    status: "busy",
+    activity: { code: "driving", args: {} },
+  });
+  const at = (x: number) => ({ location: { x, y: 0, theta: 0 } });
+  const devices = [
+    { ...robot("stands"), ...at(0) },
+    { ...robot("moves"), ...at(0) },
+  ];
+  const picture = { type: "picture", site: "Hall", stop: { active: true, at: null }, devices, runs: [], alerts: [] };
+  const tell = (message: unknown) => act(() => Line.all[0]?.onmessage?.({ data: JSON.stringify(message) }));
+  tell(picture);
+  tell({ type: "devices", devices: [{ id: "moves", ...at(1) }] });
+  const told = () => wall.result.current.robots(performance.now()).map(({ status }) => status);
+  expect(told()).toEqual(["waiting", "busy"]);
+  await pass(2000);
+  expect(told()).toEqual(["waiting", "waiting"]);
+  tell({ ...picture, stop: { active: false, at: null } });
+  expect(told()).toEqual(["busy", "busy"]);
+});

@@ -4,6 +4,7 @@ import { useEffect, useRef, useState } from "react";
 import { api, ApiProblem } from "@/api/client";
 import { ME } from "@/api/queries";
 import { LiveConnection } from "@/live/connection";
+import { heldOf, standsAt } from "@/live/held";
 import { statusOf } from "@/map/devices/device";
 import type { FloorPlan } from "@/map/floor/floor";
 import { interpolatePose, type RobotSource, type TimedPose } from "@/map/robots/robots";
@@ -54,9 +55,12 @@ const address = () => `${location.protocol === "https:" ? "wss" : "ws"}://${loca
 class Poses {
   readonly #pairs = new Map<string, { previous: TimedPose | null; current: TimedPose }>();
   #devices: readonly WallDevice[] = [];
+  #isStopped = false;
 
-  take(devices: readonly WallDevice[], at: number): void {
+  take(picture: Picture | null, at: number): void {
+    const devices = picture?.devices ?? [];
     this.#devices = devices;
+    this.#isStopped = picture?.stop.active ?? false;
     for (const { id, location: place } of devices) {
       const before = this.#pairs.get(id)?.current ?? null;
       const moved = !before || before.x !== place.x || before.y !== place.y || before.theta !== place.theta;
@@ -67,8 +71,10 @@ class Poses {
   readonly source: RobotSource = (now) =>
     this.#devices
       .filter((device) => device.kind === "robot")
-      .map((device) => {
-        const pair = this.#pairs.get(device.id);
+      .map((known) => {
+        const pair = this.#pairs.get(known.id);
+        const isHeld = this.#isStopped && known.status === "busy" && standsAt(pair, now);
+        const device = isHeld ? heldOf(known) : known;
         const pose = pair ? interpolatePose(pair.previous, pair.current, now) : device.location;
         const note = doingWords(device) || undefined;
         return { id: device.id, name: device.name, status: statusOf(device), note, ...pose };
@@ -89,7 +95,7 @@ export function useWall(): Wall {
       setHeardAt(Date.now());
       if (message.type === "map") void unpackMap(message).then(setPlan);
       last.current = applyMessage(last.current, message);
-      poses.take(last.current?.devices ?? [], performance.now());
+      poses.take(last.current, performance.now());
       setPicture(last.current);
     };
     const connection = new LiveConnection(address(), {
