@@ -11,7 +11,8 @@ import {
 import { isSameValue } from "@/program/document/sameValue";
 import { endOfBranch, roomAt, type Goal, type MakeId } from "./joints";
 import { DEFAULT_ROLE, givenToRole, roleOfStep } from "@/program/operation";
-import { EVENTS, outermost, readTree, withDescendants, type ProgramTree } from "@/program/document/tree";
+import { bodiesOf, calledBy, standingAlone } from "@/program/document/called";
+import { EVENTS, readTree, withDescendants, type ProgramTree } from "@/program/document/tree";
 import { type IdKey, paramsWithIds, withIds } from "./substitution";
 import { idsNamedBy } from "./uses";
 
@@ -20,7 +21,7 @@ export interface Clipping {
   /** The program that they were cut out of, where that is known. */
   readonly program?: string;
   readonly steps: Readonly<Record<string, Step>>;
-  /** Those that stand in no other one, in their order. */
+  /** Those that stand in no other one and in no function that comes along, in their order. */
   readonly outer: readonly string[];
   readonly functions: Readonly<Record<string, FunctionDefinition>>;
   readonly bodies: Readonly<Record<string, Step>>;
@@ -31,9 +32,9 @@ export interface Clipping {
 const MARK = "vipo steps 2";
 
 export function clip(document: ProgramDocument, ids: readonly string[], program?: string): Clipping {
-  const outer = sortByReading(readTree(document), outermost(document, ids));
+  const outer = sortByReading(readTree(document), standingAlone(document, ids));
   const steps = pickSteps(document, withDescendants(document, outer));
-  const functions = calledBy(document, Object.values(steps));
+  const functions = calledBy(document, outer);
   const bodies = pickSteps(document, bodiesOf(document, functions));
   const all = [...Object.values(steps), ...Object.values(bodies)];
   const definitions = Object.entries(document.functions).filter(([id]) => functions.has(id));
@@ -86,25 +87,6 @@ export function clippingFromText(text: string): Clipping | null {
 function isStep(value: unknown): boolean {
   const step = value as Step | null | undefined;
   return typeof step?.kind === "string" && typeof step.params === "object" && step.params !== null;
-}
-
-/** The functions that steps call, and those that these call. */
-function calledBy(document: ProgramDocument, steps: readonly Step[]): Set<string> {
-  const found = new Set<string>();
-  let left = [...steps];
-  while (left.length > 0) {
-    const names = left.filter((step) => step.kind === "call").map((step) => String(step.params.function));
-    const fresh = names.filter((id) => id in document.functions && !found.has(id));
-    for (const id of fresh) found.add(id);
-    left = Object.values(pickSteps(document, bodiesOf(document, fresh)));
-  }
-  return found;
-}
-
-function bodiesOf(document: ProgramDocument, functions: Iterable<string>): Set<string> {
-  const tree = readTree(document);
-  const tops = [...functions].flatMap((id) => tree.children(id, "body"));
-  return withDescendants(document, tops);
 }
 
 function pickSteps(document: ProgramDocument, ids: Iterable<string>): Record<string, Step> {

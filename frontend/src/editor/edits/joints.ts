@@ -2,6 +2,7 @@
 import type { ProgramDocument, Step, StepKind, Position } from "@/program/document/document";
 import type { Decision, Edit, Refusal, StepPlace } from "./edits";
 import { keysBetween } from "./order";
+import { standingAlone } from "@/program/document/called";
 import {
   ancestors,
   EVENTS,
@@ -161,9 +162,12 @@ export function joinDrafts(document: ProgramDocument, ids: readonly string[]): D
   return refused ?? { edits: decisions.flatMap((each) => ("edits" in each ? each.edits : [])) };
 }
 
-/** Steps that stand next to each other in one branch, in their order; null where they do not. */
+/**
+ * Steps that stand next to each other in one branch, in their order; null where they do not. Those in functions that
+ * the others call do not count.
+ */
 export function neighbours(document: ProgramDocument, ids: readonly string[]): { steps: string[]; goal: Goal } | null {
-  const chosen = new Set(outermost(document, ids));
+  const chosen = new Set(standingAlone(document, ids));
   const [first] = chosen;
   const branch = first === undefined ? null : branchOf(document, first);
   if (!branch) return null;

@@ -25,7 +25,7 @@ function takeSelected(open: OpenProgram, cut: boolean): string | null {
   const text = scriptOf(open, clipping) ?? drawn;
   keepDrawn({ text, drawn, names: namesOf(open) });
   useUi.setState({ clipboard: clipping });
-  if (cut && canEdit) removeSelected(document, apply);
+  if (cut && canEdit) removeSelected(document, apply, clipping.outer);
   return text;
 }
 

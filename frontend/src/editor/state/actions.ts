@@ -1,6 +1,7 @@
 /** What the toolbar, the keys and the menus do; each is one gesture and one entry to undo. */
 import type { ProgramDocument, Position } from "@/program/document/document";
-import type { BranchRef } from "@/program/document/tree";
+import { standingAlone } from "@/program/document/called";
+import { EVENTS, type BranchRef } from "@/program/document/tree";
 import { clip, type Clipping, paste } from "../edits/clipping";
 import type { Decision, Edit } from "../edits/edits";
 import {
@@ -45,8 +46,8 @@ export function createStep(document: ProgramDocument, apply: Apply, fresh: Omit<
   return id;
 }
 
-export function removeSelected(document: ProgramDocument, apply: Apply): number {
-  const edits = deleteSteps(document, useUi.getState().selected);
+export function removeSelected(document: ProgramDocument, apply: Apply, ids = useUi.getState().selected): number {
+  const edits = deleteSteps(document, ids);
   if (edits.length === 0) return 0;
   apply(edits);
   select([]);
@@ -74,10 +75,11 @@ export function pasteClipping(open: OpenProgram, clipping: Clipping, names: Name
 
 function goalNow(document: ProgramDocument): Goal {
   const { into, selected } = useUi.getState();
-  const last = selected.at(-1);
-  const branch = last === undefined ? null : branchOf(document, last);
-  const goal = branch && last !== undefined ? { branch, after: last } : null;
-  return into || !goal || branch?.branch === "events" ? endOfBranch(document, branchNow(document)) : goal;
+  // Behind a call that is selected with the steps of its function, and not in the function.
+  const last = standingAlone(document, selected).at(-1) ?? null;
+  const branch = last === null ? null : branchOf(document, last);
+  if (!into && branch && branch.branch !== EVENTS.branch) return { branch, after: last };
+  return endOfBranch(document, into?.branch ?? branchForNew(document, last));
 }
 
 /** Metres; a frame takes along what stands in it. */

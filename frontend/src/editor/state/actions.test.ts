@@ -1,0 +1,82 @@
+import { beforeEach, expect, test } from "vitest";
+import { clip } from "../edits/clipping";
+import { applyEdits, type Edit } from "../edits/edits";
+import { wrapInFunction } from "../edits/calls";
+import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
+import { readTree } from "@/program/document/tree";
+import { duplicateSelected, pasteClipping, removeSelected } from "./actions";
+import type { OpenProgram } from "./context";
+import { resetUi, useUi } from "./ui";
+
+beforeEach(resetUi);
+
+const step = (kind: string, place: Step["place"], params: Step["params"] = {}): Step => ({
+  kind,
+  place,
+  pos: [1, -1],
+  params,
+});
+
+/** The program calls mix, which calls stir; the other two of these call each other, and nobody calls them. */
+const program: ProgramDocument = {
+  ...EMPTY_DOCUMENT,
+  functions: Object.fromEntries(["mix", "stir", "ping", "pong"].map((id) => [id, { name: id, parameters: [] }])),
+  steps: {
+    first: step("wait", ["program", "body", "A"]),
+    call: step("call", ["program", "body", "B"], { function: "mix" }),
+    inner: step("call", ["mix", "body", "A"], { function: "stir" }),
+    deep: step("wait", ["stir", "body", "A"]),
+    there: step("call", ["ping", "body", "A"], { function: "pong" }),
+    back: step("call", ["pong", "body", "A"], { function: "ping" }),
+  },
+};
+const all = readTree(program).reading;
+const called = all.filter((id) => id !== "there" && id !== "back");
+
+/** What the program's own branches hold after the edits of an act, with all steps selected. */
+function after(act: (document: ProgramDocument, apply: (edits: readonly Edit[]) => void) => void, from = program) {
+  useUi.setState({ selected: called });
+  let document = from;
+  act(document, (edits) => (document = applyEdits(document, edits)));
+  return document;
+}
+const branch = (document: ProgramDocument, parent: string) =>
+  readTree(document)
+    .children(parent, "body")
+    .map((id) => document.steps[id]?.kind);
+
+test("of all steps those of functions that the others call come along with their function alone", () => {
+  const { outer, bodies } = clip(program, called);
+  expect(outer).toEqual(["first", "call"]);
+  expect(Object.keys(bodies).sort()).toEqual(["deep", "inner"]);
+  expect(clip(program, ["inner", "deep"]).outer).toEqual(["inner"]);
+  expect(clip(program, all).outer).toEqual(["first", "call", "back"]);
+});
+
+test("copies of all steps stand behind them in the program, and a function keeps its own", () => {
+  for (const copied of [
+    after(duplicateSelected),
+    after((document, apply) => {
+      const open = { document, apply, devices: [], plan: null, program: { id: "a" } } as unknown as OpenProgram;
+      pasteClipping(open, clip(document, called), {});
+    }),
+  ]) {
+    expect(branch(copied, "program")).toEqual(["wait", "call", "wait", "call"]);
+    expect(branch(copied, "mix")).toEqual(["call"]);
+    expect(branch(copied, "stir")).toEqual(["wait"]);
+  }
+});
+
+test("what is cut leaves the functions that it calls as they were", () => {
+  const rest = after((document, apply) => removeSelected(document, apply, clip(document, called).outer));
+  expect(branch(rest, "program")).toEqual([]);
+  expect(branch(rest, "mix")).toEqual(["call"]);
+});
+
+test("a function is made of all steps of the program, which call others", () => {
+  const decision = wrapInFunction(program, called, { functionId: "day", callId: "fresh", name: "day" });
+  const made = applyEdits(program, "edits" in decision ? decision.edits : []);
+  expect(branch(made, "program")).toEqual(["call"]);
+  expect(branch(made, "day")).toEqual(["wait", "call"]);
+  expect(branch(made, "mix")).toEqual(["call"]);
+});
