@@ -82,6 +82,25 @@ def test_a_step_that_somebody_holds_moves_on_the_others_screen(sign_in: SignIn) 
     )
     author.mouse.up()
     saved(author)
+    x, y = middle(chip(author, "1, Notify"))
+    author.mouse.move(x, y)
+    author.mouse.down()
+    author.mouse.move(x + 60, y - 80, steps=6)
+    there.click()
+    admin.keyboard.press("Delete")
+    expect(chip(author, "1, Notify")).to_have_count(0)
+    author.mouse.up()
+    admin.keyboard.press("Control+z")
+    for page in (author, admin):
+        expect(chip(page, "1, Notify")).to_be_visible()
+        until(
+            page,
+            "([name, x, y]) => [...document.querySelectorAll('.react-flow__node')].some((each) => {"
+            " const box = each.getBoundingClientRect();"
+            " return each.getAttribute('aria-label')?.startsWith(name)"
+            " && Math.hypot(box.x + box.width / 2 - x, box.y + box.height / 2 - y) < 3; })",
+            ["1, Notify", x, y],
+        )
     expect(admin.get_by_role("img", name="Without a connection you cannot see who else is here")).to_have_count(0)
 
 

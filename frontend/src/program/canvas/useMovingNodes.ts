@@ -1,6 +1,6 @@
 /** Chips under the pointer move at once; the document hears of it when they are let go. */
 import { applyNodeChanges, type Node, type NodeChange, type NodePositionChange } from "@xyflow/react";
-import { useCallback, useEffect, useLayoutEffect, useRef, useState } from "react";
+import { useCallback, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
 import { toMetres, toPixels, type Point } from "@/map/plane/projection";
 import { useFingers } from "../touch/fingers";
 import type { Chip } from "../scene/chips";
@@ -28,7 +28,8 @@ export interface MovingNodes {
   readonly nodes: StageNode[];
   readonly guides: readonly Guide[];
   readonly onNodesChange: (changes: NodeChange<StageNode>[]) => void;
-  readonly onDragStop: (event: unknown, node: Node, nodes: Node[]) => void;
+  /** Without a node where what was dragged is no longer there. */
+  readonly onDragStop: (event: unknown, node: Node | undefined, nodes: Node[]) => void;
   readonly onSelectionDragStop: (event: unknown, nodes: Node[]) => void;
 }
 
@@ -43,6 +44,16 @@ export function useMovingNodes(
   const [guides, setGuides] = useState(NO_GUIDES);
   const dragging = useRef(new Set<string>());
   const snapped = useRef(new Map<string, { x: number; y: number }>());
+  // Somebody else may take away what is held; the pointer goes on telling of it until it is let go.
+  const there = useMemo(() => new Set(built.map(({ id }) => id)), [built]);
+  useLayoutEffect(() => {
+    const gone = [...dragging.current].filter((id) => !there.has(id));
+    for (const id of gone) dragging.current.delete(id);
+    if (gone.length === 0 || dragging.current.size > 0) return;
+    snapped.current.clear();
+    setGuides(NO_GUIDES);
+    onDragging?.(null);
+  }, [there, onDragging]);
   // Before the frame is painted: a press may follow at once upon what has just become a node.
   useLayoutEffect(() => {
     setNodes((now) => (dragging.current.size === 0 ? built : keepDragged(built, now, dragging.current)));
@@ -59,7 +70,7 @@ export function useMovingNodes(
   );
   const onNodesChange = useCallback(
     (changes: NodeChange<StageNode>[]) => {
-      const moves = changes.filter((change) => change.type === "position");
+      const moves = changes.filter((change) => change.type === "position").filter(({ id }) => there.has(id));
       if (moves.length === 0 || useFingers.getState().several) return;
       for (const move of moves) if (move.dragging) dragging.current.add(move.id);
       const [placed, lines] =
@@ -71,7 +82,7 @@ export function useMovingNodes(
       );
       if (held.length > 0) onDragging?.(Object.fromEntries(held));
     },
-    [snapTo, onDragging],
+    [snapTo, onDragging, there],
   );
   const drop = useCallback(
     (dropped: readonly Node[]) => {
@@ -92,7 +103,7 @@ export function useMovingNodes(
     nodes,
     guides,
     onNodesChange,
-    onDragStop: useCallback((_event, node, all) => drop(all.length > 0 ? all : [node]), [drop]),
+    onDragStop: useCallback((_event, node, all) => drop(all.length > 0 || !node ? all : [node]), [drop]),
     onSelectionDragStop: useCallback((_event, all) => drop(all), [drop]),
   };
 }
