@@ -6,10 +6,10 @@ import re
 from typing import Any
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import ask, chip, open_program, saved, write_program
+from tests.e2e.screens import ask, chip, open_program, saved, the_map, write_program
 from tests.kit.waiting import PATIENCE_S, wait_for
 
 pytestmark = pytest.mark.browser
@@ -148,3 +148,28 @@ def test_a_value_that_is_typed_slowly_is_one_entry_to_undo_also_while_somebody_e
     expect(time).to_have_value("60")
     author.keyboard.press("Control+Shift+z")
     wait_for("the whole value again", lambda: params(author, "wait") == {"duration": 90}, WAIT_S)
+
+
+def test_what_is_typed_before_a_window_is_there_stands_in_its_field(sign_in: SignIn) -> None:
+    page, held = sign_in("author"), list[Route]()
+    write_program(page, "Typed ahead", EVERY_FIELD)
+    wait_for("the program", lambda: len(document(page)["steps"]) == 6, WAIT_S)
+    page.route(re.compile(r"/assets/Palette-[^/]*\.js"), lambda route: held.append(route))
+    page.reload()
+    saved(page)
+    the_map(page).focus()
+    page.keyboard.press("Control+k")
+    page.keyboard.type("wait")
+    page.keyboard.press("Enter")
+    wait_for("the palette's script", lambda: page.wait_for_timeout(50) or held, WAIT_S)
+    for each in held:
+        each.continue_()
+    expect(page.get_by_role("combobox", name="Search or jump to")).to_have_value("wait")
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    the_map(page).focus()
+    for keys in ("Control+a", "Control+g"):
+        page.keyboard.press(keys)
+    page.keyboard.type("carry")
+    expect(page.get_by_role("dialog").get_by_role("textbox").first).to_have_value("carry")
+    assert len(document(page)["steps"]) == 6

@@ -2,7 +2,9 @@
 import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
 import { useFetchLater } from "@/design/useFetchLater";
 import { loadScreenTexts } from "@/i18n";
+import { useTypedAhead } from "@/shell/keys/typedAhead";
 import { useOpenProgram } from "../state/context";
+import { RESTING } from "../state/tool";
 import { type Dialog, useUi } from "../state/ui";
 import { useAskedFunction } from "./askedFunction";
 
@@ -38,6 +40,7 @@ const DIALOGS: Record<Name, ComponentType> = {
   templates: lazy(LOAD.templates),
 };
 const LOADS = Object.values(LOAD);
+const closeDialog = () => useUi.setState({ dialog: null, dialogFunction: null, gesture: RESTING });
 
 export function Dialogs() {
   const { canEdit } = useOpenProgram();
@@ -50,6 +53,7 @@ export function Dialogs() {
     if (asked) useUi.setState({ dialog: "library" });
   }, [asked]);
   useFetchLater(LOADS);
+  useTypedAhead(now !== null, closeDialog);
   return opened.map((name) => {
     const Shown = DIALOGS[name];
     return (

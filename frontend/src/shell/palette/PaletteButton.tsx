@@ -1,17 +1,24 @@
 /** Opens the palette that finds commands, programs, devices, places and pages; Ctrl+K. */
 import { Search } from "lucide-react";
-import { lazy, Suspense, useEffect, useState } from "react";
+import { lazy, Suspense, useCallback, useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { nameOfKeys } from "../keys/keyNames";
 import { PALETTE } from "../keys/shellCommands";
+import { useTypedAhead } from "../keys/typedAhead";
 import { IconButton } from "@/design/IconButton";
+import { useFetchLater } from "@/design/useFetchLater";
 import styles from "../sidebar.module.css";
 
-const Palette = lazy(async () => ({ default: (await import("./Palette")).Palette }));
+const loadPalette = () => import("./Palette");
+const LOADS = [loadPalette];
+const Palette = lazy(async () => ({ default: (await loadPalette()).Palette }));
 
 export function PaletteButton({ slug, small = false }: { slug: string | undefined; small?: boolean }) {
   const { t } = useTranslation();
   const [opened, setOpened] = useState(false);
+  const close = useCallback(() => setOpened(false), []);
+  useFetchLater(LOADS);
+  useTypedAhead(opened, close);
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
       if (!PALETTE.keys.includes(nameOfKeys(event))) return;
@@ -36,7 +43,7 @@ export function PaletteButton({ slug, small = false }: { slug: string | undefine
           </kbd>
         </button>
       )}
-      <Suspense fallback={null}>{opened ? <Palette slug={slug} onClose={() => setOpened(false)} /> : null}</Suspense>
+      <Suspense fallback={null}>{opened ? <Palette slug={slug} onClose={close} /> : null}</Suspense>
     </>
   );
 }

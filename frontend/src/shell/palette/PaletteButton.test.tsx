@@ -1,0 +1,45 @@
+// @vitest-environment jsdom
+import { act, fireEvent, screen } from "@testing-library/react";
+import { afterEach, expect, test, vi } from "vitest";
+import { show, testsPages } from "@/testing/page";
+import { PaletteButton } from "./PaletteButton";
+
+/** Only a fault takes so long. */
+const LONG_MS = 30_000;
+
+testsPages();
+const heard = vi.fn();
+const onKey = ({ key }: KeyboardEvent) => void heard(key);
+afterEach(() => {
+  window.removeEventListener("keydown", onKey);
+  heard.mockClear();
+});
+
+function ask() {
+  vi.stubGlobal("fetch", () => Promise.resolve(Response.json([])));
+  show(<PaletteButton slug={undefined} />);
+  window.addEventListener("keydown", onKey);
+  fireEvent.keyDown(document.body, { key: "k", ctrlKey: true });
+  heard.mockClear();
+}
+const press = (...keys: string[]) => keys.forEach((key) => fireEvent.keyDown(document.body, { key }));
+
+test("what is typed before the palette is there stands in its field, and the page hears none of it", async () => {
+  ask();
+  press("w", "a", "x", "Backspace", "i", "t", "Enter");
+  const field = await screen.findByRole("combobox", {}, { timeout: LONG_MS });
+  await vi.waitFor(() => expect(document.activeElement).toBe(field), LONG_MS);
+  expect(heard).not.toHaveBeenCalled();
+  expect((field as HTMLInputElement).value).toBe("wait");
+  press("p");
+  expect(heard).toHaveBeenCalledWith("p");
+});
+
+test("Escape before the palette is there asks for none, and the page has its keys again", async () => {
+  ask();
+  press("Escape");
+  press("p");
+  expect(heard.mock.calls).toEqual([["p"]]);
+  await act(() => import("./Palette"));
+  expect(screen.queryByRole("combobox")).toBeNull();
+});
