@@ -12,11 +12,11 @@ import { frameAt } from "@/program/scene/frames";
 import type { SiteDevice } from "@/program/surroundings";
 import { useOpenProgram, type OpenProgram } from "./state/context";
 import { chooseBranch, invitation } from "./state/nextPlace";
-import { goInto } from "./state/newStep";
+import { goInto, goIntoAt } from "./state/newStep";
 import { useDrawing, type Drawing } from "./canvas/stepGesture";
 import { moveChips } from "./canvas/chipDrop";
 import { cursorShower, dragShower, othersOn, useCarried } from "./state/presence";
-import { askOf, stepBack, suits, type Gesture } from "./state/tool";
+import { asksForDevice, askOf, stepBack, suits, type Gesture } from "./state/tool";
 import { robotAt } from "./state/under";
 import { select, showDevice, toggleSelected, useUi } from "./state/ui";
 import { swapBranches } from "./edits/branches";
@@ -121,7 +121,16 @@ function Plane({ drawing }: { drawing: Drawing }) {
 
 /** What presses on steps, machines and the floor mean with the tool in hand. */
 function usePresses(open: OpenProgram, gesture: Gesture, drawing: Drawing) {
-  const onStep = useCallback((step: string, add: boolean) => (add ? toggleSelected(step) : select([step])), []);
+  const onStep = useCallback(
+    (step: string, add: boolean) => {
+      // A frame's head says where the next step goes, as its inside does.
+      const frame = asksForDevice(useUi.getState().gesture) && open.scene.frames.find(({ id }) => id === step);
+      if (frame) goInto(open, frame);
+      else if (add) toggleSelected(step);
+      else select([step]);
+    },
+    [open],
+  );
   const onBack = () => useUi.setState({ gesture: stepBack(gesture), fieldPick: null });
   const onDevice = (device: string) => {
     const { fieldPick } = useUi.getState();
@@ -141,7 +150,7 @@ function usePresses(open: OpenProgram, gesture: Gesture, drawing: Drawing) {
     useGestures.setState({ zone: null });
     if (ask === "floor" || ask === "goal") drawing.takeFloor(press.at);
     else if (ask === "nothing") pressResting(open, press);
-    else onBack();
+    else if (!asksForDevice(gesture) || !goIntoAt(open, press.at)) onBack();
   };
   const onEditStep = (step: string) => {
     select([step]);
@@ -215,8 +224,7 @@ function useLooks(gesture: Gesture): NodeLooks {
 function lightOf(device: SiteDevice, gesture: Gesture, source: SiteDevice | undefined, anyMachine: boolean): Light {
   if (device.id === gesture.source || device.id === gesture.target) return "chosen";
   if (anyMachine) return isRobot(device) ? null : "suitable";
-  const ask = askOf(gesture);
-  if (ask !== "source" && ask !== "target" && ask !== "device") return null;
+  if (!asksForDevice(gesture)) return null;
   return suits(gesture, device, source) ? "suitable" : "dim";
 }
 

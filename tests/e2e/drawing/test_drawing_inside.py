@@ -57,6 +57,27 @@ def test_an_open_branch_invites_takes_the_next_step_and_says_so(sign_in: SignIn)
     assert drawn["notify"]["place"][:2] == [drawn["if"]["id"], "else"]
 
 
+def test_a_tool_that_asks_for_a_machine_goes_into_the_frame_that_is_pressed(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "Into a frame")
+    draw(page, "r", 0.3, 0.4)
+    until(page, "() => document.activeElement?.matches('textarea, input, [contenteditable]')")
+    page.keyboard.type("2")
+    page.keyboard.press("Enter")
+    page.keyboard.press("Escape")
+    box = chip(page, "1, Repeat").bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"]
+    inside = page.get_by_text("Click where to pick from. The next step goes here: inside Repeat 1")
+    for below in (14, -box["height"] / 2):  # the frame, and its head
+        page.keyboard.press("p")
+        expect(inside).to_have_count(0)
+        page.mouse.click(x, y + below)
+        expect(inside).to_be_visible()
+        page.keyboard.press("Escape")
+        page.keyboard.press("Escape")
+
+
 def test_a_step_that_somebody_holds_moves_on_the_others_screen(sign_in: SignIn) -> None:
     author, admin = sign_in("author", motion=True), sign_in("admin", motion=True)
     make_program(author, "Held")

@@ -81,12 +81,18 @@ export function goInto(open: OpenProgram, frame: Frame): void {
   useUi.setState({ into: { branch: { parent: frame.id, branch: "body" }, link: `${frame.id}/body`, word } });
 }
 
-export function createOnFloor(open: OpenProgram, gesture: Gesture, at: Point): void {
-  const { document, apply } = open;
+/** The next step goes into the open branch or the frame at this point; false where there is none. */
+export function goIntoAt(open: OpenProgram, at: Point): boolean {
   const branch = openBranchAt(open.scene.links, at);
   const frame = frameAt(open.scene.frames, toPixels(at));
   if (branch) chooseBranch(open, branch);
   else if (frame) goInto(open, frame);
+  return (branch ?? frame) !== null;
+}
+
+export function createOnFloor(open: OpenProgram, gesture: Gesture, at: Point): void {
+  const { document, apply } = open;
+  goIntoAt(open, at);
   if (gesture.tool === "move") {
     createStep(document, apply, { kind: "move", pos: at, params: { role: "robot", to: nearestGoal(open, at) } });
     return;

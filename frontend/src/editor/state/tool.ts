@@ -43,6 +43,11 @@ export function askOf(gesture: Gesture): Ask {
   }
 }
 
+/** Whether it asks for a machine or robot: the floor is no answer. */
+export function asksForDevice(gesture: Gesture): boolean {
+  return ["source", "target", "device"].includes(askOf(gesture));
+}
+
 /** Whether Enter sets down what the tool in hand draws, also from the list of steps. */
 export function setsDownByEnter(gesture: Gesture): boolean {
   return gesture.byKeyboard && askOf(gesture) === "floor";
