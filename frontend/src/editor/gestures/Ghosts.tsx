@@ -8,28 +8,33 @@ import { useOpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";
 import classes from "../canvas/gestures.module.css";
 import { useGestures, type Ghost } from "../state/gestures";
-import { keptOf, putBack } from "./keptSteps";
+import type { ProgramDocument } from "@/program/document/document";
+import { isSameValue } from "@/program/document/sameValue";
+import { copyAmong, keptOf, putBack } from "./keptSteps";
 
 export function Ghosts() {
   const { shared, canEdit } = useOpenProgram();
   const ghosts = useGestures((ui) => ui.ghosts);
-  useEffect(() => shared.onRemoval((gone) => keepGhosts(shared, gone)), [shared]);
+  useEffect(() => shared.onRemoval((...change) => keepGhosts(shared, ...change)), [shared]);
   return canEdit ? ghosts.map((ghost) => <GhostCard key={ghost.id} ghost={ghost} />) : null;
 }
 
 /** The document that others read is still the one before: it is read anew only when the transaction has ended. */
-function keepGhosts(shared: SharedProgram, gone: readonly string[]): void {
+function keepGhosts(shared: SharedProgram, gone: readonly string[], brought: ProgramDocument["steps"]): void {
   const before = shared.getDocument();
   const { selected } = useUi.getState();
-  const concerns = (id: string) => selected.includes(id) || shared.isUnsaved(id);
+  const copyOf = (id: string) => before.steps[id] && copyAmong(brought, before.steps[id]);
+  // Who was at a step that only has another name now goes on with it; a change that went is told all the same.
+  const concerns = (id: string) => shared.isUnsaved(id) || (selected.includes(id) && !copyOf(id));
   const lost = outermost(
     before,
     gone.filter((id) => concerns(id) && Object.hasOwn(before.steps, id)),
   );
-  if (lost.length === 0) return;
+  const stays = selected.flatMap((id) => (gone.includes(id) ? (copyOf(id) ?? []) : [id]));
+  if (lost.length === 0 && isSameValue(stays, selected)) return;
   const fresh = lost.map((id): Ghost => ({ id, steps: keptOf(before, id, gone), changed: shared.isUnsaved(id) }));
   useGestures.setState(({ ghosts }) => ({ ghosts: [...ghosts.filter(({ id }) => !lost.includes(id)), ...fresh] }));
-  select(useUi.getState().selected.filter((id) => !gone.includes(id)));
+  select(stays);
 }
 
 function GhostCard({ ghost }: { ghost: Ghost }) {

@@ -1,9 +1,10 @@
 import { expect, test } from "vitest";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
 import { takeApart } from "../edits/branches";
+import { expandCall } from "../edits/calls";
 import { applyEdits, type Decision, type Edit } from "../edits/edits";
 import { deleteSteps } from "../edits/joints";
-import { keptOf, putBack } from "./keptSteps";
+import { copyAmong, keptOf, putBack } from "./keptSteps";
 
 const step = (kind: string, parent: string, duration?: number): Step => {
   return { kind, pos: [1, -1], place: [parent, "body", "a"], params: duration === undefined ? {} : { duration } };
@@ -49,4 +50,24 @@ test("what somebody has brought back since stays as it is", () => {
   const { now, kept } = removed(deleteSteps(BEFORE, ["loop"]));
   const later = applyEdits(now, [{ do: "add_step", id: "wait", step: step("wait", "program", 600) }]);
   expect(applyEdits(later, putBack(later, kept)).steps).toEqual({ ...BEFORE.steps, wait: later.steps.wait });
+});
+
+test("the steps of a function whose last call was expanded go on under other names", () => {
+  const mixing: ProgramDocument = {
+    ...EMPTY_DOCUMENT,
+    functions: { mix: { name: "mix", parameters: [] } },
+    steps: {
+      call: { ...step("call", "program"), params: { function: "mix" } },
+      loop: step("while", "mix"),
+      wait: { ...step("wait", "loop", 5), pos: [2, -2] },
+      other: { ...step("wait", "loop", 6), pos: [2, -3] },
+    },
+  };
+  let count = 0;
+  const now = applyEdits(mixing, editsOf(expandCall(mixing, "call", () => `new${(count += 1)}`)));
+  const found = (id: string) => {
+    const copy = copyAmong(now.steps, mixing.steps[id] as Step);
+    return copy && now.steps[copy]?.params.duration;
+  };
+  expect(["wait", "other", "call"].map(found)).toEqual([5, 6, undefined]);
 });

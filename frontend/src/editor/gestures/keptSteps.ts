@@ -1,5 +1,6 @@
 /** Steps that somebody removed and another person keeps: what went, and how it comes back. */
-import type { ProgramDocument } from "@/program/document/document";
+import type { ProgramDocument, Step } from "@/program/document/document";
+import { isSameValue } from "@/program/document/sameValue";
 import { withDescendants } from "@/program/document/tree";
 import type { Edit } from "../edits/edits";
 import type { Ghost } from "../state/gestures";
@@ -17,4 +18,9 @@ export function putBack(document: ProgramDocument, kept: KeptSteps): readonly Ed
   return Object.entries(kept)
     .filter(([id]) => !Object.hasOwn(document.steps, id))
     .map(([id, step]): Edit => ({ do: "add_step", id, step }));
+}
+
+/** Of the steps that the same change brought, the one that stands in the place of one that went, as of an expanded call. */
+export function copyAmong(brought: Readonly<Record<string, Step>>, { kind, pos }: Step): string | undefined {
+  return Object.keys(brought).find((id) => brought[id]?.kind === kind && isSameValue(brought[id].pos, pos));
 }

@@ -1,5 +1,6 @@
-import { expect, test } from "vitest";
+import { expect, test, vi } from "vitest";
 import * as Y from "yjs";
+import { SharedProgram } from "./sharedProgram";
 import { changedBy, readDocument, rereadDocument, ROOTS } from "./snapshot";
 
 function docWithSteps(): Y.Doc {
@@ -41,4 +42,18 @@ test("nonsense written by somebody else reads as an empty draft", () => {
   doc.getMap("meta").set("start_pos", "left");
   expect(readDocument(doc).steps.x).toEqual({ kind: "", place: null, pos: null, params: {} });
   expect(readDocument(doc).start_pos).toBeNull();
+});
+
+test("who removes steps is heard with what the same change brings", () => {
+  const [theirs, own] = [docWithSteps(), new Y.Doc()];
+  Y.applyUpdate(own, Y.encodeStateAsUpdate(theirs));
+  const listener = vi.fn();
+  SharedProgram.prototype.onRemoval.call({ doc: own } as SharedProgram, listener);
+  theirs.transact(() => {
+    theirs.getMap("steps").delete("a");
+    theirs.getMap("steps").set("c", new Y.Map(Object.entries({ kind: "wait", pos: [1, 2] })));
+  });
+  Y.applyUpdate(own, Y.encodeStateAsUpdate(theirs));
+  const brought = { c: { kind: "wait", place: null, pos: [1, 2], params: {} } };
+  expect(listener.mock.calls).toEqual([[["a"], brought]]);
 });

@@ -10,7 +10,7 @@ import { CompiledForm } from "./compiledForm";
 import { LocalCopy, TAKEN_OVER, type Waiting } from "./localCopy";
 import { UndoList } from "./undoList";
 import { writeEdit } from "./writer";
-import { changedBy, readDocument, rereadDocument, ROOTS } from "./snapshot";
+import { changedBy, readDocument, rereadDocument, rereadSteps, ROOTS } from "./snapshot";
 import type { ProgramDocument } from "@/program/document/document";
 
 export type Connection = "connecting" | "live" | "reconnecting" | "refused";
@@ -105,14 +105,19 @@ export class SharedProgram {
     void this.#open();
   }
 
-  /** Hear which steps others remove, while the document is still the one before; one's own are named to the others. */
-  onRemoval(listener: (gone: readonly string[]) => void): () => void {
+  /**
+   * Hear which steps others remove, and which they bring with it, while the document is still the one before; one's own
+   * are named to the others.
+   */
+  onRemoval(listener: (gone: readonly string[], brought: ProgramDocument["steps"]) => void): () => void {
     const steps = this.doc.getMap("steps");
     const note = (event: Y.YMapEvent<unknown>) => {
-      const gone = [...event.changes.keys].filter(([, change]) => change.action === "delete").map(([id]) => id);
+      const { keys } = event.changes;
+      const having = (action: string) => [...keys].filter(([, change]) => change.action === action).map(([id]) => id);
+      const gone = having("delete");
       if (gone.length === 0) return;
       if (event.transaction.local) this.awareness.setLocalStateField("removed", gone.slice(0, MOST_REMOVED));
-      else listener(gone);
+      else listener(gone, rereadSteps(this.doc, {}, new Set(having("add"))));
     };
     steps.observe(note);
     return () => steps.unobserve(note);

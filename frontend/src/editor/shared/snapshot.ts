@@ -25,7 +25,12 @@ export function rereadDocument(
   return ids ? { ...next, steps: rereadSteps(doc, previous.steps, ids) } : next;
 }
 
-function rereadSteps(doc: Y.Doc, previous: ProgramDocument["steps"], ids: ReadonlySet<string>): Record<string, Step> {
+/** The steps as they were, with those named as they are now. */
+export function rereadSteps(
+  doc: Y.Doc,
+  previous: ProgramDocument["steps"],
+  ids: ReadonlySet<string>,
+): Record<string, Step> {
   const steps = new Map(Object.entries(previous));
   const shared = doc.getMap("steps");
   for (const id of ids) {
