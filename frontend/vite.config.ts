@@ -115,7 +115,7 @@ const SCREEN = /\/src\/(pages\/[^/]+\/\w+Page|(compare|run|simulation)\/.*Screen
 const BESIDE = /\/src\/editor\/(inspector\/ProgramPanel|beginning\/(EmptyProgram|NextSteps)|parts\/DrawerBody)\.tsx$/;
 
 /** Dialogs and forms of the editor, all of which it fetches soon after the program has come. */
-const LATER = /\/src\/editor\/(beginning|canvas|commands|dialogs|inspector|zones)\//;
+const LATER = /\/src\/editor\/((beginning|canvas|commands|dialogs|inspector|zones)\/|gestures\/GhostCard)/;
 
 /** Bytes, below which what some pages share joins what others share. */
 const SMALL = 5_000;

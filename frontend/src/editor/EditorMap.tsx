@@ -20,7 +20,6 @@ import { asksForDevice, askOf, stepBack, suits, type Gesture } from "./state/too
 import { robotAt } from "./state/under";
 import { select, showDevice, toggleSelected, useUi } from "./state/ui";
 import { swapBranches } from "./edits/branches";
-import { FollowView } from "./gestures/FollowView";
 import { Ghosts } from "./gestures/Ghosts";
 import { ModeInView, ModeMark } from "./keyboard/ModeBar";
 import { KeepInView } from "./canvas/KeepInView";
@@ -40,6 +39,13 @@ import { ZONE_TOOL } from "./state/tools";
 import { pressZoneTool } from "./zones/zoneTool";
 import { EditorZones, ZoneHandles } from "./zones/ZoneLayer";
 
+/** Nobody waits for it, and without it one draws all the same. */
+const FollowView = lazy(() =>
+  import("./gestures/FollowView").then(
+    ({ FollowView }) => ({ default: FollowView }),
+    () => ({ default: () => null }),
+  ),
+);
 const CoverageMarks = lazy(async () => ({ default: (await import("./tests/CoverageMarks")).CoverageMarks }));
 
 interface EditorMapProps {
@@ -87,7 +93,9 @@ export function EditorMap({ insets, fitInsets, small }: EditorMapProps) {
       }
       plane={<Plane drawing={drawing} />}
     >
-      <FollowView />
+      <Suspense fallback={null}>
+        <FollowView />
+      </Suspense>
       <StageAtHand />
       {small ? <KeepInView /> : null}
       <ModeInView />

@@ -1,22 +1,28 @@
 /** Steps that somebody else took away while this person had them selected or had changed them: still there to be kept. */
-import { useEffect } from "react";
-import { toPixels } from "@/map/plane/projection";
-import { FloatAt } from "../canvas/FloatAt";
+import { lazy, Suspense, useEffect } from "react";
 import type { SharedProgram } from "../shared/sharedProgram";
 import { outermost } from "@/program/document/tree";
 import { useOpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";
-import classes from "../canvas/gestures.module.css";
 import { useGestures, type Ghost } from "../state/gestures";
 import type { ProgramDocument } from "@/program/document/document";
 import { isSameValue } from "@/program/document/sameValue";
-import { copyAmong, keptOf, putBack } from "./keptSteps";
+import { copyAmong, keptOf } from "./keptSteps";
+
+// Fetched with the dialogs, of whose script it is a part.
+const GhostCard = lazy(async () => ({ default: (await import("./GhostCard")).GhostCard }));
 
 export function Ghosts() {
   const { shared, canEdit } = useOpenProgram();
   const ghosts = useGestures((ui) => ui.ghosts);
   useEffect(() => shared.onRemoval((...change) => keepGhosts(shared, ...change)), [shared]);
-  return canEdit ? ghosts.map((ghost) => <GhostCard key={ghost.id} ghost={ghost} />) : null;
+  return canEdit ? (
+    <Suspense fallback={null}>
+      {ghosts.map((ghost) => (
+        <GhostCard key={ghost.id} ghost={ghost} />
+      ))}
+    </Suspense>
+  ) : null;
 }
 
 /** The document that others read is still the one before: it is read anew only when the transaction has ended. */
@@ -35,43 +41,4 @@ function keepGhosts(shared: SharedProgram, gone: readonly string[], brought: Pro
   const fresh = lost.map((id): Ghost => ({ id, steps: keptOf(before, id, gone), changed: shared.isUnsaved(id) }));
   useGestures.setState(({ ghosts }) => ({ ghosts: [...ghosts.filter(({ id }) => !lost.includes(id)), ...fresh] }));
   select(stays);
-}
-
-function GhostCard({ ghost }: { ghost: Ghost }) {
-  const { document, apply, shared, people, t } = useOpenProgram();
-  const step = ghost.steps[ghost.id];
-  const back = Object.hasOwn(document.steps, ghost.id);
-  useEffect(() => {
-    if (back) letGo(ghost.id);
-  }, [back, ghost.id]);
-  const remover = people.find((person) => !person.me && removedBy(shared, person.client).includes(ghost.id));
-  if (!step || back) return null;
-  const words = ghost.changed ? "gesture.ghost.changed_" : "gesture.ghost.";
-  const keep = () => {
-    apply(putBack(document, ghost.steps));
-    letGo(ghost.id);
-    select([ghost.id]);
-  };
-  return (
-    <FloatAt at={toPixels(step.pos ?? [1, -1])}>
-      <div className={classes.ghost} role="alert">
-        {remover ? t(`${words}by`, { name: remover.name }) : t(`${words}by_somebody`)}
-        <button type="button" onClick={keep}>
-          {t("gesture.ghost.keep")}
-        </button>
-        <button type="button" onClick={() => letGo(ghost.id)}>
-          {t("gesture.ghost.let_go")}
-        </button>
-      </div>
-    </FloatAt>
-  );
-}
-
-function letGo(id: string): void {
-  useGestures.setState(({ ghosts }) => ({ ghosts: ghosts.filter((each) => each.id !== id) }));
-}
-
-function removedBy(shared: SharedProgram, client: number): readonly unknown[] {
-  const state = shared.awareness.getStates().get(client) as { removed?: unknown } | undefined;
-  return Array.isArray(state?.removed) ? state.removed : [];
 }
