@@ -78,7 +78,8 @@ def test_a_robot_is_simulated_in_a_run(sign_in: SignIn, faults: list[str]) -> No
     draw_task(page)
     saved(page)
     start_run(page)
-    expect(page.get_by_role("banner").get_by_text(re.compile("Simulated: TurtleBot"))).to_be_visible(timeout=180_000)
+    facts = page.get_by_role("complementary").get_by_text(re.compile("Simulated: TurtleBot"))
+    expect(facts).to_be_visible(timeout=180_000)
     shoot(page, "stand-in-run")
     expect(run_state(page)).to_have_text(re.compile("Finished"), timeout=180_000)
     assert violations(page) == []
