@@ -1,5 +1,5 @@
 /** The map of the editor: what presses, drags and keys on it mean for the program. */
-import { lazy, Suspense, useCallback, useMemo } from "react";
+import { lazy, Suspense, useCallback, useMemo, type ComponentType } from "react";
 import { liveRobots } from "@/live/robots";
 import { isRobot } from "@/map/devices/device";
 import { type Insets, toMetres, toPixels } from "@/map/plane/projection";
@@ -29,7 +29,6 @@ import { RouteBends } from "./gestures/RouteBends";
 import { StageAtHand } from "./gestures/StageAtHand";
 import { settle } from "./state/actions";
 import { useGestures } from "./state/gestures";
-import { CommentPins } from "./comments/CommentPins";
 import { Cursors } from "./canvas/Cursors";
 import { DevicePalette } from "./canvas/DevicePalette";
 import { LanePreview } from "./canvas/LanePreview";
@@ -39,13 +38,16 @@ import { ZONE_TOOL } from "./state/tools";
 import { pressZoneTool } from "./zones/zoneTool";
 import { EditorZones, ZoneHandles } from "./zones/ZoneLayer";
 
-/** Nobody waits for it, and without it one draws all the same. */
-const FollowView = lazy(() =>
-  import("./gestures/FollowView").then(
-    ({ FollowView }) => ({ default: FollowView }),
-    () => ({ default: () => null }),
-  ),
-);
+/** A part that nobody waits for, and without which one draws all the same. */
+const beside = (load: () => Promise<ComponentType>) =>
+  lazy(() =>
+    load().then(
+      (found) => ({ default: found }),
+      () => ({ default: () => null }),
+    ),
+  );
+const FollowView = beside(async () => (await import("./gestures/FollowView")).FollowView);
+const CommentPins = beside(async () => (await import("./comments/CommentPins")).CommentPins);
 const CoverageMarks = lazy(async () => ({ default: (await import("./tests/CoverageMarks")).CoverageMarks }));
 
 interface EditorMapProps {
@@ -116,7 +118,9 @@ function Plane({ drawing }: { drawing: Drawing }) {
       <PreviewLine from={drawing.from} route={drawing.preview} pointer={drawing.pointer} />
       <RouteBends />
       <ModeMark />
-      <CommentPins />
+      <Suspense fallback={null}>
+        <CommentPins />
+      </Suspense>
       {tested ? (
         <Suspense fallback={null}>
           <CoverageMarks />
