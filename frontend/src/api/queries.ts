@@ -43,6 +43,7 @@ export const keys = {
   rdf: (slug: string, id: string, format: string) => ["rdf", slug, id, format] as const,
   programs: (slug: string) => ["programs", slug] as const,
   program: (id: string) => ["program", id] as const,
+  versionRuns: (slug: string, program: string) => ["runs", slug, "versions", program] as const,
   document: (id: string) => ["document", id] as const,
   runs: (slug: string) => ["runs", slug] as const,
   openRuns: (slug: string) => ["runs", slug, "open"] as const,

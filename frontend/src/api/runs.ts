@@ -2,7 +2,7 @@
 import { type InfiniteData, skipToken, useInfiniteQuery, useQuery, useQueryClient } from "@tanstack/react-query";
 import { useEffect } from "react";
 import { api, type ListPart } from "./client";
-import { keys, type Maybe, useGet } from "./queries";
+import { keys, type Maybe } from "./queries";
 import type { RunEvent, RunSummary, RunTimeline, VersionRuns } from "./types";
 
 /** The newest runs of a site: as live news keep them, and the part of the list that the server gave last. */
@@ -47,10 +47,12 @@ export const useRunParts = (slug: string, wanted: boolean) =>
 
 /** Which runs used the versions of a program from one number to another; a version that none used has no entry. */
 export const useVersionRuns = (slug: string, program: string, oldest: number, newest: number) =>
-  useGet<VersionRuns[]>(
-    [...keys.runs(slug), "versions", program, oldest, newest],
-    `/programs/${encodeURIComponent(program)}/version-runs?oldest=${oldest}&newest=${newest}`,
-  );
+  useQuery({
+    queryKey: [...keys.versionRuns(slug, program), oldest, newest],
+    queryFn: () =>
+      api.get<VersionRuns[]>(`/programs/${encodeURIComponent(program)}/version-runs?oldest=${oldest}&newest=${newest}`),
+    staleTime: 0, // nobody follows it while no page shows it
+  });
 
 const LINES_AT_ONCE = 500;
 

@@ -31,6 +31,7 @@ import {
   applyRehearsal,
   applyRun,
   applyTimelineLine,
+  isOpen,
   isOver,
   isUrgent,
   joinChanges,
@@ -163,7 +164,15 @@ export class SiteFeed {
   #refreshMore(): void {
     const isOld = ({ state }: Query) => state.fetchStatus === "idle" && state.dataUpdatedAt < this.#since;
     const ofSite = [keys.overAlerts(this.slug), keys.rehearsals(this.slug), keys.setting(this.slug, "review-rule")];
-    const all = [...ofSite, ["paces", this.slug], ["measurements"], ["comparison"], keys.reviews, keys.sites];
+    const all = [
+      ...ofSite,
+      ["paces", this.slug],
+      ["measurements"],
+      ["comparison"],
+      ["program"],
+      keys.reviews,
+      keys.sites,
+    ];
     for (const key of all) this.#caches.refresh(key, this.#isGreeted ? undefined : isOld);
   }
 
@@ -215,6 +224,7 @@ export class SiteFeed {
     this.#caches.write<NewestRuns>(keys.runs(this.slug), (newest) => ({ ...newest, runs: applyRun(newest.runs, run) }));
     this.#caches.write<RunSummary[]>(keys.openRuns(this.slug), (runs) => applyOpenRun(runs, run));
     this.#caches.write<Run>(keys.run(run.id), (full) => ({ ...full, ...run }));
+    if (run.status === "pending" || !isOpen(run)) this.#caches.refresh(keys.versionRuns(this.slug, run.program.id));
   }
 
   #runEvent(run: string, event: RunEvent): void {

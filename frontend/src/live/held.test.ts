@@ -23,6 +23,10 @@ function device(id: string, kind: "robot" | "machine", code: string): Device {
   return told as unknown as Device;
 }
 
+const machine = (id: string, value: unknown) => ({
+  ...device(id, "machine", "working_percent"),
+  properties: [{ name: "jobStatus", value }] as DeviceProperty[],
+});
 const at = (id: string, x: number) => recordDevice({ id, location: { x, y: 0, z: 0, theta: 0 } }, performance.now());
 const progress = (id: string, value: number) =>
   recordDevice({ id, properties: [{ name: "jobStatus", value } as DeviceProperty] }, performance.now());
@@ -61,12 +65,38 @@ test("while all is stopped robots that stand are held, and one that still moves 
 test("a machine is held when its progress stands; of one that tells none nobody knows", () => {
   progress("oven", 40);
   progress("oven", 41);
-  const told = deviceById(device("oven", "machine", "working_percent"), device("mixer", "machine", "working"));
+  const told = deviceById(machine("oven", 41), device("mixer", "machine", "working"));
   useLiveStore.setState({ deviceById: told, stop: STOP });
   vi.advanceTimersByTime(9000);
   expect(useLiveStore.getState().held).toEqual([]);
   progress("oven", 41);
   vi.advanceTimersByTime(2000);
+  expect(useLiveStore.getState().held).toEqual(["oven"]);
+});
+
+test("a page that has just opened takes no machine for held that it has not seen move, nor one of an earlier job", () => {
+  const look = (id: string, value: unknown) => {
+    const told = machine(id, value);
+    recordDevice({ id, properties: told.properties }, performance.now());
+    useLiveStore.setState({ deviceById: deviceById(told), stop: STOP });
+    return useLiveStore.getState().held;
+  };
+  expect(look("oven", 40)).toEqual([]);
+  vi.advanceTimersByTime(60_000);
+  expect(look("oven", 40)).toEqual([]);
+  vi.advanceTimersByTime(60_000);
+  expect(look("oven", 40)).toEqual(["oven"]);
+  expect(look("oven", null)).toEqual([]);
+});
+
+test("a machine that takes long for each percent is held after twice as long", () => {
+  progress("oven", 40);
+  vi.advanceTimersByTime(36_000);
+  progress("oven", 41);
+  useLiveStore.setState({ deviceById: deviceById(machine("oven", 41)), stop: STOP });
+  vi.advanceTimersByTime(70_000);
+  expect(useLiveStore.getState().held).toEqual([]);
+  vi.advanceTimersByTime(3000);
   expect(useLiveStore.getState().held).toEqual(["oven"]);
 });
 

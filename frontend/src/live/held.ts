@@ -4,9 +4,11 @@ import type { Device } from "@/api/types";
 import { poseOf, readingsOf, type PosePair } from "./readings";
 import { useLiveStore } from "./store";
 
-/** So long a robot's place has not changed when it stands, and a machine's progress when it does nothing. */
+/** So long a robot's place has not changed when it stands. */
 const ROBOT_STILL_MS = 2000;
+/** So long a machine's progress has not, or twice as long as it took last time; unknown where that was not seen. */
 const MACHINE_STILL_MS = 10_000;
+const UNKNOWN_STILL_MS = 120_000;
 const LOOK_MS = 500;
 const DOING = ["driving", "working", "working_percent"];
 
@@ -19,12 +21,13 @@ export function standsAt(pose: PosePair | undefined, now: number): boolean {
 }
 
 /** Whether a device is seen to stand; of a machine that tells no progress nobody knows. */
-function isStill({ id, kind }: Device, now: number): boolean {
+function isStill({ id, kind, properties }: Device, now: number): boolean {
   if (kind === "robot") return standsAt(poseOf(id), now);
-  const progress = readingsOf(id, "jobStatus");
-  const [before, last] = [progress.at(-2), progress.at(-1)];
-  if (!before || !last) return last !== undefined;
-  return now - (before.value === last.value ? before : last).at >= MACHINE_STILL_MS;
+  if (typeof properties.find(({ name }) => name === "jobStatus")?.value !== "number") return false;
+  const seen = readingsOf(id, "jobStatus").filter(({ value }, at, all) => value !== all[at - 1]?.value);
+  const [before, last] = [seen.at(-2), seen.at(-1)];
+  if (!last) return false;
+  return now - last.at >= (before ? Math.max(MACHINE_STILL_MS, 2 * (last.at - before.at)) : UNKNOWN_STILL_MS);
 }
 
 /** Look who stands, and again while anybody who has something to do still moves. */

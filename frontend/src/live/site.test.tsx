@@ -94,6 +94,10 @@ test("another name of a program reaches who has it open", async () => {
   queries.setQueryData(keys.program("p"), { name: "Team" });
   lineOf("a").say({ type: "programs" });
   expect(queries.getQueryState(keys.program("p"))?.isInvalidated).toBe(true);
+  queries.setQueryData(keys.program("p"), { name: "Crew" });
+  await pass(10);
+  lineOf("a").say({ type: "hello", site: "a" }); // it was away, and does not know what happened
+  expect(queries.getQueryState(keys.program("p"))?.isInvalidated).toBe(true);
 });
 
 test("from a site to another and back within two seconds", async () => {

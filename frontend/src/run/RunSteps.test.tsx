@@ -56,7 +56,7 @@ test("lines that are not here yet are asked for at a press, and stand above the 
   const fetchOlder = vi.fn();
   const { rerender } = render(journalOf(20_000, 19_501, { fetchOlder }));
   expect(lines()).toHaveLength(500);
-  expect(screen.getByText("saved, 20000 entries")).toBeTruthy();
+  expect(screen.queryByText(/^saved/)).toBeNull(); // how many of the older ones will be shown nobody knows
   fireEvent.click(screen.getByText("Show older lines (19500)"));
   expect(fetchOlder).toHaveBeenCalledOnce();
   rerender(journalOf(20_001, 19_001, { fetchOlder }));

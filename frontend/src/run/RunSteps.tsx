@@ -210,11 +210,11 @@ export function Journal({ journal, numberOf, nameOf, label, full = false, onWrit
     <section className={styles.journal} aria-label={label}>
       {full ? null : (
         <h2>
-          {label} <small>{t("run.entries", { count: all.length + journal.older })}</small>
+          {label} {journal.older > 0 ? null : <small>{t("run.entries", { count: all.length })}</small>}
         </h2>
       )}
       {older > 0 ? (
-        <Button size="compact-xs" variant="default" loading={journal.isFetching && hidden === 0} onClick={showOlder}>
+        <Button size="compact-xs" variant="default" loading={journal.isFetching && hidden < LINES} onClick={showOlder}>
           {t("run.older_lines", { count: older })}
         </Button>
       ) : null}

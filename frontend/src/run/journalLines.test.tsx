@@ -75,6 +75,16 @@ test("of a journal of 20,000 lines the page asks for the newest 500 and one time
   await waitFor(() => expect(result.current.timeline).toMatchObject({ told: { seq: 20_700 }, since: [] }));
 });
 
+test("older lines that are asked for while what was missed is fetched leave no hole", async () => {
+  const run = serve(2000);
+  const { result, shows, feed } = await open();
+  await shows(1501, 2000);
+  run.lines = 2050;
+  act(() => feed.take({ type: "hello", site: "hall" }));
+  act(() => result.current.journal.fetchOlder());
+  await shows(1551, 2050);
+});
+
 test("a journal that fits is here as a whole", async () => {
   serve(3);
   const { shows } = await open();

@@ -24,7 +24,7 @@ export function useJournalLines(run: string): JournalLines {
     lines,
     // They are counted from 1, and none is missing.
     older: hasNextPage ? (lines[0]?.seq ?? 1) - 1 : 0,
-    fetchOlder: () => void fetchNextPage(),
+    fetchOlder: () => void fetchNextPage({ cancelRefetch: false }),
     isFetching,
     problem: isFetchNextPageError ? problemText(error, t("shell.problem.screen")) : null,
   };

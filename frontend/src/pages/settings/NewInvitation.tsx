@@ -91,7 +91,9 @@ export function NewInvitation({ slug, canMail, onMade, onClose }: Props) {
         onSubmit={(event) => {
           event.preventDefault();
           // The link is shown also to who has closed the form before it came: it is shown this one time.
-          invite.mutateAsync({ ...wanted, email: wanted.email.trim() }).then(onMade, () => undefined);
+          invite
+            .mutateAsync({ ...wanted, email: wanted.email.trim() }, { onSuccess: onClose })
+            .then(onMade, () => undefined);
         }}
       >
         <Fields wanted={wanted} set={(some) => setWanted({ ...wanted, ...some })} canMail={canMail} />

@@ -11,6 +11,7 @@ import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import pages from "../pages.module.css";
 import { TableSkeleton } from "../TableSkeleton";
+import { useShownOnce } from "../useShownOnce";
 import { AuditPane } from "./AuditPane";
 import { FactorRule } from "./FactorRule";
 import { Invitations } from "./Invitations";
@@ -30,11 +31,7 @@ export function PeoplePage() {
 /** The invitations, and the dialogs of a new one. */
 function Inviting({ slug, making, setMaking }: { slug: string; making: boolean; setMaking: (is: boolean) => void }) {
   const invitations = useInvitations(slug);
-  const [made, setMade] = useState<MadeInvitation | null>(null);
-  const finish = (invitation: MadeInvitation) => {
-    setMaking(false);
-    setMade(invitation);
-  };
+  const links = useShownOnce<MadeInvitation>();
   if (invitations.isLoadingError)
     return <LoadProblem error={invitations.error} again={() => void invitations.refetch()} />;
   if (!invitations.data) return <TableSkeleton />;
@@ -45,11 +42,11 @@ function Inviting({ slug, making, setMaking }: { slug: string; making: boolean; 
         <NewInvitation
           slug={slug}
           canMail={invitations.data.can_mail}
-          onMade={finish}
+          onMade={links.show}
           onClose={() => setMaking(false)}
         />
       ) : null}
-      {made ? <LinkShown made={made} onClose={() => setMade(null)} /> : null}
+      {links.shown ? <LinkShown key={links.shown.link} made={links.shown} onClose={links.next} /> : null}
     </>
   );
 }

@@ -15,6 +15,7 @@ import { LoadProblem, problemText } from "@/shell/LoadProblem";
 import { tellRefusal, useTellUnseen } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import { TableSkeleton } from "../TableSkeleton";
+import { useShownOnce } from "../useShownOnce";
 import { useMakeWallScreen, useTurnOff, useWallScreens } from "./people";
 import styles from "./settings.module.css";
 
@@ -67,7 +68,7 @@ function NewScreen({
         onSubmit={(event) => {
           event.preventDefault();
           // The link is shown also to who has closed the form before it came: it is shown this one time.
-          make.mutateAsync({ name: name.trim(), days }).then(onMade, () => undefined);
+          make.mutateAsync({ name: name.trim(), days }, { onSuccess: onClose }).then(onMade, () => undefined);
         }}
       >
         <p className={styles.hint}>{t("wall.admin.about")}</p>
@@ -161,11 +162,7 @@ export function WallScreens({ slug }: { slug: string }) {
   const { t } = useTranslation();
   const screens = useWallScreens(slug);
   const [making, setMaking] = useState(false);
-  const [made, setMade] = useState<MadeWallScreen | null>(null);
-  const finish = (screen: MadeWallScreen) => {
-    setMaking(false);
-    setMade(screen);
-  };
+  const links = useShownOnce<MadeWallScreen>();
   if (screens.isLoadingError) return <LoadProblem error={screens.error} again={() => void screens.refetch()} />;
   if (!screens.data) return <TableSkeleton />;
   return (
@@ -188,8 +185,8 @@ export function WallScreens({ slug }: { slug: string }) {
       ) : (
         <Table slug={slug} screens={screens.data} />
       )}
-      {making ? <NewScreen slug={slug} onMade={finish} onClose={() => setMaking(false)} /> : null}
-      {made ? <LinkOnce made={made} onClose={() => setMade(null)} /> : null}
+      {making ? <NewScreen slug={slug} onMade={links.show} onClose={() => setMaking(false)} /> : null}
+      {links.shown ? <LinkOnce key={links.shown.id} made={links.shown} onClose={links.next} /> : null}
     </Panel>
   );
 }

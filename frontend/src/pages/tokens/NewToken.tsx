@@ -28,7 +28,8 @@ export function NewToken({ site, onMade, onClose }: Props) {
   const make = useMakeToken(site.slug, useTellUnseen());
   const chosen = scopesOf(site.role).filter((scope) => scope === "read" || scopes.includes(scope));
   /** The token is shown also to who has closed the form before it came: it is shown this one time. */
-  const send = () => make.mutateAsync({ name: name.trim(), scopes: chosen, days }).then(onMade, () => undefined);
+  const send = () =>
+    make.mutateAsync({ name: name.trim(), scopes: chosen, days }, { onSuccess: onClose }).then(onMade, () => undefined);
   return (
     <Modal opened onClose={onClose} title={t("tokens.new")} size={480}>
       <form

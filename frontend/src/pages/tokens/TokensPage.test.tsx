@@ -1,10 +1,11 @@
 // @vitest-environment jsdom
 import { fireEvent, screen } from "@testing-library/react";
-import { expect, test } from "vitest";
+import { expect, test, vi } from "vitest";
 import type { Token } from "@/api/types";
-import { showWithCorner, testsPages } from "@/testing/page";
+import { keys, makeQueryClient } from "@/api/queries";
+import { showAt, showWithCorner, testsPages } from "@/testing/page";
 import { slowServer } from "@/testing/slowServer";
-import { AskRevoke } from "./TokensPage";
+import { AskRevoke, TokensPage } from "./TokensPage";
 
 testsPages();
 
@@ -17,4 +18,31 @@ test("who has closed the question before the end of a token is refused is told",
   leave();
   await asked.answer(409);
   expect(await screen.findByText("No.")).toBeTruthy();
+});
+
+test("of two tokens that are made at once each is shown, one after the other", async () => {
+  vi.stubGlobal("WebSocket", class { close() {} }); // prettier-ignore
+  const { nth, waiting } = slowServer({
+    "/tokens": [],
+    "/sites/hall": { slug: "hall", name: "Hall", role: "viewer", stop: { active: false } },
+  });
+  const me = { csrf: "", demo_accounts: [], user: { id: 1, name: "Anna", initials: "A" } };
+  const queries = makeQueryClient();
+  queries.setQueryData(keys.me, me);
+  showAt("/sites/hall/tokens", [{ path: "/sites/:slug/tokens", element: <TokensPage /> }], queries);
+  const form = async (name: string) => {
+    fireEvent.click(await screen.findByText("New token"));
+    fireEvent.change(await screen.findByLabelText(/^What it is for/), { target: { value: name } });
+  };
+  for (const name of ["Display", "Robot"]) {
+    await form(name);
+    fireEvent.click(screen.getByText("Make the token"));
+    await nth(name === "Display" ? 1 : 2);
+    if (name === "Display") fireEvent.click(screen.getByText("Cancel"));
+  }
+  await waiting[0]?.answer(200, { id: "1", name: "Display", token: "first-secret" });
+  await waiting[1]?.answer(200, { id: "2", name: "Robot", token: "second-secret" });
+  expect(await screen.findByDisplayValue("first-secret")).toBeTruthy();
+  fireEvent.click(screen.getByText("I have it"));
+  expect(await screen.findByDisplayValue("second-secret")).toBeTruthy();
 });

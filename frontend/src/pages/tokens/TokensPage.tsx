@@ -20,6 +20,7 @@ import { useTellUnseen } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import { SettingsTabs } from "../settings/SettingsTabs";
 import { TableSkeleton } from "../TableSkeleton";
+import { useShownOnce } from "../useShownOnce";
 import { NewToken, TokenShown } from "./NewToken";
 import { useRevokeToken, useTokens } from "./tokens";
 import styles from "./tokens.module.css";
@@ -115,12 +116,16 @@ export function AskRevoke({ slug, token, onClose }: { slug: string; token: Token
 }
 
 export function TokensPage() {
-  const { t } = useTranslation();
   const { slug = "" } = useParams();
+  return <TokensOfSite key={slug} slug={slug} />;
+}
+
+function TokensOfSite({ slug }: { slug: string }) {
+  const { t } = useTranslation();
   const site = useSite(slug);
   const tokens = useTokens(slug);
   const [making, setMaking] = useState(false);
-  const [made, setMade] = useState<MadeToken | null>(null);
+  const secrets = useShownOnce<MadeToken>();
   const [ending, setEnding] = useState<Token | null>(null);
   const problem = missing(site, tokens);
   const begin = (
@@ -128,10 +133,6 @@ export function TokensPage() {
       {t("tokens.new")}
     </Button>
   );
-  const finish = (token: MadeToken) => {
-    setMaking(false);
-    setMade(token);
-  };
   return (
     <PageShell title={t("tokens.title")} actions={tokens.data?.length ? begin : null}>
       <SettingsTabs slug={slug} role={site.data?.role} />
@@ -150,8 +151,10 @@ export function TokensPage() {
           </Panel>
         ) : null}
       </div>
-      {making && site.data ? <NewToken site={site.data} onMade={finish} onClose={() => setMaking(false)} /> : null}
-      {made ? <TokenShown token={made} onClose={() => setMade(null)} /> : null}
+      {making && site.data ? (
+        <NewToken site={site.data} onMade={secrets.show} onClose={() => setMaking(false)} />
+      ) : null}
+      {secrets.shown ? <TokenShown key={secrets.shown.id} token={secrets.shown} onClose={secrets.next} /> : null}
       {ending ? <AskRevoke slug={slug} token={ending} onClose={() => setEnding(null)} /> : null}
     </PageShell>
   );
