@@ -306,6 +306,19 @@ test("a robot that begins at a machine is brought there before it picks: other s
   expect(added(taskOf(["self.robot.move((1, 1))"], run), ours)).toEqual(["self.robot.move((1, 1))"]);
 });
 
+test("a robot that begins at a machine is brought there, too, where a branch or a function picks first", () => {
+  const run = ['self.robot = ctx.get("robot01", at="itemInventory01")'];
+  const other = "branch_1b(self):\nself.wait(2)";
+  const pick = 'self.robot.pick({"value": 1, "object": "box"})';
+  const first = (line: string, ...methods: string[]) => added(taskOf([line], run, ...methods), EMPTY.script)[0];
+  const parallel = "self.parallel(self.branch_1a, self.branch_1b)";
+  const move = "self.robot.move(self.robot_stands.location)";
+  expect(first(parallel, `branch_1a(self):\n${pick}`, other)).toBe(move);
+  expect(first(parallel, "branch_1a(self):\nself.serve()", other, `serve(self):\nself.serve()\n${pick}`)).toBe(move);
+  expect(first(parallel, `branch_1a(self):\nself.robot.move((1, 1))\n${pick}`, other)).toBe(parallel);
+  expect(first("self.serve()", "serve(self):\nself.serve()")).toBe("self.serve()");
+});
+
 test("an empty text is nothing to paste", () => {
   expect(scriptWith(" \n", EMPTY, null, [])).toBeNull();
 });
