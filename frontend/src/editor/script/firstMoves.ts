@@ -9,7 +9,6 @@ const STANDS = new RegExp(
 
 /** The tidied script without `at="oven01"`; what its robot picks or drops there follows a move to it. */
 export function withFirstMoves(script: string): string {
-  const heading = script.split("\n").findIndex((line) => /^\s*def new_task\(/.test(line));
   const methods = methodsOf(script);
   const moves: string[] = [];
   const lines = script.split("\n").flatMap((line) => {
@@ -21,6 +20,7 @@ export function withFirstMoves(script: string): string {
     moves.push(`self.${name}.move(self.${place}.location)`);
     return [given, `${indent}self.${place} = ctx.get(${at})`];
   });
+  const heading = lines.findIndex((line) => /^\s*def new_task\(/.test(line));
   const margin = " ".repeat(indentOf(lines.slice(heading + 1).find((line) => line.trim()) ?? ""));
   return [...lines.slice(0, heading + 1), ...moves.map((move) => margin + move), ...lines.slice(heading + 1)].join(
     "\n",

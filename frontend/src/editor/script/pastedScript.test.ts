@@ -319,6 +319,16 @@ test("a robot that begins at a machine is brought there, too, where a branch or 
   expect(first("self.serve()", "serve(self):\nself.serve()")).toBe("self.serve()");
 });
 
+test("the first move stands in new_task also where run stands above it", () => {
+  const run = 'def run(self, ctx):\n  self.robot = ctx.get("robot01", at="oven01")\n  self.new_task()\n';
+  const text = scriptWith(`${run}def new_task(self):\n  self.robot.pick("box")\n`, EMPTY, null, [])?.split("\n");
+  expect(text?.slice(2, 5)).toEqual([
+    "        self.robot.move(self.robot_stands.location)",
+    '        self.robot.pick("box")',
+    "",
+  ]);
+});
+
 test("an empty text is nothing to paste", () => {
   expect(scriptWith(" \n", EMPTY, null, [])).toBeNull();
 });
