@@ -93,6 +93,12 @@ test("a step that I did not add, or that has gone, is no work to lose", () => {
   expect(workedOnSince(applyEdits(after, [{ do: "set_pos", id: "a", pos: [2, 2] }]), mine)).toBe(false);
 });
 
+test("many steps are looked through at once", () => {
+  const steps = Object.fromEntries(Array.from({ length: 10_000 }, (_, at) => [`s${at}`, step]));
+  const all = Object.keys(steps).map((id): Edit => ({ do: "add_step", id, step }));
+  expect(workedOnSince({ ...before, steps }, all)).toBe(false);
+});
+
 test("the same said in another order of its keys changes nothing", () => {
   const role: Edit = { do: "set_role", id: "r", value: { name: "Carrier", can: ["pick"] } };
   const again: Edit = { do: "set_role", id: "r", value: { can: ["pick"], name: "Carrier" } };

@@ -1,6 +1,6 @@
 /** Whether somebody changed after me what I set last, so that undoing or redoing it would overwrite theirs. */
 import { applyEdits, type Edit } from "./edits";
-import { EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/document";
+import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
 import { isSameValue } from "@/program/document/sameValue";
 import { readStep } from "@/program/document/wellFormed";
 
@@ -25,14 +25,22 @@ export function changedSince(document: ProgramDocument, edits: readonly Edit[]):
 
 /** Whether a step that the edits added has more in it than they gave it: another field, or steps of others inside. */
 export function workedOnSince(document: ProgramDocument, edits: readonly Edit[]): boolean {
-  const { steps } = applyEdits(EMPTY_DOCUMENT, edits);
-  const placed = new Set(edits.flatMap((edit) => ("id" in edit ? [edit.id] : [])));
+  const steps = new Map<string, Step>();
+  const placed = new Set<string>();
+  for (const edit of edits) {
+    if (!("id" in edit)) continue;
+    const { id } = edit;
+    placed.add(id);
+    const before = steps.get(id);
+    const step = applyEdits({ ...EMPTY_DOCUMENT, steps: before ? { [id]: before } : {} }, [edit]).steps[id];
+    if (step) steps.set(id, step);
+    else steps.delete(id);
+  }
   return (
-    Object.entries(steps).some(([id, mine]) => {
+    [...steps].some(([id, mine]) => {
       const now = document.steps[id];
       return now !== undefined && !isSameValue(now, readStep(mine));
-    }) ||
-    Object.entries(document.steps).some(([id, { place }]) => place && Object.hasOwn(steps, place[0]) && !placed.has(id))
+    }) || Object.entries(document.steps).some(([id, { place }]) => place && steps.has(place[0]) && !placed.has(id))
   );
 }
 
