@@ -8,8 +8,14 @@ import { resetGestures, useGestures } from "../state/gestures";
 import { resetUi, select, useUi } from "../state/ui";
 import { Ghosts } from "./Ghosts";
 
-const wait = (x: number): Step => ({ kind: "wait", place: ["program", "body", "a"], pos: [x, -1], params: {} });
-const document: ProgramDocument = { ...EMPTY_DOCUMENT, steps: { a: wait(1), b: wait(2) } };
+const wait = (x: number, parent = "program"): Step => {
+  return { kind: "wait", place: [parent, "body", "a"], pos: [x, -1], params: {} };
+};
+const document: ProgramDocument = {
+  ...EMPTY_DOCUMENT,
+  functions: { mix: { name: "mix", parameters: [] } },
+  steps: { a: wait(1, "mix"), b: wait(2), call: { ...wait(3), kind: "call", params: { function: "mix" } } },
+};
 
 beforeEach(() => {
   resetUi();
@@ -17,13 +23,13 @@ beforeEach(() => {
 });
 afterEach(cleanup);
 
-/** Somebody else removes step a, with what comes in the same change. */
-function remove(brought: Record<string, Step>, unsaved = false) {
+/** Somebody else removes step a, with what goes and comes in the same change. */
+function remove(brought: Record<string, Step>, gone = ["a", "call"], unsaved = false) {
   const listeners: Parameters<SharedProgram["onRemoval"]>[0][] = [];
   const shared = {
     onRemoval: (each: (typeof listeners)[0]) => void listeners.push(each),
     getDocument: () => document,
-    isUnsaved: () => unsaved,
+    isUnsaved: (id: string) => unsaved && id === "a",
   };
   // Whoever may not edit is shown none, and so no map is needed here.
   const open = { document, shared, canEdit: false } as unknown as OpenProgram;
@@ -33,7 +39,7 @@ function remove(brought: Record<string, Step>, unsaved = false) {
       <Ghosts />
     </ProgramContext>,
   );
-  act(() => listeners.forEach((each) => each(["a"], brought)));
+  act(() => listeners.forEach((each) => each(gone, brought)));
   return { ghosts: useGestures.getState().ghosts.map(({ id }) => id), selected: useUi.getState().selected };
 }
 
@@ -41,10 +47,14 @@ test("a selected step that somebody removes is kept to be brought back", () => {
   expect(remove({ c: wait(3) })).toEqual({ ghosts: ["a"], selected: ["b"] });
 });
 
-test("one that the same change brings under another name stays selected, and nothing is said", () => {
+test("one is kept to be brought back though another of its kind comes to its spot", () => {
+  expect(remove({ d: wait(1) }, ["a"])).toEqual({ ghosts: ["a"], selected: ["b"] });
+});
+
+test("one whose function is expanded, and that the same change brings under another name stays selected, and nothing is said", () => {
   expect(remove({ c: wait(3), d: wait(1) })).toEqual({ ghosts: [], selected: ["d", "b"] });
 });
 
 test("a change of it that the copy does not have is told all the same", () => {
-  expect(remove({ d: wait(1) }, true)).toEqual({ ghosts: ["a"], selected: ["d", "b"] });
+  expect(remove({ d: wait(1) }, ["a", "call"], true)).toEqual({ ghosts: ["a"], selected: ["d", "b"] });
 });

@@ -7,7 +7,7 @@ import { select, useUi } from "../state/ui";
 import { useGestures, type Ghost } from "../state/gestures";
 import type { ProgramDocument } from "@/program/document/document";
 import { isSameValue } from "@/program/document/sameValue";
-import { copyAmong, keptOf } from "./keptSteps";
+import { copiesOf, keptOf } from "./keptSteps";
 
 // Fetched with the dialogs, of whose script it is a part.
 const GhostCard = lazy(async () => ({ default: (await import("./GhostCard")).GhostCard }));
@@ -29,14 +29,14 @@ export function Ghosts() {
 function keepGhosts(shared: SharedProgram, gone: readonly string[], brought: ProgramDocument["steps"]): void {
   const before = shared.getDocument();
   const { selected } = useUi.getState();
-  const copyOf = (id: string) => before.steps[id] && copyAmong(brought, before.steps[id]);
+  const copies = copiesOf(before, gone, brought);
   // Who was at a step that only has another name now goes on with it; a change that went is told all the same.
-  const concerns = (id: string) => shared.isUnsaved(id) || (selected.includes(id) && !copyOf(id));
+  const concerns = (id: string) => shared.isUnsaved(id) || (selected.includes(id) && !copies.has(id));
   const lost = outermost(
     before,
     gone.filter((id) => concerns(id) && Object.hasOwn(before.steps, id)),
   );
-  const stays = selected.flatMap((id) => (gone.includes(id) ? (copyOf(id) ?? []) : [id]));
+  const stays = selected.flatMap((id) => (gone.includes(id) ? (copies.get(id) ?? []) : [id]));
   if (lost.length === 0 && isSameValue(stays, selected)) return;
   const fresh = lost.map((id): Ghost => ({ id, steps: keptOf(before, id, gone), changed: shared.isUnsaved(id) }));
   useGestures.setState(({ ghosts }) => ({ ghosts: [...ghosts.filter(({ id }) => !lost.includes(id)), ...fresh] }));

@@ -4,7 +4,7 @@ import { takeApart } from "../edits/branches";
 import { expandCall } from "../edits/calls";
 import { applyEdits, type Decision, type Edit } from "../edits/edits";
 import { deleteSteps } from "../edits/joints";
-import { copyAmong, keptOf, putBack } from "./keptSteps";
+import { copiesOf, keptOf, putBack } from "./keptSteps";
 
 const step = (kind: string, parent: string, duration?: number): Step => {
   return { kind, pos: [1, -1], place: [parent, "body", "a"], params: duration === undefined ? {} : { duration } };
@@ -65,9 +65,22 @@ test("the steps of a function whose last call was expanded go on under other nam
   };
   let count = 0;
   const now = applyEdits(mixing, editsOf(expandCall(mixing, "call", () => `new${(count += 1)}`)));
-  const found = (id: string) => {
-    const copy = copyAmong(now.steps, mixing.steps[id] as Step);
-    return copy && now.steps[copy]?.params.duration;
-  };
+  const copies = copiesOf(mixing, Object.keys(mixing.steps), now.steps);
+  const found = (id: string) => now.steps[copies.get(id) ?? ""]?.params.duration;
   expect(["wait", "other", "call"].map(found)).toEqual([5, 6, undefined]);
+  expect(copies.size).toBe(3);
+});
+
+test("what comes to the spot of a step that was removed is no copy of it, but where its function was expanded", () => {
+  const [at, there] = [step("wait", "program"), step("wait", "mix")];
+  const calls: ProgramDocument = {
+    ...EMPTY_DOCUMENT,
+    functions: { mix: { name: "mix", parameters: [] } },
+    steps: { call: { ...step("call", "program"), params: { function: "mix" } }, at, there, too: there },
+  };
+  const found = (...gone: string[]) => [...copiesOf(calls, gone, { copy: at })];
+  expect(found("at")).toEqual([]);
+  expect(found("there")).toEqual([]);
+  expect(found("call", "at")).toEqual([]);
+  expect(found("call", "there", "too")).toEqual([["there", "copy"]]);
 });

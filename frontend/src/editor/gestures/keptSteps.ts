@@ -1,7 +1,7 @@
 /** Steps that somebody removed and another person keeps: what went, and how it comes back. */
-import type { ProgramDocument, Step } from "@/program/document/document";
+import { type ProgramDocument, textOf } from "@/program/document/document";
 import { isSameValue } from "@/program/document/sameValue";
-import { withDescendants } from "@/program/document/tree";
+import { ancestors, withDescendants } from "@/program/document/tree";
 import type { Edit } from "../edits/edits";
 import type { Ghost } from "../state/gestures";
 
@@ -20,7 +20,25 @@ export function putBack(document: ProgramDocument, kept: KeptSteps): readonly Ed
     .map(([id, step]): Edit => ({ do: "add_step", id, step }));
 }
 
-/** Of the steps that the same change brought, the one that stands in the place of one that went, as of an expanded call. */
-export function copyAmong(brought: Readonly<Record<string, Step>>, { kind, pos }: Step): string | undefined {
-  return Object.keys(brought).find((id) => brought[id]?.kind === kind && isSameValue(brought[id].pos, pos));
+/**
+ * Under which ids steps of functions go on whose last call was expanded: each that went with its function and a call of
+ * it has the copy that the same change brought to its spot, and no other step has that one.
+ */
+export function copiesOf(before: ProgramDocument, gone: readonly string[], brought: KeptSteps): Map<string, string> {
+  const expanded = new Set(
+    gone.flatMap((id) => (before.steps[id]?.kind === "call" ? [textOf(before.steps[id].params.function)] : [])),
+  );
+  const copies = new Map<string, string>();
+  const left = new Map(Object.entries(brought));
+  for (const id of gone) {
+    const top = ancestors(before, id).at(-1) ?? "";
+    if (!expanded.has(top) || !Object.hasOwn(before.functions, top)) continue;
+    for (const [copy, { kind, pos }] of left)
+      if (kind === before.steps[id]?.kind && isSameValue(pos, before.steps[id].pos)) {
+        copies.set(id, copy);
+        left.delete(copy);
+        break;
+      }
+  }
+  return copies;
 }
