@@ -1,6 +1,10 @@
-import { expect, test } from "vitest";
+import { expect, test, vi } from "vitest";
+import { api } from "@/api/client";
+import { EMPTY_DOCUMENT, type Step } from "@/program/document/document";
+import type { OpenProgram } from "../state/context";
+import { useUi } from "../state/ui";
 import type { NamedDevice } from "./completion";
-import { scriptWith } from "./pastedScript";
+import { drawPasted, scriptWith } from "./pastedScript";
 import { looksLikeScript } from "./scriptLines";
 
 const OVEN: NamedDevice = { id: "curingOven01", name: "Curing Oven", kind: "machine", methods: [], properties: [] };
@@ -44,6 +48,31 @@ test("lines go to the end of the program, indented as they must be", () => {
 test("lines go behind the selected step and what stands in it", () => {
   expect(scriptWith("self.wait(7)", PRINTED, "if", [])?.split("\n")[6]).toBe("        self.wait(7)");
   expect(scriptWith("self.wait(7)", PRINTED, "w1", [])?.split("\n")[4]).toBe("            self.wait(7)");
+});
+
+test("with all selected, lines go behind the last step of the program and into no function", async () => {
+  const post = vi.spyOn(api, "post").mockResolvedValue({ document: null, lines: [], diagnostics: [] });
+  const script = taskOf(["self.wait(1)", "self.mix()"], [], "mix(self):\nself.wait(2)");
+  const lines = script.split("\n").map((line) => /mix\(\)|\d/.exec(line)?.[0] ?? "");
+  const step = (kind: string, parent: string, order: string): Step => {
+    return { kind, place: [parent, "body", order], pos: [1, 1], params: kind === "call" ? { function: "mix" } : {} };
+  };
+  const steps = { 1: step("wait", "program", "A"), "mix()": step("call", "program", "B"), 2: step("wait", "mix", "A") };
+  const document = { ...EMPTY_DOCUMENT, functions: { mix: { name: "mix", parameters: [] } }, steps };
+  useUi.setState({ selected: ["1", "mix()", "2"] });
+  const open = {
+    compiled: { script, lines },
+    shared: { getDocument: () => document },
+    program: { id: "p" },
+    devices: [],
+  };
+  await drawPasted({ ...open, t: String } as unknown as OpenProgram, "self.wait(7)", new Map());
+  const [[, asked]] = post.mock.calls as [[string, { text: string }]];
+  expect(asked.text.split("\n").slice(2, 5)).toEqual([
+    "        self.wait(1)",
+    "        self.mix()",
+    "        self.wait(7)",
+  ]);
 });
 
 test("devices and robots that the program does not have yet are given in run", () => {

@@ -7,6 +7,7 @@ import { doAndSay } from "../state/undoing";
 import { say, select, useUi } from "../state/ui";
 import type { NamedDevice } from "./completion";
 import { pythonName } from "./names";
+import { lastChosen } from "@/program/document/called";
 import { ROBOT_STEPS } from "@/program/operation";
 import { blockOf, indentOf, type Printed } from "./scriptLines";
 import { type Chosen, withChosen } from "../edits/holes";
@@ -100,10 +101,10 @@ export function pasteScript(open: OpenProgram, text: string): void {
 export async function drawPasted(open: OpenProgram, pasted: string, chosen: Chosen, done?: string): Promise<void> {
   const { compiled, shared, program, devices, t } = open;
   if (!compiled) return;
-  const behind = useUi.getState().selected.at(-1) ?? null;
+  const base = shared.getDocument();
+  const behind = lastChosen(base, useUi.getState().selected);
   const text = scriptWith(pasted, compiled, behind, devices);
   if (text === null) return;
-  const base = shared.getDocument();
   try {
     const request = { text, base, shown: compiled.script };
     const drawn = await api.post<DrawnScript>(`/programs/${encodeURIComponent(program.id)}/script`, request);

@@ -3,8 +3,9 @@ import { clip } from "../edits/clipping";
 import { applyEdits, type Edit } from "../edits/edits";
 import { wrapInFunction } from "../edits/calls";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
+import { lastChosen } from "@/program/document/called";
 import { readTree } from "@/program/document/tree";
-import { duplicateSelected, pasteClipping, removeSelected } from "./actions";
+import { branchNow, duplicateSelected, pasteClipping, removeSelected } from "./actions";
 import type { OpenProgram } from "./context";
 import { resetUi, useUi } from "./ui";
 
@@ -65,6 +66,19 @@ test("copies of all steps stand behind them in the program, and a function keeps
     expect(branch(copied, "mix")).toEqual(["call"]);
     expect(branch(copied, "stir")).toEqual(["wait"]);
   }
+});
+
+test("of all steps the last of the program's own is the one behind which others go, never one of a function or event", () => {
+  const event = step("on_event", ["program", "events", "A"]);
+  const eventful = { ...program, steps: { ...program.steps, event, late: step("wait", ["event", "body", "A"]) } };
+  const { reading } = readTree(eventful);
+  expect(lastChosen(eventful, reading)).toBe("call");
+  expect([[], ["there", "back"], ["deep", "inner"], ["late"]].map((ids) => lastChosen(eventful, ids))).toEqual([
+    ...[null, "back", "inner", "late"],
+  ]);
+  useUi.setState({ selected: reading });
+  expect(branchNow(eventful)).toEqual({ parent: "program", branch: "body" });
+  duplicateSelected(eventful, (edits) => expect(branch(applyEdits(eventful, edits), "pong")).toEqual(["call"]));
 });
 
 test("what is cut leaves the functions that it calls as they were", () => {

@@ -1,6 +1,6 @@
 /** What the toolbar, the keys and the menus do; each is one gesture and one entry to undo. */
 import type { ProgramDocument, Position } from "@/program/document/document";
-import { standingAlone } from "@/program/document/called";
+import { lastChosen } from "@/program/document/called";
 import { EVENTS, type BranchRef } from "@/program/document/tree";
 import { clip, type Clipping, paste } from "../edits/clipping";
 import type { Decision, Edit } from "../edits/edits";
@@ -31,7 +31,7 @@ export function makeId(): string {
 /** The branch that a new step goes into. */
 export function branchNow(document: ProgramDocument): BranchRef {
   const { into, selected } = useUi.getState();
-  return into?.branch ?? branchForNew(document, selected.at(-1) ?? null);
+  return into?.branch ?? branchForNew(document, lastChosen(document, selected));
 }
 
 /** Make a step, select it, and put the tool away unless it is locked. */
@@ -75,8 +75,7 @@ export function pasteClipping(open: OpenProgram, clipping: Clipping, names: Name
 
 function goalNow(document: ProgramDocument): Goal {
   const { into, selected } = useUi.getState();
-  // Behind a call that is selected with the steps of its function, and not in the function.
-  const last = standingAlone(document, selected).at(-1) ?? null;
+  const last = lastChosen(document, selected);
   const branch = last === null ? null : branchOf(document, last);
   if (!into && branch && branch.branch !== EVENTS.branch) return { branch, after: last };
   return endOfBranch(document, into?.branch ?? branchForNew(document, last));
