@@ -3,7 +3,7 @@ import { clip } from "../edits/clipping";
 import { applyEdits, type Edit } from "../edits/edits";
 import { wrapInFunction } from "../edits/calls";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
-import { lastChosen } from "@/program/document/called";
+import { lastChosen, standingAlone } from "@/program/document/called";
 import { readTree } from "@/program/document/tree";
 import { branchNow, duplicateSelected, pasteClipping, removeSelected } from "./actions";
 import type { OpenProgram } from "./context";
@@ -79,6 +79,23 @@ test("of all steps the last of the program's own is the one behind which others 
   useUi.setState({ selected: reading });
   expect(branchNow(eventful)).toEqual({ parent: "program", branch: "body" });
   duplicateSelected(eventful, (edits) => expect(branch(applyEdits(eventful, edits), "pong")).toEqual(["call"]));
+});
+
+test("however many functions are selected with what calls them, the tree is read once", () => {
+  const names = Array.from({ length: 30 }, (_, at) => `f${at}`);
+  let count = 0;
+  const functions = new Proxy(Object.fromEntries(names.map((name) => [name, { name, parameters: [] }])), {
+    ownKeys: (all) => ((count += 1), Object.keys(all)),
+  });
+  const steps = Object.fromEntries([
+    ...names.map((id, at) => [`in ${id}`, step("wait", [id, "body", "A"], { at })] as const),
+    ...names.map((id) => [`call ${id}`, step("call", ["program", "body", id], { function: id })] as const),
+  ]);
+  const many = { ...EMPTY_DOCUMENT, functions, steps };
+  readTree(many);
+  const once = count;
+  expect(standingAlone(many, Object.keys(steps))).toHaveLength(30);
+  expect(count).toBe(2 * once);
 });
 
 test("what is cut leaves the functions that it calls as they were", () => {
