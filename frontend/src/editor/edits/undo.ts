@@ -23,13 +23,23 @@ export function changedSince(document: ProgramDocument, edits: readonly Edit[]):
   });
 }
 
-/** Whether a step that the edits added has more in it than they gave it: another field, or steps of others inside. */
+/**
+ * Whether what the edits added has more in it than they gave it: a step another field or steps of others inside, a
+ * function steps or calls of others. Edits that make a function say first that it is not there.
+ */
 export function workedOnSince(document: ProgramDocument, edits: readonly Edit[]): boolean {
   const steps = new Map<string, Step>();
   const placed = new Set<string>();
+  const away = new Set<string>();
+  const made = new Set<unknown>();
   for (const edit of edits) {
     if (!("id" in edit)) continue;
     const { id } = edit;
+    if (edit.do === "set_function") {
+      if (!edit.value) away.add(id);
+      else if (away.has(id)) made.add(id);
+      continue;
+    }
     placed.add(id);
     const before = steps.get(id);
     const step = applyEdits({ ...EMPTY_DOCUMENT, steps: before ? { [id]: before } : {} }, [edit]).steps[id];
@@ -40,19 +50,24 @@ export function workedOnSince(document: ProgramDocument, edits: readonly Edit[])
     [...steps].some(([id, mine]) => {
       const now = document.steps[id];
       return now !== undefined && !isSameValue(now, readStep(mine));
-    }) || Object.entries(document.steps).some(([id, { place }]) => place && steps.has(place[0]) && !placed.has(id))
+    }) ||
+    Object.entries(document.steps).some(([id, { place, params }]) => {
+      const parent = place?.[0] ?? "";
+      return !placed.has(id) && (steps.has(parent) || made.has(parent) || made.has(params.function));
+    })
   );
 }
 
 /** Edits that set the fields of these as they are now; a step that is away has none. */
 export function asTheyAre(document: ProgramDocument, edits: readonly Edit[]): readonly Edit[] {
-  return [...fieldsOf(edits).values()].map((edit) => {
+  return [...fieldsOf(edits).values()].flatMap((edit) => {
     if (edit.do === "add_step" || edit.do === "remove_step") return presence(document, edit.id);
     const [now] = valuesOf(document, edit);
     if (now === undefined) return edit;
     const field =
       edit.do === "set_place" ? "place" : edit.do === "set_pos" || edit.do === "set_start" ? "pos" : "value";
-    return { ...edit, [field]: now };
+    const set = { ...edit, [field]: now };
+    return edit.do === "set_function" && !edit.value ? [edit, set] : set;
   });
 }
 

@@ -148,7 +148,12 @@ export class SharedProgram {
   apply(edits: readonly Edit[]): void {
     if (edits.length === 0) return;
     for (const edit of edits) if ("id" in edit) this.#unsaved.add(edit.id);
-    this.visits.capture(edits, () => applyEditsToDoc(this.doc, edits, this.#origin));
+    // What makes a function says to the undo list that it was not there: a rename says the same otherwise.
+    const made = edits.filter(
+      (edit) => edit.do === "set_function" && !Object.hasOwn(this.#document.functions, edit.id),
+    );
+    const kept = [...made.map((edit) => ({ ...edit, value: null }) as Edit), ...edits];
+    this.visits.capture(kept, () => applyEditsToDoc(this.doc, edits, this.#origin));
   }
 
   /** What the program itself puts right after a gesture: no entry of its own in the undo list. */

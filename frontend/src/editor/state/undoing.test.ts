@@ -114,6 +114,46 @@ test("Undo asks before it takes away a step into which somebody has drawn", () =
   expect([durationOf("c"), said()]).toEqual([1, "gesture.worked_on"]);
 });
 
+const wrap = () =>
+  mine(
+    { do: "set_function", id: "f", value: { name: "mix", parameters: [] } },
+    { do: "set_place", id: "a", place: ["f", "body", "A"] },
+    { do: "add_step", id: "call", step: { ...STEP, kind: "call", params: { function: "f" } } },
+  );
+const functions = () => Object.values(shared.getDocument().functions).map(({ name }) => name);
+
+test("Undo asks before it takes away a function into which somebody has drawn, or which they call", () => {
+  for (const theirs of [
+    { ...STEP, place: ["f", "body", "B"] },
+    { ...STEP, kind: "call", params: { function: "f" } },
+  ] as const) {
+    wrap();
+    goBack(open, "undo");
+    goBack(open, "redo");
+    expect([functions(), said()]).toEqual([["mix"], null]);
+    others({ do: "add_step", id: "theirs", step: theirs });
+    goBack(open, "undo");
+    expect([functions(), said()]).toEqual([["mix"], "gesture.worked_on"]);
+    pressInToast();
+    expect([functions(), said()]).toEqual([[], null]);
+    others({ do: "remove_step", id: "theirs" });
+  }
+});
+
+test("a function that was only renamed is not taken away, whoever draws into it or calls it", () => {
+  wrap();
+  mine({ do: "set_function", id: "f", value: { name: "stir", parameters: [] } });
+  others({ do: "add_step", id: "theirs", step: { ...STEP, place: ["f", "body", "B"] } });
+  for (const [way, name] of [
+    ["undo", "mix"],
+    ["redo", "stir"],
+    ["undo", "mix"],
+  ] as const) {
+    goBack(open, way);
+    expect([functions(), said()]).toEqual([[name], null]);
+  }
+});
+
 test("Redo asks before it takes away a step that somebody has worked on since", () => {
   mine({ do: "remove_step", id: "a" });
   goBack(open, "undo");
