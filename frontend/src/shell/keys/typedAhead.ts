@@ -2,9 +2,16 @@
 import { useLayoutEffect } from "react";
 
 const WINDOW = "[aria-modal=true]";
+/** A window that does not come within this time, as without a network, leaves the keys to the page. */
+const PATIENCE_MS = 10_000;
 
 function isInWindow(target: EventTarget | null): target is Element {
   return target instanceof Element && target.closest(WINDOW) !== null;
+}
+
+/** Stop all and what else goes with Ctrl are no text, nor are the keys of the browser. */
+function isNoText(event: KeyboardEvent): boolean {
+  return event.ctrlKey || event.metaKey || event.altKey || /^(F\d+|Tab)$/.test(event.key);
 }
 
 /** `giveUp` is the same each time: Escape asks for no window any more. */
@@ -15,10 +22,11 @@ export function useTypedAhead(asked: boolean, giveUp: () => void): void {
     const end = new AbortController();
     const listen = { capture: true, signal: end.signal };
     const hear = (event: KeyboardEvent) => {
-      // Stop all and what else goes with Ctrl are no text.
-      if (isInWindow(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
+      if (isInWindow(event.target) || isNoText(event)) return;
       if (event.key === "Escape") giveUp();
-      typed = event.key === "Backspace" ? typed.slice(0, -1) : typed + (event.key.length === 1 ? event.key : "");
+      // The key that asks may still be held.
+      if (typed || !event.repeat)
+        typed = event.key === "Backspace" ? typed.slice(0, -1) : typed + (event.key.length === 1 ? event.key : "");
       event.preventDefault();
       event.stopImmediatePropagation();
     };
@@ -29,6 +37,7 @@ export function useTypedAhead(asked: boolean, giveUp: () => void): void {
     };
     window.addEventListener("keydown", hear, listen);
     window.addEventListener("focusin", take, listen);
+    setTimeout(() => end.abort(), PATIENCE_MS);
     return () => end.abort();
   }, [asked, giveUp]);
 }

@@ -1,7 +1,8 @@
 // @vitest-environment jsdom
-import { act, fireEvent, screen } from "@testing-library/react";
+import { act, fireEvent, renderHook, screen } from "@testing-library/react";
 import { afterEach, expect, test, vi } from "vitest";
 import { show, testsPages } from "@/testing/page";
+import { useTypedAhead } from "../keys/typedAhead";
 import { PaletteButton } from "./PaletteButton";
 
 /** Only a fault takes so long. */
@@ -33,6 +34,34 @@ test("what is typed before the palette is there stands in its field, and the pag
   expect((field as HTMLInputElement).value).toBe("wait");
   press("p");
   expect(heard).toHaveBeenCalledWith("p");
+});
+
+test("the browser's keys are heard by all, and the asking key that is still held is not typed", async () => {
+  ask();
+  press("F5", "Tab", "F12");
+  expect(heard.mock.calls).toEqual([["F5"], ["Tab"], ["F12"]]);
+  const hold = (key: string) => fireEvent.keyDown(document.body, { key, repeat: true });
+  ["k", "k"].forEach(hold);
+  press("F");
+  hold("F");
+  expect(heard).toHaveBeenCalledTimes(3);
+  const field = await screen.findByRole("combobox", {}, { timeout: LONG_MS });
+  await vi.waitFor(() => expect((field as HTMLInputElement).value).toBe("FF"), LONG_MS);
+});
+
+test("a window that does not come leaves the keys to the page", () => {
+  vi.useFakeTimers();
+  try {
+    renderHook(() => useTypedAhead(true, () => {}));
+    window.addEventListener("keydown", onKey);
+    press("p");
+    expect(heard).not.toHaveBeenCalled();
+    vi.advanceTimersByTime(10_000);
+    press("q");
+    expect(heard.mock.calls).toEqual([["q"]]);
+  } finally {
+    vi.useRealTimers();
+  }
 });
 
 test("Escape before the palette is there asks for none, and the page has its keys again", async () => {
