@@ -1,5 +1,5 @@
 /** Scripts that nobody waits for yet: fetched once the screen stands, so that what they are for opens at once. */
-import { useEffect } from "react";
+import { type ComponentType, lazy, useEffect } from "react";
 
 /** So long after the screen has come; milliseconds. */
 const FETCH_AFTER_MS = 2000;
@@ -12,3 +12,9 @@ export function useFetchLater(loads: readonly (() => Promise<unknown>)[]): void 
     return () => clearTimeout(timer);
   }, [loads]);
 }
+
+/** A part that nobody waits for, and without which one works all the same. */
+export const beside = <Props extends object>(load: () => Promise<ComponentType<Props>>) =>
+  lazy(() => load().then(as, () => as<Props>(() => null)));
+
+const as = <Props>(found: ComponentType<Props>) => ({ default: found });

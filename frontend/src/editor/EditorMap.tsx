@@ -1,5 +1,6 @@
 /** The map of the editor: what presses, drags and keys on it mean for the program. */
-import { lazy, Suspense, useCallback, useMemo, type ComponentType } from "react";
+import { Suspense, useCallback, useMemo } from "react";
+import { beside } from "@/design/useFetchLater";
 import { liveRobots } from "@/live/robots";
 import { isRobot } from "@/map/devices/device";
 import { type Insets, toMetres, toPixels } from "@/map/plane/projection";
@@ -38,17 +39,9 @@ import { ZONE_TOOL } from "./state/tools";
 import { pressZoneTool } from "./zones/zoneTool";
 import { EditorZones, ZoneHandles } from "./zones/ZoneLayer";
 
-/** A part that nobody waits for, and without which one draws all the same. */
-const beside = (load: () => Promise<ComponentType>) =>
-  lazy(() =>
-    load().then(
-      (found) => ({ default: found }),
-      () => ({ default: () => null }),
-    ),
-  );
 const FollowView = beside(async () => (await import("./gestures/FollowView")).FollowView);
 const CommentPins = beside(async () => (await import("./comments/CommentPins")).CommentPins);
-const CoverageMarks = lazy(async () => ({ default: (await import("./tests/CoverageMarks")).CoverageMarks }));
+const CoverageMarks = beside(async () => (await import("./tests/CoverageMarks")).CoverageMarks);
 
 interface EditorMapProps {
   insets: Insets;

@@ -1,5 +1,6 @@
 /** Steps that somebody else took away while this person had them selected or had changed them: still there to be kept. */
-import { lazy, Suspense, useEffect } from "react";
+import { Suspense, useEffect } from "react";
+import { beside } from "@/design/useFetchLater";
 import type { SharedProgram } from "../shared/sharedProgram";
 import { outermost } from "@/program/document/tree";
 import { useOpenProgram } from "../state/context";
@@ -10,7 +11,7 @@ import { isSameValue } from "@/program/document/sameValue";
 import { copiesOf, keptOf } from "./keptSteps";
 
 // Fetched with the dialogs, of whose script it is a part.
-const GhostCard = lazy(async () => ({ default: (await import("./GhostCard")).GhostCard }));
+const GhostCard = beside(async () => (await import("./GhostCard")).GhostCard);
 
 export function Ghosts() {
   const { shared, canEdit } = useOpenProgram();
