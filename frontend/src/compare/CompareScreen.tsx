@@ -31,7 +31,7 @@ import { RehearsedSides } from "./RehearsedSides";
 import { ReviewBar } from "./ReviewBar";
 import { RestoreDialog } from "./RestoreDialog";
 import { ScriptDifference } from "./ScriptDifference";
-import { DRAFT, otherSide, type Relative, sidesOf, versionOfSide } from "./sides";
+import { DRAFT, isOneVersion, otherSide, type Relative, sidesOf, versionOfSide } from "./sides";
 import { useCompareKeys } from "./useCompareKeys";
 import { usePictures } from "./usePictures";
 import { useRestore } from "./useRestore";
@@ -193,7 +193,7 @@ function Compared(props: ComparedProps) {
     undo: restore.undo,
   });
   const rest = order.length > 0 ? offered : null;
-  const isOne = props.asked !== null && props.asked[0] === props.asked[1];
+  const isOne = props.asked !== null && isOneVersion(props.asked);
   return (
     <>
       <CompareHead {...{ versions, runs, relatives, sides, choose, shown, setShown, comparison }} restore={rest}>

@@ -1,6 +1,16 @@
 import { expect, test } from "vitest";
 import type { RunSummary } from "@/api/types";
-import { compareAddress, DRAFT, otherSide, otherSideOf, runSide, sidesOf, versionOfSide, versionTitle } from "./sides";
+import {
+  compareAddress,
+  DRAFT,
+  isOneVersion,
+  otherSide,
+  otherSideOf,
+  runSide,
+  sidesOf,
+  versionOfSide,
+  versionTitle,
+} from "./sides";
 
 const run = (id: string, version: number | null) => ({ id, version }) as RunSummary;
 
@@ -34,4 +44,15 @@ test("a side may be of another program, and of nothing else that is written so",
   expect(otherSide(otherSideOf(program, 7))).toEqual({ program, version: "7" });
   expect(versionOfSide(otherSideOf(program, DRAFT), [])).toBe(`${program}:draft`);
   expect(["run:x", `${program}:0`, `${program}:`, "x:7", "7", DRAFT].map(otherSide)).toEqual(Array(6).fill(null));
+});
+
+test("what is drawn now is no version, beside itself neither", () => {
+  const program = "0e9debeb-1234-4ac5-813a-ae366d58caa6";
+  const both = [
+    ["1", "1"],
+    ["1", "2"],
+    [DRAFT, DRAFT],
+    [`${program}:draft`, `${program}:draft`],
+  ] as const;
+  expect(both.map(isOneVersion)).toEqual([true, false, false, false]);
 });

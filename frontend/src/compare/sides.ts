@@ -54,3 +54,8 @@ export function compareAddress(program: string, old: string, next: string): stri
 export function versionTitle(version: Pick<Version, "name" | "cause">, t: (key: string) => string): string {
   return version.name || t(version.cause ? `compare.cause.${version.cause}` : "compare.unnamed");
 }
+
+/** Whether both sides, as the server is asked for them, are one version: what is drawn now is none. */
+export function isOneVersion([old, next]: readonly [string, string]): boolean {
+  return old === next && !old.endsWith(DRAFT);
+}

@@ -75,6 +75,7 @@ function Loaded({ site, item, program }: LoadedProps) {
   const choice = useChoice(comparison.data?.difference?.constructs ?? NO_CHANGES);
   useCompareKeys({ walk: choice.walk, restore: () => {}, undo: () => {} });
   useTitle(`${t("compare.title")} · ${item.name}`);
+  const isOne = numbers.old === numbers.new;
   const head = { item, numbers, choose, shown, setShown };
   return (
     <div className={styles.screen}>
@@ -87,9 +88,9 @@ function Loaded({ site, item, program }: LoadedProps) {
         ) : (
           <>
             <Head {...head} site={site} program={program} />
-            <MapOf {...{ plan, devices, pictures, choice }} comparison={comparison.data} />
+            <MapOf {...{ plan, devices, pictures, choice, isOne }} comparison={comparison.data} />
             <ChangeList
-              {...{ pictures }}
+              {...{ pictures, isOne }}
               comparison={comparison.data}
               chosen={choice.chosen}
               canEdit
