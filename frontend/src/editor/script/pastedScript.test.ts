@@ -5,6 +5,7 @@ import type { OpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
 import type { NamedDevice } from "./completion";
 import { drawPasted, scriptWith } from "./pastedScript";
+import { tidied } from "./pieces";
 import { looksLikeScript } from "./scriptLines";
 
 const OVEN: NamedDevice = { id: "curingOven01", name: "Curing Oven", kind: "machine", methods: [], properties: [] };
@@ -356,6 +357,18 @@ test("the first move stands in new_task also where run stands above it", () => {
     '        self.robot.pick("box")',
     "",
   ]);
+});
+
+test("script with very many spaces is read at once", () => {
+  const spaces = " ".repeat(200_000);
+  const serve = (gap: string) => `serve(self):\nwhile not${spaces}self.done:\n    self.wait(1 ${gap}+ 2)${gap}`;
+  const pasted = taskOf(["self.serve()"], [], serve(spaces));
+  expect(added(pasted, taskOf(["self.serve()"], [], serve(" ")))).toEqual(["self.serve()"]);
+});
+
+test("texts of several lines keep the spaces at the ends of theirs, and no other line does", () => {
+  const text = '  self.log("""one  \ntwo  """)  # note\n  self.wait(7)  \n  self.wait(8)  ';
+  expect(tidied(text)).toBe('  self.log("""one  \ntwo  """)\n  self.wait(7)\n  self.wait(8)');
 });
 
 test("an empty text is nothing to paste", () => {

@@ -45,7 +45,7 @@ export function codeOf(script: string): string {
   return code.join('""');
 }
 
-/** The script with each statement in one line, indented by spaces, and without comments. */
+/** The script with each statement in one line, indented by spaces, without comments and spaces at ends of lines. */
 export function tidied(script: string): string {
   let depth = 0;
   const text = inCode(script.replaceAll("\r\n", "\n"), (code) =>
@@ -56,7 +56,7 @@ export function tidied(script: string): string {
       return sign.replaceAll("\t", "    ");
     }),
   );
-  return text.replace(/ +$/gm, "");
+  return inCode(`${text}\n`, (code) => code.replace(/(?<! ) +(?=\n)/g, "")).slice(0, -1);
 }
 
 /** The script with other names behind `self.` and for its functions. */

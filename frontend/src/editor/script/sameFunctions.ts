@@ -53,7 +53,7 @@ function wholeOf(parts: Parts, name: string, seen = new Set<string>()): string {
 /** Without blank lines, spaces that say nothing, and ways to write a text. */
 function bare(text: string): string {
   const lines = text.split("\n").filter((line) => line.trim());
-  const tight = (line: string) => inCode(line, (code) => code.replace(/ *([^\p{ID_Continue} ]) */gu, "$1"));
+  const tight = (line: string) => inCode(line, (code) => code.replace(/(?:(?<! ) +)?([^\p{ID_Continue} ]) */gu, "$1"));
   return lines
     .map((line) => /^ */.exec(line)?.[0] + tight(line.trim()))
     .join("\n")
