@@ -30,7 +30,6 @@ import { RouteBends } from "./gestures/RouteBends";
 import { StageAtHand } from "./gestures/StageAtHand";
 import { settle } from "./state/actions";
 import { useGestures } from "./state/gestures";
-import { Cursors } from "./canvas/Cursors";
 import { DevicePalette } from "./canvas/DevicePalette";
 import { LanePreview } from "./canvas/LanePreview";
 import { LoadAsk } from "./canvas/LoadAsk";
@@ -40,6 +39,7 @@ import { pressZoneTool } from "./zones/zoneTool";
 import { EditorZones, ZoneHandles } from "./zones/ZoneLayer";
 
 const FollowView = beside(async () => (await import("./gestures/FollowView")).FollowView);
+const Cursors = beside(async () => (await import("./canvas/Cursors")).Cursors);
 const CommentPins = beside(async () => (await import("./comments/CommentPins")).CommentPins);
 const CoverageMarks = beside(async () => (await import("./tests/CoverageMarks")).CoverageMarks);
 
@@ -95,7 +95,9 @@ export function EditorMap({ insets, fitInsets, small }: EditorMapProps) {
       {small ? <KeepInView /> : null}
       <ModeInView />
       <Ghosts />
-      <Cursors shared={shared} />
+      <Suspense fallback={null}>
+        <Cursors shared={shared} />
+      </Suspense>
       <DevicePalette onChoose={presses.onDevice} />
       {drawing.askAt ? <LoadAsk at={drawing.askAt} loads={drawing.loads} onChoose={drawing.takeLoad} /> : null}
       <MapControls plan={plan} scene={scene} insets={insets} mini />
