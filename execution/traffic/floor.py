@@ -274,8 +274,16 @@ def _end_act(turn: Turn, sent: Sent, kind: str, why: str, event: m.CommandAnswer
     rested = turn.robots.get(turn.stations.get(sent.device, sent.device))
     if rested is not None:
         turn.put(rested, idle_since=turn.now)
+    _place_mover(turn, sent.device)
     if task := turn.tasks.get((sent.run, sent.task)):
         turn.finish(task, kind, why, event.result if event else None)
+
+
+def _place_mover(turn: Turn, device: str) -> None:
+    """Place a robot where its act has brought it: one that rests by then tells its pose no more."""
+    mover = turn.robots.get(device)
+    if mover is not None and mover.path and mover.online:
+        take_pose(turn, mover, mover.x, mover.y, mover.theta)
 
 
 def _fail_drive(turn: Turn, robot: Robot, kind: str, why: str) -> None:

@@ -61,10 +61,12 @@ def why_stranded(turn: Turn, robot: Robot) -> str:
     """Return why a robot at rest cannot be sent anywhere, or an empty text.
 
     No way begins so near that it would drive there: robots refuse to drive straight on to one that is farther off,
-    which may lead through walls.
+    which may lead through walls. One that is at something may be moved by that: it is placed when it is done.
     """
+    if turn.is_driving(robot) or turn.is_acting(robot):
+        return ""
     begin, here = turn.layout.point(turn.node(robot)), (robot.x, robot.y)
-    if turn.is_driving(robot) or hypot(begin[0] - here[0], begin[1] - here[1]) <= ASTRAY_M:
+    if hypot(begin[0] - here[0], begin[1] - here[1]) <= ASTRAY_M:
         return ""
     name, point = turn.name(robot.id), f"{begin[0]:.2f}, {begin[1]:.2f}"
     room_m = turn.layout.ground.radius_m + STANDING_MARGIN_M
@@ -94,7 +96,7 @@ def take_pose(turn: Turn, robot: Robot, x: float, y: float, theta: float) -> Non
         return
     at = turn.layout.point(turn.node(robot))
     if hypot(at[0] - x, at[1] - y) > LOST_M and not turn.is_acting(robot):
-        place(turn, robot)
+        place(turn, turn.put(robot, evading=""))
 
 
 def _passed(turn: Turn, robot: Robot) -> int:

@@ -177,3 +177,57 @@ def test_a_call_may_take_what_its_arguments_say_and_half_as_long_again(name, uni
     device = replace(demo_floor.devices()[0], methods=(honk(ParameterSpec(name, "number", unit)),))
     assert limit_of(device, "honk", {name: value}) == pytest.approx(limit_s)
     assert duration_s(device.methods[0], {name: value}) == (None if limit_s == CALL_LIMIT_S else (limit_s - 60) / 1.5)
+
+
+def go_on(world):
+    """Let a run have robot01 drive, and nobody tell of it where it is any more until it is sent off."""
+    order = TaskOrder("move", Target("dropOff01"), "robot")
+    world.tell(m.TaskAsked("b", 1, order, "robot01", (), "run b"))
+
+
+def carried_off(world):
+    x, y = world.at["robot01"]
+    world.at["robot01"] = (x + 1.5, y)
+    return m.RobotMoved("robot01", *world.at["robot01"])
+
+
+def floor_with_mover():
+    """Return the factory with a robot that stands at no place and describes a method of its own."""
+    world = floor_with(robot01=(honk(),))
+    world.at["robot01"] = world.layout.lattice.centre(world.layout.lattice.cells_within((1.0, -8.0), 3.0)[0])
+    world.tell(m.RobotMoved("robot01", *world.at["robot01"]))
+    return world
+
+
+def test_a_robot_that_its_method_has_moved_drives_on_from_where_it_is():
+    world = floor_with_mover()
+    world.tell(ask("a", 1, "honk", wants="robot01"))
+    world.tell(carried_off(world))
+    world.tell(m.CommandAnswered(world.sent[0].id, "DONE"), m.RunOver("a"))
+    world.works.clear()
+    go_on(world)
+    world.run_until(lambda: ("b", 1) in world.over)
+    assert world.over["b", 1] == ("", "")
+
+
+def test_a_run_waits_until_a_person_is_done_that_lets_its_robot_move_by_hand():
+    world = floor_with_mover()
+    world.tell(m.CallSent("by hand", "robot01", "honk", {}, "Ada"))
+    world.tell(carried_off(world))
+    go_on(world)
+    assert (world.over, world.sent) == ({}, [])
+    world.tell(m.CommandAnswered("by hand", "DONE"))
+    assert world.over == {}
+    world.run_until(lambda: world.over)
+    assert world.over["b", 1] == ("", "")
+
+
+def test_a_robot_that_was_making_room_and_is_carried_off_makes_room_no_more():
+    world = floor_with_mover()
+    (cell,) = world.state.robots["robot01"].path
+    waits = replace(world.state.robots["robot01"], path=(cell, cell + 1), evading="robot02")
+    world.state = replace(world.state, robots={**world.state.robots, "robot01": waits})
+    world.tell(carried_off(world))
+    go_on(world)
+    world.run_until(lambda: world.over)
+    assert world.over["b", 1] == ("", "")
