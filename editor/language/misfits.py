@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Final
 
 from editor.language.compiler import look_at
-from editor.language.messages.diagnostics import Diagnostic, put_into_words
+from editor.language.messages.diagnostics import Diagnostic, Problem, put_into_words
 from editor.language.site.surroundings import Surroundings
+from editor.language.tree import nodes as n
 from editor.language.tree.numbering import numbers_in_script
+from editor.language.tree.program import Tree
 from vipo_device.protocol.description import Description, Scalar
 
 
@@ -42,9 +45,39 @@ def find_misfit(document: object, surroundings: Surroundings, given: Mapping[str
 def _first_wrong(
     document: object, surroundings: Surroundings, given: Mapping[str, Scalar], devices: frozenset[str]
 ) -> Diagnostic | None:
-    """Return the first error, in reading order, that is told of one of the devices because a variable holds it."""
+    """Return the first error, in reading order, that is told of one of the devices because a variable holds it.
+
+    What the program catches, it reckons with: that is none.
+    """
     look = look_at(document, surroundings, given=given)
     places = {step: index for index, step in enumerate(numbers_in_script(look.tree))}
     told = [problem for problem, _ in look.found if problem.held in devices]
+    if told:
+        uncaught = {kind: _uncaught(look.tree, kind) for kind in _KINDS}
+        told = [each for each in told if each.step not in places or each.step in uncaught[_kind_of(each)]]
     words = (put_into_words(each, None) for each in sorted(told, key=lambda each: places.get(each.step, len(places))))
     return next((each for each in words if each.severity == "error"), None)
+
+
+_KINDS: Final = ("refused", "failed")
+
+
+def _kind_of(problem: Problem) -> str:
+    """Return how a step fails that asks so much of a device: what it cannot tell has no value."""
+    return "failed" if problem.code == "unknown_property" else "refused"
+
+
+def _uncaught(tree: Tree, kind: str) -> set[str]:
+    """Return the steps of which a failure of a kind is caught by no step around, also not around the call."""
+    functions = {function.method: function.body for function in tree.functions}
+    left, found = [tree.body, *(event.body for event in tree.events)], {event.step for event in tree.events}
+    while left:
+        for node in left.pop():
+            found.add(node.step)
+            if isinstance(node, n.Try) and any(handler.takes(kind) for handler in node.handlers):
+                left.extend((*node.catches, node.final))
+            else:
+                left.extend(n.blocks_of(node))
+            if isinstance(node, n.Call):
+                left.append(functions.pop(node.function, ()))
+    return found

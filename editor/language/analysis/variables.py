@@ -331,7 +331,7 @@ class Variables(Domain[Env]):
         most = ceil(limits.most) - 1 if limits.most_open else floor(limits.most) if limits.most < inf else items.most
         least, most = max(items.least, least), min(items.most, most)
         if least <= most:
-            self._narrow(place, known, name, Items(least, most, items.each))
+            self._narrow(place, known, name, Items(least, most, items.each, items.sure))
 
     def _narrow(self, place: Place, known: Env, name: str, to: Known) -> None:
         state, value = self.content(place, known, name)

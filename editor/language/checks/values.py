@@ -11,7 +11,7 @@ from editor.language.checks.devices import check_reading, known_device
 from editor.language.expressions import nodes as e
 from editor.language.expressions.constant_values import constant_value
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
-from editor.language.expressions.ranges import ANY, NOTHING_KNOWN, Here, Range, first_limited_reading, possible
+from editor.language.expressions.ranges import ANY, NOTHING_KNOWN, Here, Range, possible
 from editor.language.expressions.temperatures import base_unit, go_together, is_difference, is_scale, is_temperature
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.value_types import (
@@ -252,12 +252,22 @@ def _check_possible(context: Context, node: n.Node, condition: Expression, field
     if verdict is None:
         return
     if constant_value(condition) is None:
-        reading = first_limited_reading(condition, context.surroundings)
+        reading = _first_limited_reading(context, condition)
         if verdict is False and _each_is_possible(context, condition):
             context.report(node, "contradiction", field)
         elif reading is not None:
             code = "always_true_in_range" if verdict else "never_true_in_range"
             context.report(node, code, field, _declared(context, reading))
+
+
+def _first_limited_reading(context: Context, expression: Expression) -> Reading | None:
+    """Return the first reading of an expression for which its device declares a range or options."""
+    for part in parts_of(expression):
+        spec = property_spec(part, context.surroundings) if isinstance(part, Reading) else None
+        limited = spec is not None and (spec.minimum is not None or spec.maximum is not None or spec.options)
+        if isinstance(part, Reading) and limited:
+            return part
+    return None
 
 
 def _each_is_possible(context: Context, condition: Expression) -> bool:

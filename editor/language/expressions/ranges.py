@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.value_types import TypeChecker, ValueType, property_spec
-from editor.language.expressions.values import COMPARISONS, MOST_ITEMS, is_number, parts_of
+from editor.language.expressions.values import COMPARISONS, MOST_ITEMS, is_number
 from editor.language.site.surroundings import Surroundings
 
 if TYPE_CHECKING:
@@ -72,6 +72,8 @@ class Items:
     least: int = 0
     most: int = MOST_ITEMS
     each: Range | Words | None = None
+    sure: Words = frozenset()
+    """What is among them whatever the others are."""
 
 
 Known = Range | Words | Items | None
@@ -87,7 +89,8 @@ def either_known(first: Known, second: Known) -> Known:
     if isinstance(first, frozenset) and isinstance(second, frozenset) and len(first | second) <= MOST_WORDS:
         return first | second
     if isinstance(first, Items) and isinstance(second, Items):
-        return Items(min(first.least, second.least), max(first.most, second.most), _each_of(first, second))
+        least, most = min(first.least, second.least), max(first.most, second.most)
+        return Items(least, most, _each_of(first, second), first.sure & second.sure)
     return None
 
 
@@ -123,12 +126,9 @@ class Here:
 
     def known(self, expression: Expression) -> Known:
         """Return what is known of a value."""
-        items = self.items(expression)
-        if items is not None:
-            return items
-        words = self.words(expression)
-        if words:
-            return words
+        told = self.items(expression) or self.words(expression)
+        if told:
+            return told
         if _is_condition(expression):
             truth = self.truth(expression)
             return None if truth is None else frozenset({truth})
@@ -149,14 +149,19 @@ class Here:
                 first, second = self.items(left), self.items(right)
                 if first is not None and second is not None:
                     most = min(first.most + second.most, max(MOST_ITEMS, first.least + second.least))
-                    return Items(first.least + second.least, most, _each_of(first, second))
+                    sure = first.sure | second.sure
+                    return Items(first.least + second.least, most, _each_of(first, second), sure)
         return None
 
     def _listed(self, items: Sequence[Expression]) -> Items:
         if not items or len(items) > MOST_LOOKED_AT:
             return Items(len(items), len(items))
         known = reduce(either_known, map(self.known, items))
-        return Items(len(items), len(items), None if isinstance(known, Items) else known)
+        return Items(len(items), len(items), None if isinstance(known, Items) else known, self._sure(items))
+
+    def _sure(self, items: Sequence[Expression]) -> Words:
+        """Return what is among items whatever the others are."""
+        return frozenset().union(*[each for each in map(self.words, items) if len(each) == 1])
 
     def range(self, expression: Expression) -> Range:
         """Return between which numbers a value lies."""
@@ -269,16 +274,26 @@ class Here:
         return frozenset()
 
     def _contained(self, left: Expression, right: Expression) -> bool | None:
-        values = right.value if isinstance(right, Constant) else None
-        if not isinstance(values, tuple):
-            return None
-        truths = [self._same(left, Constant(value)) for value in values]
-        if True in truths:
-            return True
         options = self.words(left)
-        if options and options <= frozenset(value for value in values if isinstance(value, str)):
+        match right:
+            case Constant(value=tuple(values)):
+                items: Sequence[Expression] = [Constant(value) for value in values]
+            case Operation(operator="list", arguments=arguments):
+                items = arguments
+            case _:
+                return _held_in(options, self.items(right) or Items())
+        truths = [self._same(left, item) for item in items]
+        if True in truths or (options and options <= self._sure(items)):
             return True
         return None if None in truths else False
+
+
+def _held_in(options: Words, listed: Items) -> bool | None:
+    """Tell whether one of some words is in a list of which no more is known than what its items may be."""
+    if options and options <= listed.sure:
+        return True
+    is_other = bool(options) and isinstance(listed.each, frozenset) and not options & listed.each
+    return False if is_other or not listed.most else None
 
 
 def possible(
@@ -381,14 +396,4 @@ def _below(left: Range, right: Range, *, strict: bool) -> bool | None:
     touches_high = left.least == right.most and not (left.least_open or right.most_open)
     if left.least > right.most or (left.least == right.most and (strict or not touches_high)):
         return False
-    return None
-
-
-def first_limited_reading(expression: Expression, surroundings: Surroundings) -> Reading | None:
-    """Return the first reading of an expression for which its device declares a range or options."""
-    for part in parts_of(expression):
-        spec = property_spec(part, surroundings) if isinstance(part, Reading) else None
-        limited = spec is not None and (spec.minimum is not None or spec.maximum is not None or spec.options)
-        if isinstance(part, Reading) and limited:
-            return part
     return None

@@ -95,3 +95,44 @@ def test_what_is_asked_only_where_something_else_is_chosen_keeps_nobody_from_a_d
 
 def test_nobody_is_blamed_for_a_device_that_the_program_names_itself() -> None:
     assert found(EITHER, n=OVEN, dry=True) is None
+
+
+def either(condition: str, yes: str = "curePaint", no: str = "paint", before: str = "") -> str:
+    ways = [f"    self.m.operate('{method}', {{'time': 3}})\n" for method in (yes, no)]
+    return f"{before}if {condition}:\n{ways[0]}else:\n{ways[1]}".strip()
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        either("self.m in [self.oven]"),
+        either("self.m not in [self.oven]", "paint", "curePaint"),
+        either("self.m in self.ovens", before="self.ovens = [self.oven]\n"),
+        either("self.m in self.ovens", before="self.ovens = [self.oven] + [self.n]\n"),
+        "self.ovens = [self.oven]\nself.wait(1)\nif len(self.ovens) > 0:\n"
+        + indent(either("self.m in self.ovens"), "    "),
+        either("self.m in [self.n, self.x]", before="self.x = self.oven\n"),
+    ],
+)
+def test_programs_that_choose_by_the_device_take_each_that_they_reckon_with(body: str) -> None:
+    assert [found(body, m=device) for device in (BOOTH, OVEN)] == [None, None]
+    assert found(body, m=MIXER) == ("m", MIXER, "unknown_method")
+
+
+TRIED = "try:\n    self.m.operate('curePaint', {'time': 3})\nexcept {}:\n    self.m.operate('paint', {'time': 3})"
+CALLED = "def cure(self):\n    self.m.operate('curePaint', {'time': 3})"
+
+
+def test_what_a_program_catches_keeps_nobody_from_a_device() -> None:
+    assert found(TRIED.replace("{}", "TaskError")) is None
+    assert found(TRIED.replace("{}", "(Refused, Offline)")) is None
+    assert found(TRIED.replace("{}", "Offline")) == ("m", BOOTH, "unknown_method")
+    assert found(TRIED.replace("{}", "TaskError"), m=MIXER) == ("m", MIXER, "unknown_method"), "of what is done then"
+    inner = f"try:\n{indent(TRIED.replace('{}', 'Offline'), '    ')}\nexcept Refused:\n    self.wait(1)"
+    assert found(inner, m=MIXER) is None
+    called = "try:\n    self.cure()\nexcept TaskError:\n    self.wait(1)"
+    assert found(called, CALLED) is None
+    assert found(f"{called}\nself.cure()", CALLED) == ("m", BOOTH, "unknown_method")
+    asked = "try:\n    self.x = self.m.read('pressure')\nexcept {}:\n    self.wait(1)"
+    assert found(asked.replace("{}", "Failed"), m=OVEN) is None
+    assert found(asked.replace("{}", "Refused"), m=OVEN) == ("m", OVEN, "unknown_property")
