@@ -8,23 +8,26 @@ from vipo_device.protocol.arguments import is_number
 from vipo_device.protocol.description import PropertySpec, Scalar
 from vipo_device.protocol.units import same_dimension
 
+_KEPT_BY_ROBOTS = frozenset({"battery", "load"})
+
 
 def beginning_readings(device: DeviceView) -> dict[str, Scalar]:
     """Return the readings with which a device begins: all that it described and said, in the type that it described.
 
-    A machine at work keeps what stays when the work is over, what it holds and how warm it is: the rehearsal knows
-    nothing of what others let it do, so the rest would never go on.
+    A device at work keeps what stays when the work is over, what it holds and how warm it is, of a robot also how full
+    its battery is: the rehearsal knows nothing of what others let it do, so the rest would never go on.
     """
-    is_at_work = device.kind == "machine" and not device.done
+    is_at_work = not device.done
     return {
         spec.name: value
         for spec in device.canonical.properties
-        if _is_of(spec, value := device.readings.get(spec.name)) and not (is_at_work and not _stays(spec))
+        if _is_of(spec, value := device.readings.get(spec.name)) and not (is_at_work and not _stays(device.kind, spec))
     }
 
 
-def _stays(spec: PropertySpec) -> bool:
-    return spec.name in KEPT or same_dimension(spec.unit, "DEG_C")
+def _stays(kind: str, spec: PropertySpec) -> bool:
+    names = _KEPT_BY_ROBOTS if kind == "robot" else KEPT
+    return spec.name in names or same_dimension(spec.unit, "DEG_C")
 
 
 def _is_of(spec: PropertySpec, value: object) -> bool:
