@@ -142,6 +142,8 @@ def _is_able(device: Description | None, task: FloorTask) -> bool:
 def _cost(turn: Turn, task: FloorTask, robot: Robot) -> float:
     if not _is_able(turn.layout.devices.get(robot.id), task) or not _fits(turn, task, robot):
         return UNABLE
+    if task.order.kind != "perform" and why_stranded(turn, robot):
+        return UNABLE / 2
     try:
         if task.order.kind == "cover":
             return distance_to_zone(turn, task, robot)

@@ -156,3 +156,13 @@ def test_a_robot_in_a_room_to_which_no_way_leads_is_told_from_one_without_room()
         f"({begin[0]:.2f}, {begin[1]:.2f}).",
     )
     assert floor.sent == []
+
+
+def test_a_role_takes_another_robot_than_one_that_cannot_be_sent_but_that_one_if_there_is_no_other():
+    layout = make_layout(hall(), robots(0.6, 2))
+    floor = PretendFloor(layout, {"robot01": (0.2, 5.0), "robot02": (20.0, 10.0)})
+    go(floor, "r", (6.0, 5.0), "")
+    floor.run_until(lambda: floor.over)
+    assert (floor.over["r", 1], floor.state.robots["robot02"].run) == (("", ""), "r")
+    go(floor, "s", (12.0, 5.0), "")
+    assert (floor.over["s", 1][0], floor.state.robots["robot01"].run) == ("blocked", "s")
