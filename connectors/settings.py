@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import re
 from argparse import ArgumentParser
@@ -18,6 +19,7 @@ from vipo_device.kit.enrolment import device_connections
 from vipo_device.kit.keyring import KeyRing
 from vipo_device.protocol.messages import fit_device_id
 
+log = logging.getLogger(__name__)
 NameDevice = Callable[[str], str]
 """Gives a device its id at the site by the one that its own world would have it called."""
 _PREFIX = re.compile(r"[A-Za-z0-9_.-]{0,48}")
@@ -50,16 +52,28 @@ def device_names(site: str, secrets: Path, world: str, prefix: str | None) -> Na
     """Return what gives devices their ids: `prefix` before that of their world; None is what the site's rule asks for.
 
     Several sites share a server, and all but one of them take new ids only that begin with their own name. A device
-    that has a key under an id without the prefix is there already, and keeps that id. Raises CommandError.
+    that has a key under an id without the prefix is there already, and keeps that id: a file of keys that cannot be
+    read any more goes on to say what it said last. Raises CommandError, also where one cannot be read to begin with.
     """
     begin = ("" if site == settings.VIPO_DEFAULT_SITE else f"{site}.") if prefix is None else prefix
     if not _PREFIX.fullmatch(begin):
         raise CommandError("--prefix must be at most 48 letters, digits, '_', '.' and '-'.")
+    if not begin:
+        return str
     ring = _key_ring(site, secrets, world)
+    try:
+        known = ring.devices()
+    except ValueError as error:
+        raise CommandError(f"{error} Mend it: it says which devices keep their ids.") from error
 
     @cache
     def name(plain: str) -> str:
-        return plain if not begin or ring.knows(plain) else fit_device_id(begin + plain, plain)
+        nonlocal known
+        try:
+            known = ring.devices()
+        except ValueError as error:
+            log.warning("%s What it said last tells which devices keep their ids.", error)
+        return plain if plain in known else fit_device_id(begin + plain, plain)
 
     return name
 

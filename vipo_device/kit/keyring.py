@@ -31,6 +31,13 @@ class KeyFile:
         """Return a device's key; a file that cannot be read has none, and the log says so."""
         return self._read_readable().get(device, "")
 
+    def devices(self) -> frozenset[str]:
+        """Return who has a key. Raises ValueError, which names the file."""
+        try:
+            return frozenset(device for device, key in self._read().items() if key)
+        except (OSError, ValueError) as error:
+            raise ValueError(f"{self._path} cannot be read ({error}).") from error
+
     def find_or_make(self, device: str) -> str:
         """Return a device's key; one that has none gets one. A file that cannot be read begins anew. Raises OSError."""
         with locked(self._path):
@@ -70,9 +77,9 @@ class KeyRing:
         """Return the key to begin with, empty where none is known. Raises OSError."""
         return self._given.find_readable(device) or self._own.find_or_make(device)
 
-    def knows(self, device: str) -> bool:
-        """Tell whether a device has a key, whatever has become of it."""
-        return bool(self._given.find_readable(device) or self._own.find_readable(device))
+    def devices(self) -> frozenset[str]:
+        """Return who has a key, whatever has become of it. Raises ValueError, which names the file."""
+        return self._given.devices() | self._own.devices()
 
     def keys(self, device: str) -> list[str]:
         """Return the keys that may be right now, the likeliest first. Raises OSError, ValueError."""

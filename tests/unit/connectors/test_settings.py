@@ -41,6 +41,18 @@ def test_a_device_that_has_a_key_without_the_prefix_keeps_its_id(tmp_path: Path,
     assert [name("Acme-1"), name("Acme-2")] == ["Acme-1", "yard.Acme-2"], "nobody changes it under way"
 
 
+@pytest.mark.parametrize("file", ["devices.json", "vda5050-yard.json"])
+@pytest.mark.parametrize("text", ['{"Acme-1": "its', "[]"])
+def test_while_a_file_of_keys_cannot_be_read_nobody_gets_another_id(tmp_path: Path, file: str, text: str) -> None:
+    (tmp_path / file).write_text('{"Acme-1": "its key"}')
+    name = device_names("yard", tmp_path, "vda5050", None)
+    (tmp_path / file).write_text(text)
+    assert [name("Acme-1"), name("Acme-2")] == ["Acme-1", "yard.Acme-2"]
+    with pytest.raises(CommandError, match=rf"{file} cannot be read \(.+\)\. Mend it: it says which devices keep"):
+        device_names("yard", tmp_path, "vda5050", None)
+    assert device_names("yard", tmp_path, "vda5050", "")("Acme-1") == "Acme-1", "without a prefix nobody asks it"
+
+
 def test_the_environment_says_the_prefix_where_the_command_line_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
     def read(*arguments: str) -> str | None:
         parser = ArgumentParser()
