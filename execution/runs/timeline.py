@@ -76,7 +76,7 @@ def read_timeline(lines: Iterable[TimelineLine], robots: Mapping[str, str], most
     last_s = 0.0
     for line in lines:
         reader.take(line)
-        last_s = line.t_s
+        last_s = max(last_s, line.t_s)
     return Timeline(tuple(_fitted(reader.bars, last_s, most)), tuple(reader.steps), reader.drives)
 
 
@@ -189,8 +189,9 @@ def _goes_on(bar: Bar, step: str, kind: Kind, at_s: float) -> bool:
 
 def _fitted(bars: list[Bar], last_s: float, most: int) -> list[Bar]:
     """Return bars of which too many are joined where they lie closest, until they fit or each device has one or two."""
-    cell_s = last_s / CELLS
-    while len(bars) > most and cell_s <= 2 * last_s:
+    whole_s = last_s or 1.0
+    cell_s = whole_s / CELLS
+    while len(bars) > most and cell_s <= 2 * whole_s:
         bars = _joined(bars, cell_s)
         cell_s *= 2
     return bars

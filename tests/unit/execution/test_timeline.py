@@ -83,6 +83,16 @@ def test_of_however_many_bars_there_are_so_many_as_a_screen_shows_and_each_momen
     assert all(_is_in_one(line, read) for line in lines[::501])
 
 
+@pytest.mark.parametrize("end_s", [5, 0])
+def test_there_are_never_too_many_bars_also_where_a_clock_was_put_back(end_s: float) -> None:
+    lines = [line for at_s in range(300) for line in work("oven", f"s{at_s % 3}", at_s * 10, 1)]
+    assert len(read_timeline([*lines, *work("mixer", "late", end_s, 0)], {}, most=100).bars) <= 100
+    at_once = [line for number in range(9) for line in work("oven", f"s{number}", 0, 0)]
+    assert len(read_timeline(at_once, {}, most=4).bars) <= 4
+    begun = [TimelineLine(0, "command", "command", f"s{number}", "oven", "") for number in range(9)]
+    assert len(read_timeline(begun, {}, most=4).bars) == 9, "what goes on is joined with nothing"
+
+
 def _is_in_one(line: TimelineLine, bars: tuple[Bar, ...]) -> bool:
     mine = [bar for bar in bars if bar.device == line.device]
     return any(bar.started_s <= line.t_s and (bar.ended_s is None or line.t_s <= bar.ended_s) for bar in mine)
