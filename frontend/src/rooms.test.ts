@@ -26,7 +26,17 @@ test("no module has more than 400 lines", () => {
 });
 
 test("a test stands beside the module that it tests, or names what several do together", () => {
-  const together = ["agreement", "rooms", "cases", "constructs", "concurrency", "catalogues", "offline"];
+  const together = [
+    "agreement",
+    "rooms",
+    "cases",
+    "constructs",
+    "concurrency",
+    "catalogues",
+    "offline",
+    "answers",
+    "unseen",
+  ];
   const names = new Set(modules.map(([path]) => path.replace(/\.tsx?$/, "")));
   const tests = Object.keys(sources)
     .filter((path) => /\.test\.tsx?$/.test(path))

@@ -13,7 +13,7 @@ afterEach(() => {
 });
 
 const PART = 50;
-const run = (number: number) => ({ id: `run-${number}`, number, status: "finished" });
+const run = (number: number) => ({ id: `run-${number}`, number, status: "finished", program: { id: "p" } });
 
 const down = (from: number, to: number) => Array.from({ length: from - to + 1 }, (_, at) => from - at);
 
