@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from urllib.parse import urljoin
+
 import pytest
 from playwright.sync_api import Request, Route, WebSocket, expect
 
@@ -31,13 +33,13 @@ def test_a_screens_code_is_fetched_while_it_is_asked_who_looks(sign_in: SignIn) 
 
 
 def test_what_a_screen_asks_for_after_the_sites_greeting_is_asked_once(sign_in: SignIn) -> None:
-    page = sign_in("author", HOME)
+    page = sign_in("author")  # from no screen, which would have questions of its own under way
     held: list[Route] = []
     asked: list[str] = []
     page.route("**/assets/RunsPage-*.js", lambda route: held.append(route))
     page.on("request", lambda request: asked.append(request.url) if "/api/sites/" in request.url else None)
     with page.expect_websocket() as site, page.expect_request(lambda request: is_script_of(request, "RunsPage")):
-        page.goto(page.url + "/runs", wait_until="commit")
+        page.goto(urljoin(page.url, f"{HOME}/runs"), wait_until="commit")
     site.value.wait_for_event("framereceived")
     held[0].continue_()
     expect(page.get_by_role("heading", name="Runs", level=1)).to_be_visible()
