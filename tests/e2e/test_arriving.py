@@ -68,7 +68,8 @@ def test_the_screen_before_stays_while_the_next_is_on_its_way(sign_in: SignIn) -
     expect(before).to_be_visible()
     held: list[Route] = []
     page.route("**/assets/MapPage-*.js", lambda route: held.append(route))
-    page.get_by_role("link", name="Map", exact=True).click()
+    with page.expect_request(lambda request: is_script_of(request, "MapPage")):
+        page.get_by_role("link", name="Map", exact=True).click()
     until(page, "() => document.documentElement.hasAttribute('data-arriving')")
     expect(before).to_be_visible()
     assert page.evaluate("getComputedStyle(document.documentElement, '::before').animationName") == "arrive"
