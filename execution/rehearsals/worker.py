@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable, Mapping
 from datetime import timedelta
 from typing import Any, TypeVar
-from uuid import uuid4
+from uuid import UUID, uuid4
 
 from django.conf import settings
 from django.db import InterfaceError, OperationalError, connection, transaction
@@ -70,16 +70,24 @@ def claim_next() -> Rehearsal | None:
     with transaction.atomic():
         lock_queue()
         here = Rehearsal.objects.filter(status=Rehearsal.Status.RUNNING, machine=MACHINE).count()
-        order = order_of_queue()
-        if not order or here >= settings.VIPO_REHEARSALS_AT_ONCE:
+        if here >= settings.VIPO_REHEARSALS_AT_ONCE:
             return None
-        Rehearsal.objects.filter(id=order[0]).update(
-            status=Rehearsal.Status.RUNNING, claim=uuid4(), machine=MACHINE, tries=F("tries") + 1,
-            began_at=Now(), beat_at=Now(), progress=0.0, course={},
-        )  # fmt: skip
-        row = Rehearsal.objects.select_related("site").get(id=order[0])
+        claimed = next(filter(_claim, order_of_queue()), None)
+        if claimed is None:
+            return None
+        row = Rehearsal.objects.select_related("site").get(id=claimed)
     publish_rehearsal(row)
     return row
+
+
+def _claim(rehearsal_id: UUID) -> bool:
+    """Take a rehearsal that still waits: somebody may have cancelled it since the queue was read."""
+    return bool(
+        Rehearsal.objects.filter(id=rehearsal_id, status=Rehearsal.Status.QUEUED).update(
+            status=Rehearsal.Status.RUNNING, claim=uuid4(), machine=MACHINE, tries=F("tries") + 1,
+            began_at=Now(), beat_at=Now(), progress=0.0, course={},
+        )
+    )  # fmt: skip
 
 
 def carry_out(row: Rehearsal) -> None:

@@ -243,6 +243,21 @@ def test_a_worker_that_is_told_to_end_gives_back_what_it_has(factory, working, c
     assert services.get_rehearsal(rehearsal_id=rehearsal).place == 1
 
 
+def test_a_rehearsal_that_is_cancelled_while_a_worker_reads_the_queue_is_not_begun(factory, monkeypatch):
+    cancelled, other = queue(SHORT), queue(SHORT, 1)
+    read = worker.order_of_queue
+
+    def read_before_the_cancel():
+        order = read()
+        assert order
+        services.cancel_rehearsal(rehearsal_id=cancelled, by="Ada")
+        return order
+
+    monkeypatch.setattr(worker, "order_of_queue", read_before_the_cancel)
+    claimed = worker.claim_next()
+    assert (str(claimed.id), row(cancelled).status) == (other, "cancelled")
+
+
 def test_no_more_are_under_way_on_a_machine_than_may(factory, settings):
     settings.VIPO_REHEARSALS_AT_ONCE = 2
     for person in range(4):
