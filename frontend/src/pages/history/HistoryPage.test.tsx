@@ -1,14 +1,13 @@
 // @vitest-environment jsdom
-import { MantineProvider } from "@mantine/core";
-import { QueryClientProvider } from "@tanstack/react-query";
-import { cleanup, render, screen } from "@testing-library/react";
-import { createMemoryRouter, RouterProvider } from "react-router-dom";
+import { screen } from "@testing-library/react";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient } from "@/api/queries";
-import { loadScreenTexts, startI18n } from "@/i18n";
 import { forgetLive } from "@/live/site";
+import { showAt, testsPages } from "@/testing/page";
+import { HistoryPage } from "./HistoryPage";
 
-beforeEach(async () => {
+testsPages();
+beforeEach(() => {
   const nothing = () => undefined;
   const still = class {
     close = nothing;
@@ -17,15 +16,8 @@ beforeEach(async () => {
   };
   vi.stubGlobal("WebSocket", still);
   vi.stubGlobal("IntersectionObserver", still);
-  vi.stubGlobal("matchMedia", () => ({ matches: false, addEventListener: nothing, removeEventListener: nothing }));
-  await startI18n();
-  await loadScreenTexts();
 });
-afterEach(() => {
-  cleanup();
-  forgetLive(false);
-  vi.unstubAllGlobals();
-});
+afterEach(() => forgetLive(false));
 
 const version = (number: number) => ({
   number,
@@ -60,19 +52,15 @@ function serve() {
 
 test("which runs used a version is asked of the server, and nothing is said before it has answered", async () => {
   const { asked, tell } = serve();
-  const { HistoryPage } = await import("./HistoryPage"); // the theme asks for the window's when it is loaded
   const queries = makeQueryClient();
   queries.setQueryData(keys.me, { csrf: "", demo_accounts: [], user: { id: 1, name: "Anna", initials: "A" } });
   queries.setQueryData(keys.site("hall"), { slug: "hall", name: "Hall", role: "viewer", stop: { active: false } });
   queries.setQueryData(keys.program("p"), { id: "p", name: "Tour", site: "hall" });
   queries.setQueryData(["program-origin", "p"], { origin: null });
-  const routes = [{ path: "/sites/:slug/programs/:id/history", element: <HistoryPage /> }];
-  render(
-    <QueryClientProvider client={queries}>
-      <MantineProvider env="test">
-        <RouterProvider router={createMemoryRouter(routes, { initialEntries: ["/sites/hall/programs/p/history"] })} />
-      </MantineProvider>
-    </QueryClientProvider>,
+  showAt(
+    "/sites/hall/programs/p/history",
+    [{ path: "/sites/:slug/programs/:id/history", element: <HistoryPage /> }],
+    queries,
   );
   expect(await screen.findByText("Draft 2")).toBeDefined();
   expect(screen.queryByText("No run used it")).toBeNull();

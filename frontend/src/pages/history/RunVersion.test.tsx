@@ -1,34 +1,11 @@
 // @vitest-environment jsdom
-import { MantineProvider } from "@mantine/core";
-import { QueryClientProvider } from "@tanstack/react-query";
-import { cleanup, fireEvent, render, screen, waitFor } from "@testing-library/react";
-import { MemoryRouter } from "react-router-dom";
-import { afterEach, beforeAll, expect, test, vi } from "vitest";
-import { makeQueryClient } from "@/api/queries";
+import { fireEvent, screen, waitFor } from "@testing-library/react";
+import { expect, test, vi } from "vitest";
 import type { Program, Site, Version } from "@/api/types";
-import { loadScreenTexts, startI18n } from "@/i18n";
+import { show, testsPages } from "@/testing/page";
 import { RunVersion } from "./RunVersion";
 
-vi.hoisted(() => {
-  const nothing = () => undefined;
-  const matchMedia = () => ({ matches: false, addEventListener: nothing, removeEventListener: nothing });
-  const ResizeObserver = class {
-    observe = nothing;
-    unobserve = nothing;
-    disconnect = nothing;
-  };
-  Object.assign(globalThis, { matchMedia, ResizeObserver });
-});
-
-beforeAll(async () => {
-  await startI18n();
-  await loadScreenTexts();
-});
-
-afterEach(() => {
-  cleanup();
-  vi.unstubAllGlobals();
-});
+testsPages();
 
 const DOCUMENT = {
   steps: {},
@@ -60,15 +37,7 @@ function open() {
   const program = { id: "task", name: "Paint order" } as Program;
   const site = { slug: "hall", simulated: true, role: "operator", stop: { active: false } } as Site;
   const version = { number: 2 } as Version;
-  render(
-    <QueryClientProvider client={makeQueryClient()}>
-      <MantineProvider env="test">
-        <MemoryRouter>
-          <RunVersion {...{ program, site, version }} onClose={() => undefined} />
-        </MemoryRouter>
-      </MantineProvider>
-    </QueryClientProvider>,
-  );
+  show(<RunVersion {...{ program, site, version }} onClose={() => undefined} />);
 }
 
 const runIt = () => screen.findByRole<HTMLButtonElement>("button", { name: "Run" });
