@@ -2,10 +2,8 @@
 
 import gzip
 import json
-from datetime import UTC, datetime, timedelta
 
 import pytest
-from django.core.files.uploadedfile import SimpleUploadedFile
 
 from editor import services as editor
 from editor.language.expressions.nodes import PlaceRef
@@ -13,52 +11,26 @@ from editor.language.plan.instructions import End, Instruction, Move, Plan
 from execution import services
 from execution.models import Command, FloorState, Run
 from registry import services as registry
-from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.floorplan.plan import Grid
 from registry.live import fanout
 from registry.maps import uploads
-from registry.models import Device, RobotMap, SiteMap
+from registry.models import Device, SiteMap
+from tests.integration.execution.maps.brought_maps import (
+    MARGIN,
+    PLAN,
+    bring,
+    packed,
+    say_map,
+    tag_of,
+    use,
+    walled,
+    widened,
+)
 from tests.kit import demo_floor
 from tests.kit.programs import ANY, CARRY, SITE, TASK, run_status
 from tests.kit.sign_in import ROLES, join_and_sign_in, post_json
-from tests.unit.robot_agent.agent import RobotGrid, write_grid
 
 pytestmark = pytest.mark.django_db(transaction=True)
-AT = datetime(2026, 11, 21, 12, 0, tzinfo=UTC)
-PLAN = demo_floor.grid()
-MARGIN = 8
-
-
-def widened(grid=PLAN, cells=None):
-    """Return the grid with unknown cells all round, as a robot's map has them: every cell gets another number."""
-    rows = [grid.cells[row * grid.width : (row + 1) * grid.width] for row in range(grid.height)]
-    side, width = b"\xff" * MARGIN, grid.width + 2 * MARGIN
-    empty = [b"\xff" * width] * MARGIN
-    origin = (grid.origin_x_m - MARGIN * grid.resolution_m, grid.origin_y_m - MARGIN * grid.resolution_m)
-    whole = b"".join([*empty, *(side + row + side for row in rows), *empty])
-    return Grid(width, grid.height + 2 * MARGIN, grid.resolution_m, *origin, whole)
-
-
-def say_map(grid, number=1, robot="robot01"):
-    said = RobotGrid(grid.width, grid.height, grid.resolution_m, (grid.origin_x_m, grid.origin_y_m, 0.0), grid.cells)
-    at = AT + timedelta(seconds=20 * number)
-    for message in write_grid(said, 1, number):
-        registry.ingest_map_part(device_id=robot, payload=message, at=at)
-
-
-def use(client, version=1, replaces=1, robot="robot01"):
-    return post_json(
-        client, f"/api/sites/{SITE}/map/from-device", {"device": robot, "version": version, "replaces": replaces}
-    )
-
-
-def walled(x1, y1, x2, y2):
-    """Return the plan with a block of wall; metres."""
-    cells = bytearray(PLAN.cells)
-    (row1, column1), (row2, column2) = PLAN.cell_of(x1, y1), PLAN.cell_of(x2, y2)
-    for row in range(row1, row2):
-        cells[row * PLAN.width + column1 : row * PLAN.width + column2] = b"\x64" * (column2 - column1)
-    return Grid(PLAN.width, PLAN.height, PLAN.resolution_m, PLAN.origin_x_m, PLAN.origin_y_m, bytes(cells))
 
 
 def test_a_robots_map_becomes_the_sites_and_the_one_before_can_be_chosen_again(factory):
@@ -227,25 +199,6 @@ def test_the_body_of_a_change_is_checked(factory):
     assert json.loads(use(client).content)["code"] == "no_robot_map"
 
 
-def packed(grid):
-    """Return a grid as the two files of a map, as a form sends them."""
-    return {
-        "yaml": SimpleUploadedFile("m.yaml", write_yaml(grid, "m.pgm")),
-        "image": SimpleUploadedFile("m.pgm", write_pgm(grid)),
-    }
-
-
-def tag_of(client):
-    return client.get(f"/api/sites/{SITE}/map/cells")["ETag"]
-
-
-def bring(client, grid, tag=None, source="edit", path="map/upload"):
-    """Bring a map in the place of the one with the tag: None stands for the one that holds, empty for no word of it."""
-    tag = tag_of(client) if tag is None else tag
-    headers = {"If-Match": tag} if tag else {}
-    return client.post(f"/api/sites/{SITE}/{path}", {"source": source, **packed(grid)}, headers=headers)
-
-
 def test_a_map_that_somebody_has_changed_becomes_the_sites_and_is_exact_to_the_cell(factory):
     client = join_and_sign_in("admin", SITE)
     assert client.get(f"/api/sites/{SITE}/map").json()["tag"] == tag_of(client)
@@ -264,52 +217,6 @@ def test_of_two_who_change_the_map_the_second_is_told_and_nothing_is_lost(factor
     assert (second.status_code, second.json()["code"]) == (412, "map_overtaken")
     assert registry.get_map(site=SITE).grid == theirs
     assert bring(client, widened(), tag=tag_of(client)).json() == {"version": 3}
-
-
-def lost_to_a_backup(grid):
-    """Save a map and bring back the backup from before it; the next map has its number."""
-    lost = registry.save_map(site=SITE, grid=grid)
-    yield lost
-    SiteMap.objects.get(site__slug=SITE, version=lost.version).delete()
-    yield registry.save_map(site=SITE, grid=widened())
-
-
-def test_a_map_of_the_same_number_after_a_backup_is_another(factory):
-    client = join_and_sign_in("admin", SITE)
-    story = lost_to_a_backup(walled(7, -8, 7.5, -7.5))
-    lost, known = next(story), tag_of(client)
-    old = f"/api/sites/{SITE}/map/versions/{lost.version}"
-    assert client.get(old).json()["tag"] == client.get(f"{old}/cells")["ETag"] == known
-    assert next(story).version == lost.version
-    for cells in (f"/api/sites/{SITE}/map/cells", f"{old}/cells"):
-        again = client.get(cells, headers={"If-None-Match": known})
-        assert (again.status_code, gzip.decompress(again.content)) == (200, widened().cells)
-        assert client.get(cells, headers={"If-None-Match": again["ETag"]}).status_code == 304
-    refused = bring(client, PLAN, known)
-    assert (refused.status_code, refused.json()["code"]) == (412, "map_overtaken")
-    assert registry.get_map(site=SITE).grid == widened()
-
-
-def test_a_map_that_took_a_lost_ones_number_is_not_restored_in_its_place(factory):
-    client = join_and_sign_in("admin", SITE)
-    story = lost_to_a_backup(walled(7, -8, 7.5, -7.5))
-    next(story)
-    known, first = client.get(f"/api/sites/{SITE}/map/versions").json()
-    assert known["tag"] == tag_of(client) != first["tag"]
-    next(story)
-    body = {"version": 1, "replaces": 2, "tag": first["tag"]}
-    refused = restore(client, {**body, "replaces_tag": known["tag"]})
-    assert (refused.status_code, refused.json()["args"]) == (409, {"why": "site"})
-    assert restore(client, {**body, "replaces_tag": tag_of(client)}).json() == {"version": 3}
-    body = {"version": 2, "replaces": 3, "tag": known["tag"]}
-    refused = restore(client, body)
-    assert (refused.status_code, refused.json()["args"]) == (409, {"why": "version"})
-    assert registry.get_map(site=SITE).grid == PLAN
-    assert restore(client, {"version": 2, "replaces": 3}).json() == {"version": 4}, "an older page knows no tags"
-
-
-def restore(client, body):
-    return post_json(client, f"/api/sites/{SITE}/map/restore", body)
 
 
 def test_who_changes_the_map_must_say_which(factory):
@@ -365,38 +272,6 @@ def test_an_earlier_version_can_be_looked_at(factory):
     assert gzip.decompress(client.get(f"{old}/cells").content) == PLAN.cells
     missing = client.get(f"/api/sites/{SITE}/map/versions/9")
     assert (missing.status_code, missing.json()["code"]) == (404, "no_map")
-
-
-def test_a_robots_map_of_the_same_number_after_a_backup_is_another(factory):
-    client = join_and_sign_in("viewer", SITE)
-    cells = f"/api/sites/{SITE}/devices/robot01/map/cells"
-    say_map(widened(), number=1)
-    known = client.get(cells)["ETag"]
-    assert client.get(f"/api/sites/{SITE}/devices/robot01/map").json()["tag"] == known
-    assert client.get(cells, headers={"If-None-Match": known}).status_code == 304
-    RobotMap.objects.all().delete()
-    say_map(PLAN, number=2)
-    again = client.get(cells, headers={"If-None-Match": known})
-    assert (again.status_code, gzip.decompress(again.content)) == (200, PLAN.cells)
-
-
-def test_a_robots_map_that_took_a_lost_ones_number_is_not_used_in_its_place(factory):
-    client = join_and_sign_in("admin", SITE)
-    say_map(widened(), number=1)
-    seen = client.get(f"/api/sites/{SITE}/devices/robot01/map/difference").json()
-    assert seen["tag"] == client.get(f"/api/sites/{SITE}/devices/robot01/map").json()["tag"]
-    assert seen["replaces_tag"] == tag_of(client)
-    body = {"device": "robot01", **{name: seen[name] for name in ("version", "tag", "replaces", "replaces_tag")}}
-    RobotMap.objects.all().delete()
-    say_map(PLAN, number=2)
-    path = f"/api/sites/{SITE}/map/from-device"
-    refused = post_json(client, path, body)
-    assert (refused.status_code, refused.json()["args"]) == (409, {"why": "robot"})
-    now = client.get(f"/api/sites/{SITE}/devices/robot01/map/difference").json()
-    assert post_json(client, path, {**body, "tag": now["tag"]}).json() == {"version": 2}
-    SiteMap.objects.all().delete()
-    none = client.get(f"/api/sites/{SITE}/devices/robot01/map/difference").json()
-    assert (none["replaces"], none["replaces_tag"]) == (0, "")
 
 
 def test_one_map_at_a_time_is_held_against_the_sites_and_keeps_nobody_from_bringing_one(factory, monkeypatch):
