@@ -13,7 +13,7 @@ from typing import Any
 
 import psycopg
 import pytest
-from django.db import InterfaceError
+from django.db import InterfaceError, connection
 from pytest_django import DjangoDbBlocker
 
 from execution.ticker import ticker as tickers
@@ -63,26 +63,25 @@ def ticking() -> Iterator[None]:
     assert not ticker.is_alive()
 
 
-OTHERS = "FROM pg_stat_activity WHERE datname = current_database() AND pid <> pg_backend_pid()"
-
-
 def test_a_ticker_whose_connection_is_ended_between_two_ticks_goes_on_with_a_new_one(
     url: str, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(tickers, "TICK_S", 1.0)  # so that the end comes between two of them
+    over: list[int] = []
+    tick = tickers.tick
+
+    def ended_behind_the_first(now: Any) -> bool:
+        leads = tick(now)
+        with connection.cursor() as cursor:
+            cursor.execute("SELECT pg_backend_pid()")
+            over.append(cursor.fetchone()[0])
+        if len(over) == 1:
+            looking.execute("SELECT pg_terminate_backend(%s, 10000)", over)
+        return leads
+
+    monkeypatch.setattr(tickers, "tick", ended_behind_the_first)
     with psycopg.connect(url, autocommit=True) as looking, ticking():
-
-        def leading() -> list[Any]:
-            held = looking.execute("SELECT count(*) FROM execution_lease WHERE until > now()").fetchone()
-            idle = looking.execute(f"SELECT pid {OTHERS} AND state = 'idle'").fetchall()
-            return idle if held == (1,) else []
-
-        wait_for("the ticker", leading)
-        first = leading()
-        looking.execute(f"SELECT pg_terminate_backend(pid) {OTHERS}")
-        looking.execute("DELETE FROM execution_lease")
-        wait_for("the ticker, again", leading)
-        assert set(leading()).isdisjoint(first)
+        wait_for("the next ticks", lambda: len(over) > 2)
+    assert over[0] not in over[1:]
     lines = [line for line in caplog.records if line.levelno >= logging.WARNING]
     assert [line.getMessage().partition(":")[0] for line in lines] == ["The ticker's database does not answer"]
 
