@@ -68,8 +68,8 @@ check-units: setup-dev
 test:
 	@$(MAKE) --no-print-directory --jobs=3 setup-dev servers frontend
 	@rm -f var/beside-failed
-	@$(MAKE) --no-print-directory --jobs=2 test-python check-beside
-	@if [ -e var/beside-failed ]; then $(MAKE) --no-print-directory check-again; fi
+	@$(MAKE) --no-print-directory --jobs=2 test-python check-beside; ended=$$?; \
+	if [ -e var/beside-failed ]; then $(MAKE) --no-print-directory check-again || ended=1; fi; exit $$ended
 
 test-python:
 	@rm -f .pytest_cache/v/cache/lastfailed
@@ -78,7 +78,7 @@ test-python:
 
 # What nobody waits for gives way to what browsers and servers do meanwhile.
 check-beside:
-	@nice -n 15 $(MAKE) --no-print-directory --output-sync=target check-frontend check-static \
+	@nice -n 5 $(MAKE) --no-print-directory --output-sync=target check-frontend check-static \
 		|| { mkdir -p var && touch var/beside-failed; }
 
 # Pages' tests have clocks, too: what failed beside browsers and servers is tried once more, alone, and said last.

@@ -14,6 +14,9 @@ if (typeof document !== "undefined") {
   });
   Object.defineProperty(document, "fonts", { configurable: true, value: silent });
   Element.prototype.scrollIntoView = nothing;
+  // Only a fault takes so long: beside the other tests, a drawing and what follows an answer take seconds.
+  const { configure } = await import("@testing-library/react");
+  configure({ asyncUtilTimeout: 20_000 });
 }
 
 /** Files of tests share a browser, so that each need not make its own: what one leaves there, the next does not find. */
@@ -24,8 +27,10 @@ beforeAll(() => {
   document.body.replaceChildren();
 });
 
-afterAll(() => {
+/** What is still being fetched comes while this file's browser stands: else it is missing in every file behind it. */
+afterAll(async () => {
   vi.useRealTimers();
+  await vi.dynamicImportSettled();
   vi.unstubAllGlobals();
   vi.restoreAllMocks();
 });

@@ -33,7 +33,7 @@ test("a site where a run waits for its time is idle", async () => {
   const queries = makeQueryClient();
   queries.setQueryData(["map", "a"], null);
   show(<SiteCards sites={[SITE]} />, queries);
-  await vi.waitFor(() => expect(queries.isFetching()).toBe(0));
+  await vi.waitFor(() => expect(queries.isFetching()).toBe(0), 20_000);
   expect(asked.filter((path) => path.includes("/runs"))).toHaveLength(1);
   expect(screen.queryByText("Running")).toBeNull();
   expect(screen.getByText("Idle")).toBeTruthy();

@@ -38,9 +38,9 @@ test("a role that is refused is told, also where another one was set meanwhile",
   for (const name of ["Ann", "Bo"])
     fireEvent.change(screen.getByLabelText(`Role of ${name}`), { target: { value: "author" } });
   await (await nth(2)).answer(200, {});
+  expect(await screen.findByText("Bo is Author now.")).toBeTruthy();
   await waiting[0]?.answer(409, FIRST);
   expect(await screen.findByText(FIRST.detail)).toBeTruthy();
-  expect(screen.getByText("Bo is Author now.")).toBeTruthy();
 });
 
 test("so are an invitation and a wall screen that could not be ended", async () => {

@@ -1,6 +1,6 @@
 // @vitest-environment jsdom
 import { act, fireEvent, renderHook, screen } from "@testing-library/react";
-import { afterEach, expect, test, vi } from "vitest";
+import { afterEach, beforeAll, expect, test, vi } from "vitest";
 import { show, testsPages } from "@/testing/page";
 import { useTypedAhead } from "../keys/typedAhead";
 import { PaletteButton } from "./PaletteButton";
@@ -9,6 +9,8 @@ import { PaletteButton } from "./PaletteButton";
 const LONG_MS = 30_000;
 
 testsPages();
+/** Keys are kept for ten seconds, and beside the other tests a first fetch may take longer. The window comes late all the same. */
+beforeAll(() => import("./Palette"));
 const heard = vi.fn();
 const onKey = ({ key }: KeyboardEvent) => void heard(key);
 afterEach(() => {

@@ -47,6 +47,6 @@ test("the dialog tells robots that stand as held", async () => {
   useLiveStore.setState({ ...EMPTY, site: "hall", connection: "live", deviceById });
   useLiveStore.setState({ stop: SITE.stop });
   show(<StopAllButton slug="hall" />, queries);
-  expect(await screen.findByText("Held", {}, { timeout: 10_000 })).toBeDefined();
+  expect(await screen.findByText("Held")).toBeDefined();
   expect(screen.queryByText("Driving")).toBeNull();
 });
