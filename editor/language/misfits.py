@@ -53,18 +53,32 @@ def _first_wrong(
     places = {step: index for index, step in enumerate(numbers_in_script(look.tree))}
     told = [problem for problem, _ in look.found if problem.held in devices]
     if told:
+        limits = _limits_of_waits(look.tree)
         uncaught = {kind: _uncaught(look.tree, kind) for kind in _KINDS}
-        told = [each for each in told if each.step not in places or each.step in uncaught[_kind_of(each)]]
+        told = [each for each in told if each.step not in places or each.step in uncaught[_kind_of(each, limits)]]
     words = (put_into_words(each, None) for each in sorted(told, key=lambda each: places.get(each.step, len(places))))
     return next((each for each in words if each.severity == "error"), None)
 
 
-_KINDS: Final = ("refused", "failed")
+_ENDLESS: Final = "endless"
+_KINDS: Final = ("refused", "failed", "blocked", "timed_out", _ENDLESS)
+_BLOCKED: Final = frozenset({"robot_as_goal", "robot_as_place"})
 
 
-def _kind_of(problem: Problem) -> str:
-    """Return how a step fails that asks so much of a device: what it cannot tell has no value."""
-    return "failed" if problem.code == "unknown_property" else "refused"
+def _kind_of(problem: Problem, limits: Mapping[str, bool]) -> str:
+    """Return how a step fails that asks so much of a device: what it cannot tell has no value, and never gets one.
+
+    `limits` says of each step that waits whether it does so for a limited time; without one it fails in no way.
+    """
+    if problem.code == "unknown_property":
+        return "failed" if problem.step not in limits else "timed_out" if limits[problem.step] else _ENDLESS
+    return "blocked" if problem.code in _BLOCKED else "refused"
+
+
+def _limits_of_waits(tree: Tree) -> dict[str, bool]:
+    blocks = (tree.body, *(each.body for each in (*tree.functions, *tree.events)))
+    waits = (node for block in blocks for node in n.walk(block) if isinstance(node, n.WaitUntil))
+    return {wait.step: wait.timeout_s is not None for wait in waits}
 
 
 def _uncaught(tree: Tree, kind: str) -> set[str]:
@@ -74,7 +88,7 @@ def _uncaught(tree: Tree, kind: str) -> set[str]:
     while left:
         for node in left.pop():
             found.add(node.step)
-            if isinstance(node, n.Try) and any(handler.takes(kind) for handler in node.handlers):
+            if isinstance(node, n.Try) and kind != _ENDLESS and any(handler.takes(kind) for handler in node.handlers):
                 left.extend((*node.catches, node.final))
             else:
                 left.extend(n.blocks_of(node))

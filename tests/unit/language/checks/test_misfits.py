@@ -136,3 +136,19 @@ def test_what_a_program_catches_keeps_nobody_from_a_device() -> None:
     asked = "try:\n    self.x = self.m.read('pressure')\nexcept {}:\n    self.wait(1)"
     assert found(asked.replace("{}", "Failed"), m=OVEN) is None
     assert found(asked.replace("{}", "Refused"), m=OVEN) == ("m", OVEN, "unknown_property")
+
+
+AWAITED = "try:\n    self.wait(until=self.m.read('quality') == 'good'{})\nexcept {}:\n    self.wait(1)"
+SENT = "try:\n    {}\nexcept {}:\n    self.wait(1)"
+GOES = "self.robot.move(self.at.location)"
+
+
+def test_what_is_caught_is_what_the_run_would_fail_with() -> None:
+    for_ever, missing = ("", "TaskError"), ("m", MIXER, "unknown_property")
+    assert found(AWAITED.format(*for_ever), m=MIXER) == missing, "it would wait and never fail"
+    assert found(AWAITED.format("", "TimedOut"), m=MIXER) == missing
+    assert found(AWAITED.format(", timeout=60", "TimedOut"), m=MIXER) is None
+    assert found(AWAITED.format(", timeout=60", "TaskError"), m=MIXER) is None
+    assert found(AWAITED.format(", timeout=60", "Failed"), m=MIXER) == missing
+    assert found(SENT.format(GOES, "Blocked"), at=ROBOT) is None
+    assert found(SENT.format(GOES, "Refused"), at=ROBOT) == ("at", ROBOT, "robot_as_goal")
