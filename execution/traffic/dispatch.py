@@ -214,7 +214,10 @@ def _dispatch_with(turn: Turn, task: FloorTask, robot: Robot) -> None:
         turn.finish(task, "blocked", str(error))
         return
     if robot.path == (spot.id,) and not turn.is_driving(robot) and not points_ahead(task):
-        _act(turn, task, robot, spot)
+        if turn.is_acting(robot):  # for a person, or for a run that is over: it may be moved by it
+            turn.wait(task, "robot_busy", f"{turn.name(robot.id)} has something else to do first.", robot=robot.id)
+        else:
+            _act(turn, task, robot, spot)
     else:
         _take_machine(turn, task, robot, spot.id)
         _go(turn, task, robot, spot)
@@ -297,7 +300,7 @@ def _act(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:
         turn.finish(task, "refused", f"Nothing can be handed over at {where}; choose a device.")
     elif spot.id in turn.calls:
         turn.wait(task, "machine_busy", f"{turn.name(spot.id)} is busy.", device=spot.id)
-    elif not turn.is_acting(robot):
+    else:
         quantity = int(order.quantity) if float(order.quantity).is_integer() else order.quantity
         arguments = {"device": spot.id, "object": order.object, "value": quantity}
         sent = Sent("", robot.id, task.run, task.number, limit_s=HANDLING_LIMIT_S)

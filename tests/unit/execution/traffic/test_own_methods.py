@@ -222,6 +222,22 @@ def test_a_run_waits_until_a_person_is_done_that_lets_its_robot_move_by_hand():
     assert world.over["b", 1] == ("", "")
 
 
+def test_a_robot_that_a_person_lets_move_from_a_run_s_goal_is_not_there_yet():
+    world = floor_with(robot01=(honk(),))
+    go_on(world)
+    world.run_until(lambda: world.over)
+    world.over.clear()
+    world.tell(m.CallSent("by hand", "robot01", "honk", {}, "Ada"))
+    world.tell(carried_off(world))
+    world.tell(m.TaskAsked("b", 2, TaskOrder("move", Target("dropOff01"), "robot"), run_name="run b"))
+    assert world.over == {}
+    assert world.waits[-1].reason.code == "robot_busy"
+    world.tell(m.CommandAnswered("by hand", "DONE"))
+    world.run_until(lambda: world.over)
+    assert world.over["b", 2] == ("", "")
+    assert world.at["robot01"] == pytest.approx(world.layout.point("dropOff01"), abs=0.3)
+
+
 def test_a_robot_that_was_making_room_and_is_carried_off_makes_room_no_more():
     world = floor_with_mover()
     (cell,) = world.state.robots["robot01"].path
