@@ -70,7 +70,7 @@ def device_names(site: str, secrets: Path, world: str, prefix: str | None) -> Na
     def name(plain: str) -> str:
         nonlocal known
         try:
-            known = ring.devices()
+            known |= ring.devices()
         except ValueError as error:
             log.warning("%s What it said last tells which devices keep their ids.", error)
         return plain if plain in known else fit_device_id(begin + plain, plain)

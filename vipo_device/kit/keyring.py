@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+from itertools import count
 from pathlib import Path
 
 from vipo_device.kit.atomic_file import locked, write_file
@@ -39,13 +40,24 @@ class KeyFile:
             raise ValueError(f"{self._path} cannot be read ({error}).") from error
 
     def find_or_make(self, device: str) -> str:
-        """Return a device's key; one that has none gets one. A file that cannot be read begins anew. Raises OSError."""
+        """Return a device's key; one that has none gets one. Raises OSError.
+
+        A file that cannot be read begins anew; what stood in it is kept beside it, for people to mend.
+        """
         with locked(self._path):
-            keys = self._read_readable()
+            try:
+                keys = self._read()
+            except (OSError, ValueError) as error:
+                keys, kept = {}, self._put_aside()
+                log.warning("%s cannot be read (%s); it begins anew, and is kept as %s.", self._path, error, kept.name)
             if device not in keys:
                 keys[device] = make_credential()
                 self._write(keys)
             return keys[device]
+
+    def _put_aside(self) -> Path:
+        names = (self._path.with_name(f"{self._path.name}.damaged{number or ''}") for number in count())
+        return self._path.rename(next(name for name in names if not name.exists()))
 
     def _read(self) -> dict[str, str]:
         try:

@@ -10,6 +10,7 @@ import pytest
 from django.core.management.base import CommandError
 
 from connectors.settings import add_prefix, device_names
+from vipo_device.kit.keyring import KeyRing
 from vipo_device.protocol.messages import is_device_id
 
 WORLDS = ("vda5050", "mtconnect")
@@ -51,6 +52,17 @@ def test_while_a_file_of_keys_cannot_be_read_nobody_gets_another_id(tmp_path: Pa
     with pytest.raises(CommandError, match=rf"{file} cannot be read \(.+\)\. Mend it: it says which devices keep"):
         device_names("yard", tmp_path, "vda5050", None)
     assert device_names("yard", tmp_path, "vda5050", "")("Acme-1") == "Acme-1", "without a prefix nobody asks it"
+
+
+def test_a_file_that_cannot_be_read_is_kept_and_who_had_a_key_in_it_keeps_the_id(tmp_path: Path) -> None:
+    given, own = tmp_path / "devices.json", tmp_path / "vda5050-yard.json"
+    own.write_text('{"Acme-1": "its key", "Acme-2": "its key"}')
+    name = device_names("yard", tmp_path, "vda5050", None)
+    for number, text in enumerate(('{"Acme-1": "its key", "Acme-2', "[]")):
+        own.write_text(text)
+        assert KeyRing(given, own).first_key(name("Acme-1")) == KeyRing(given, own).first_key("Acme-1") != "its key"
+        assert (tmp_path / f"vda5050-yard.json.damaged{number or ''}").read_text() == text
+    assert [name("Acme-2"), name("Acme-3")] == ["Acme-2", "yard.Acme-3"]
 
 
 def test_the_environment_says_the_prefix_where_the_command_line_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
