@@ -18,6 +18,7 @@ import type {
   RunSummary,
   Site,
   SiteStop,
+  VersionRuns,
 } from "@/api/types";
 import { ownEntry } from "@/design/ownEntry";
 import { applyAlert } from "./alerts";
@@ -224,7 +225,15 @@ export class SiteFeed {
     this.#caches.write<NewestRuns>(keys.runs(this.slug), (newest) => ({ ...newest, runs: applyRun(newest.runs, run) }));
     this.#caches.write<RunSummary[]>(keys.openRuns(this.slug), (runs) => applyOpenRun(runs, run));
     this.#caches.write<Run>(keys.run(run.id), (full) => ({ ...full, ...run }));
-    if (run.status === "pending" || !isOpen(run)) this.#caches.refresh(keys.versionRuns(this.slug, run.program.id));
+    if (run.status === "pending" || !isOpen(run) || this.#isShownOtherwise(run))
+      this.#caches.refresh(keys.versionRuns(this.slug, run.program.id));
+  }
+
+  /** Whether a version's newest runs tell another state of one. */
+  #isShownOtherwise({ id, status, program }: RunSummary): boolean {
+    const queryKey = keys.versionRuns(this.slug, program.id);
+    const newest = this.queries.getQueriesData<VersionRuns[]>({ queryKey }).flatMap(([, versions]) => versions ?? []);
+    return newest.some(({ newest }) => newest.some((each) => each.id === id && each.status !== status));
   }
 
   #runEvent(run: string, event: RunEvent): void {

@@ -100,6 +100,17 @@ test("a machine that takes long for each percent is held after twice as long", (
   expect(useLiveStore.getState().held).toEqual(["oven"]);
 });
 
+test("a pause before its last progress does not keep a machine from being held", () => {
+  progress("oven", 100);
+  vi.advanceTimersByTime(3_600_000);
+  progress("oven", 0);
+  useLiveStore.setState({ deviceById: deviceById(machine("oven", 0)), stop: STOP });
+  vi.advanceTimersByTime(119_000);
+  expect(useLiveStore.getState().held).toEqual([]);
+  vi.advanceTimersByTime(2000);
+  expect(useLiveStore.getState().held).toEqual(["oven"]);
+});
+
 test("what is held waits; a load or trouble is told as before", () => {
   const held = ["robot", "carrier", "idle"];
   const told = (each: Device) => {

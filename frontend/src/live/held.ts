@@ -6,8 +6,9 @@ import { useLiveStore } from "./store";
 
 /** So long a robot's place has not changed when it stands. */
 const ROBOT_STILL_MS = 2000;
-/** So long a machine's progress has not, or twice as long as it took last time; unknown where that was not seen. */
+/** So long a machine's progress has not, or twice as long as it took last time, which may have been a pause. */
 const MACHINE_STILL_MS = 10_000;
+/** And so long where that was not seen; no machine is waited for any longer. */
 const UNKNOWN_STILL_MS = 120_000;
 const LOOK_MS = 500;
 const DOING = ["driving", "working", "working_percent"];
@@ -27,7 +28,8 @@ function isStill({ id, kind, properties }: Device, now: number): boolean {
   const seen = readingsOf(id, "jobStatus").filter(({ value }, at, all) => value !== all[at - 1]?.value);
   const [before, last] = [seen.at(-2), seen.at(-1)];
   if (!last) return false;
-  return now - last.at >= (before ? Math.max(MACHINE_STILL_MS, 2 * (last.at - before.at)) : UNKNOWN_STILL_MS);
+  const pace = before ? Math.max(MACHINE_STILL_MS, 2 * (last.at - before.at)) : UNKNOWN_STILL_MS;
+  return now - last.at >= Math.min(pace, UNKNOWN_STILL_MS);
 }
 
 /** Look who stands, and again while anybody who has something to do still moves. */

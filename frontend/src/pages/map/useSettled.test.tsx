@@ -53,6 +53,15 @@ test("what others set is shown where nothing was typed, and what the server made
   expect(shown()).toBe("B");
 });
 
+test("what somebody set right behind it is shown, though it is known before the answer", async () => {
+  const { asked, shown, settle, answer } = begun("A");
+  settle("B");
+  await answer(0, true, "Their own");
+  expect(shown()).toBe("Their own");
+  settle(shown()); // the field is left
+  expect(asked()).toEqual(["B"]);
+});
+
 test("a value that is refused gives way to what holds by then", async () => {
   const { shown, settle, answer } = begun("A");
   settle("B");

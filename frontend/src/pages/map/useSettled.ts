@@ -25,6 +25,7 @@ export function useSettled<Value>(known: Value, keep: Keep<Value>) {
     setValue(next);
     if (Object.is(next, sent.current ? sent.current.value : known)) return;
     const mine = { value: next };
+    const before = latest.current;
     sent.current = mine;
     taken.current = null;
     void Promise.resolve(keep(next)).then((isTaken) => {
@@ -32,7 +33,9 @@ export function useSettled<Value>(known: Value, keep: Keep<Value>) {
         sent.current = null;
         taken.current = isTaken ? mine : null;
       }
-      if (!isTaken) setValue((now) => (Object.is(now, next) ? latest.current : now));
+      // What somebody set behind it may be known before its answer comes.
+      if (!isTaken || (sent.current === null && !Object.is(latest.current, before)))
+        setValue((now) => (Object.is(now, next) ? latest.current : now));
     });
   };
   const takeBack = () => setValue(sent.current ? sent.current.value : known);

@@ -1,5 +1,6 @@
 // @vitest-environment jsdom
 import { fireEvent, screen } from "@testing-library/react";
+import { Link } from "react-router-dom";
 import { afterEach, expect, test, vi } from "vitest";
 import type { Token } from "@/api/types";
 import { keys, makeQueryClient } from "@/api/queries";
@@ -47,4 +48,26 @@ test("of two tokens that are made at once each is shown, one after the other", a
   expect(await screen.findByDisplayValue("first-secret")).toBeTruthy();
   fireEvent.click(screen.getByText("I have it"));
   expect(await screen.findByDisplayValue("second-secret")).toBeTruthy();
+});
+
+test("a token whose page another site's has followed is shown all the same", async () => {
+  vi.stubGlobal("WebSocket", class { close() {} }); // prettier-ignore
+  const site = (slug: string) => ({ slug, name: slug, role: "viewer", stop: { active: false } });
+  const { nth } = slowServer({ "/tokens": [], "/sites/hall": site("hall"), "/sites/yard": site("yard") });
+  const queries = makeQueryClient();
+  queries.setQueryData(keys.me, { csrf: "", demo_accounts: [], user: { id: 1, name: "Anna", initials: "A" } });
+  const page = (
+    <>
+      <Link to="/sites/yard/tokens">Another site</Link>
+      <TokensPage />
+    </>
+  );
+  showAt("/sites/hall/tokens", [{ path: "/sites/:slug/tokens", element: page }], queries);
+  fireEvent.click(await screen.findByText("New token"));
+  fireEvent.change(await screen.findByLabelText(/^What it is for/), { target: { value: "Display" } });
+  fireEvent.click(screen.getByText("Make the token"));
+  const asked = await nth(1);
+  fireEvent.click(screen.getByText("Another site"));
+  await asked.answer(200, { id: "1", name: "Display", token: "its-secret" });
+  expect(await screen.findByDisplayValue("its-secret")).toBeTruthy();
 });

@@ -117,15 +117,20 @@ export function AskRevoke({ slug, token, onClose }: { slug: string; token: Token
 
 export function TokensPage() {
   const { slug = "" } = useParams();
-  return <TokensOfSite key={slug} slug={slug} />;
+  const secrets = useShownOnce<MadeToken>();
+  return (
+    <>
+      <TokensOfSite key={slug} slug={slug} onMade={secrets.show} />
+      {secrets.shown ? <TokenShown key={secrets.shown.id} token={secrets.shown} onClose={secrets.next} /> : null}
+    </>
+  );
 }
 
-function TokensOfSite({ slug }: { slug: string }) {
+function TokensOfSite({ slug, onMade }: { slug: string; onMade: (token: MadeToken) => void }) {
   const { t } = useTranslation();
   const site = useSite(slug);
   const tokens = useTokens(slug);
   const [making, setMaking] = useState(false);
-  const secrets = useShownOnce<MadeToken>();
   const [ending, setEnding] = useState<Token | null>(null);
   const problem = missing(site, tokens);
   const begin = (
@@ -151,10 +156,7 @@ function TokensOfSite({ slug }: { slug: string }) {
           </Panel>
         ) : null}
       </div>
-      {making && site.data ? (
-        <NewToken site={site.data} onMade={secrets.show} onClose={() => setMaking(false)} />
-      ) : null}
-      {secrets.shown ? <TokenShown key={secrets.shown.id} token={secrets.shown} onClose={secrets.next} /> : null}
+      {making && site.data ? <NewToken site={site.data} onMade={onMade} onClose={() => setMaking(false)} /> : null}
       {ending ? <AskRevoke slug={slug} token={ending} onClose={() => setEnding(null)} /> : null}
     </PageShell>
   );
