@@ -6,6 +6,7 @@ import react from "@vitejs/plugin-react";
 import type { Plugin } from "vite";
 import { VitePWA } from "vite-plugin-pwa";
 import { defineConfig } from "vitest/config";
+import { BaseSequencer } from "vitest/node";
 
 const backend = process.env.VIPO_BACKEND ?? "http://127.0.0.1:8000";
 
@@ -185,6 +186,13 @@ const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 /** What Yjs writes to the console in colours brings a library of schemas along in browsers; this variant does not. */
 const PLAIN_LOG = { "lib0/logging": here("./node_modules/lib0/logging.node.js") };
 
+/** Files of tests share modules, so their order is one and the same: by default it goes by how long each took last. */
+class ByName extends BaseSequencer {
+  override sort(files: Parameters<BaseSequencer["sort"]>[0]) {
+    return Promise.resolve(files.toSorted((a, b) => (a.moduleId < b.moduleId ? -1 : 1)));
+  }
+}
+
 export default defineConfig({
   plugins: [react(), VitePWA(worker), compressed(), plugin],
   resolve: { alias: { "@": here("./src"), ...PLAIN_LOG } },
@@ -193,6 +201,7 @@ export default defineConfig({
   test: {
     pool: "threads",
     isolate: false,
+    sequence: { sequencer: ByName },
     setupFiles: "./vitest.setup.ts",
     testTimeout: 60_000,
     hookTimeout: 60_000,

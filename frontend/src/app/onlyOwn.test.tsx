@@ -1,10 +1,10 @@
 // @vitest-environment jsdom
 import { type QueryClient } from "@tanstack/react-query";
 import { act, fireEvent, screen } from "@testing-library/react";
-import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient, useMe } from "@/api/queries";
 import type { Device } from "@/api/types";
-import { forgetLive, useSiteLive } from "@/live/site";
+import { useSiteLive } from "@/live/site";
 import { EMPTY, useLiveStore } from "@/live/store";
 import { useShownKey } from "@/pages/devices/keys/shownKey";
 import { useMembers } from "@/pages/settings/people";
@@ -59,9 +59,6 @@ beforeEach(async () => {
   await openPage();
   useLiveStore.setState({ deviceById: { mixer: { id: "mixer" } as Device } });
   useShownKey.getState().show(KEY);
-});
-afterEach(() => {
-  forgetLive(false);
 });
 
 async function openPage() {

@@ -2,7 +2,6 @@
 import { act, screen } from "@testing-library/react";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient } from "@/api/queries";
-import { forgetLive } from "@/live/site";
 import { showAt, testsPages } from "@/testing/page";
 import { PageShell } from "./PageShell";
 import { SETTINGS } from "./settings";
@@ -26,7 +25,6 @@ beforeEach(() => {
 });
 afterEach(() => {
   vi.useRealTimers();
-  forgetLive(false);
 });
 
 const siteOf = (slug: string) => ({ slug, name: "Hall", role: "admin", stop: { active: false } });

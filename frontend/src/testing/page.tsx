@@ -7,8 +7,9 @@ import { createMemoryRouter, MemoryRouter, RouterProvider, type RouteObject } fr
 import { afterEach, beforeAll, vi } from "vitest";
 import { makeQueryClient } from "@/api/queries";
 import { loadScreenTexts, startI18n } from "@/i18n";
+import { forgetLive } from "@/live/site";
 
-/** Tests of this file read all texts of the screens, and leave no page, nothing told and no stubbed global behind. */
+/** Tests of this file read all texts of the screens, and leave no page, line to a site, stubbed global nor anything told. */
 export function testsPages(): void {
   beforeAll(async () => {
     await startI18n();
@@ -16,6 +17,7 @@ export function testsPages(): void {
   });
   afterEach(() => {
     cleanup();
+    forgetLive(false);
     notifications.clean();
     vi.unstubAllGlobals();
   });

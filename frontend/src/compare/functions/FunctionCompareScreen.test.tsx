@@ -9,7 +9,6 @@ const drawn = vi.fn((_props: object) => null);
 vi.mock("../ComparedParts", async (read) => ({ ...(await read<object>()), MapOf: (props: object) => drawn(props) }));
 vi.mock("../ReviewBar", () => ({ ReviewBar: () => null }));
 vi.mock("@/shell/TopBar", () => ({ TopBar: () => null, Crumb: () => null }));
-vi.mock("@/live/site", () => ({ useSiteLive: () => {} }));
 
 const SIDE = { problem: "", errors: 0, document: null, compiled: null };
 const SAME = { old: SIDE, new: SIDE, difference: { constructs: [], tidied: [], same: 2 } };
@@ -28,6 +27,7 @@ testsPages();
 Object.defineProperty(document, "fonts", { value: { ready: Promise.resolve() } });
 
 async function said(address: string): Promise<string | null> {
+  vi.stubGlobal("WebSocket", class { close() {} }); // prettier-ignore
   vi.stubGlobal("fetch", (url: string | Request) => {
     const path = typeof url === "string" ? url : url.url;
     return Promise.resolve(Response.json(ANSWERS.find(([each]) => each.test(path))?.[1] ?? []));

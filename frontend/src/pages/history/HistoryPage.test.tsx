@@ -1,8 +1,7 @@
 // @vitest-environment jsdom
 import { screen } from "@testing-library/react";
-import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient } from "@/api/queries";
-import { forgetLive } from "@/live/site";
 import { showAt, testsPages } from "@/testing/page";
 import { HistoryPage } from "./HistoryPage";
 
@@ -17,7 +16,6 @@ beforeEach(() => {
   vi.stubGlobal("WebSocket", still);
   vi.stubGlobal("IntersectionObserver", still);
 });
-afterEach(() => forgetLive(false));
 
 const version = (number: number) => ({
   number,

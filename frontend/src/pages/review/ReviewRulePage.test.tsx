@@ -1,7 +1,6 @@
 // @vitest-environment jsdom
 import { act, fireEvent, screen } from "@testing-library/react";
-import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import { forgetLive } from "@/live/site";
+import { beforeEach, expect, test, vi } from "vitest";
 import { showAt, testsPages } from "@/testing/page";
 import { ReviewRulePage } from "./ReviewRulePage";
 
@@ -35,9 +34,6 @@ beforeEach(() => {
   vi.stubGlobal("WebSocket", Line);
   vi.stubGlobal("fetch", (path: string, init: RequestInit) => Promise.resolve(Response.json(answer(path, init))));
   [Line.all, rule] = [[], { approvals: 0, least_role: "operator" }];
-});
-afterEach(() => {
-  forgetLive(false);
 });
 
 async function openForm(slug: string) {

@@ -1,8 +1,7 @@
 // @vitest-environment jsdom
 import { screen } from "@testing-library/react";
-import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient } from "@/api/queries";
-import { forgetLive } from "@/live/site";
 import { showAt, testsPages } from "@/testing/page";
 import { FINISHED, run, serveRuns } from "@/testing/runs";
 import { RunsPage } from "./RunsPage";
@@ -16,7 +15,6 @@ beforeEach(() => {
     },
   );
 });
-afterEach(() => forgetLive(false));
 
 test("the page of runs counts those that are under way and older than those in its list, too", async () => {
   serveRuns([...FINISHED, run(3, { status: "running" }), run(2, { status: "paused" }), run(1)]);

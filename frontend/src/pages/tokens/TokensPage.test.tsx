@@ -1,16 +1,14 @@
 // @vitest-environment jsdom
 import { fireEvent, screen } from "@testing-library/react";
 import { Link } from "react-router-dom";
-import { afterEach, expect, test, vi } from "vitest";
+import { expect, test, vi } from "vitest";
 import type { Token } from "@/api/types";
 import { keys, makeQueryClient } from "@/api/queries";
-import { forgetLive } from "@/live/site";
 import { showAt, showWithCorner, testsPages } from "@/testing/page";
 import { slowServer } from "@/testing/slowServer";
 import { AskRevoke, TokensPage } from "./TokensPage";
 
 testsPages();
-afterEach(() => forgetLive(false));
 
 test("who has closed the question before the end of a token is refused is told", async () => {
   const { nth } = slowServer();
