@@ -20,7 +20,9 @@ pytest_plugins = ["tests.kit.scheduling", "tests.kit.databases"]
 
 @pytest.fixture(autouse=True)
 def _nothing_remembered():
-    """Let no test carry on with a site that an owner remembers from another test's database."""
+    """Let no test carry on with what a process keeps of another test's database: owners' sites, readings to write."""
     yield
     if drive := sys.modules.get("execution.engine.drive"):
         drive.forget_all()
+    if samples := sys.modules.get("registry.devices.samples"):
+        samples._buffer = samples.SampleBuffer()

@@ -76,7 +76,7 @@ def _kind_of(problem: Problem, limits: Mapping[str, bool]) -> str:
 
 
 def _limits_of_waits(tree: Tree) -> dict[str, bool]:
-    blocks = (tree.body, *(each.body for each in (*tree.functions, *tree.events)))
+    blocks = (tree.body, *(each.body for each in tree.functions), *(each.body for each in tree.events))
     waits = (node for block in blocks for node in n.walk(block) if isinstance(node, n.WaitUntil))
     return {wait.step: wait.timeout_s is not None for wait in waits}
 
