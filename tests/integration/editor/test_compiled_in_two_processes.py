@@ -143,7 +143,8 @@ async def test_a_new_description_costs_one_check_and_both_show_what_it_says(pair
         for methods, more in (((), 1), (("mix",), 0)):
             began, seen = await asyncio.gather(say(pair[0], methods), find(len(known) + more, ada, eve))
             await asyncio.sleep(LEFT_TO_OTHERS_S + 1)
-            assert (len(ada.frames), len(eve.frames)) == (1, 1) or seen - began > LEFT_TO_OTHERS_S
+            came = len(ada.frames), len(eve.frames)
+            assert came == (1, 1) or seen - began > LEFT_TO_OTHERS_S, f"{ada.ends}, {eve.ends}, {ada.form}"
             assert ada.form == eve.form
             await quiet(ada, eve)
 

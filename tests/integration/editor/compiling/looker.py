@@ -25,9 +25,10 @@ Json = dict[str, Any]
 
 
 class Looker:
-    """Somebody who looks at the compiled form, and who comes again when sent away; `frames` are the bytes it was told.
+    """Somebody who looks at the compiled form, and who comes again when sent away.
 
-    What was added is sent again with each connection, as Yjs clients do.
+    `frames` are the bytes of each form that came, `ends` tell why connections ended. What was added is sent again with
+    each connection, as Yjs clients do.
     """
 
     def __init__(self, web: Web, program: str, person: str) -> None:
@@ -39,12 +40,13 @@ class Looker:
         self.added: list[bytes] = []
         self.form: Json = {}
         self.frames: list[int] = []
+        self.ends: list[str] = []
         self.news = asyncio.Condition()
 
     async def stay(self) -> None:
         """Read, and connect again whenever the connection ends."""
         while True:
-            with suppress(ConnectionClosed):
+            try:
                 async with self.connecting as socket:
                     await socket.send(encode_integer(yjs_protocol.COMPILED) + encode_integer(0))
                     await socket.send(yjs_protocol.encode_step_1(self.document.state()))
@@ -53,6 +55,8 @@ class Looker:
                     self.socket = socket
                     while True:
                         await self._take(await socket.recv())
+            except ConnectionClosed as error:
+                self.ends.append(str(error))
             self.socket = None
             await asyncio.sleep(AGAIN_AFTER_S)
 
