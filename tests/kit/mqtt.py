@@ -49,7 +49,7 @@ class Ear:
 
     def __enter__(self) -> Ear:
         self.client.start()
-        assert self.client.wait_connected(20), f"the ear did not connect: {self.client.refusal}"
+        assert self.client.wait_subscribed(20), f"the ear did not connect: {self.client.refusal}"
         return self
 
     def __exit__(self, *_: object) -> None:

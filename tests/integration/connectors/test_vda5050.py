@@ -24,6 +24,8 @@ ACCOUNTS = {"server": "secret of the server", "join:hall": "the key of the door"
     f"Acme-{serial}": f"the word of Acme-{serial}" for serial in SERIALS
 }
 STOP = "vipo/v1/site/hall/stop"
+CRAWL = 0.05
+"""Of a vehicle's time in ours: what is to come while it drives three metres has two minutes for it."""
 Join = Callable[..., tuple[VirtualVehicle, ServerSide]]
 
 
@@ -101,12 +103,13 @@ def test_what_cannot_be_read_is_ignored_and_harms_nobody(connector: Connector, j
 
 
 def test_pieces_of_way_are_driven_in_one_order_and_each_has_its_end(join: Join) -> None:
-    _, server = join("2")
+    vehicle, server = join("2", timeLapse=CRAWL)
     server.tell("move", "a", path=[[2.5, 2.0], [4.0, 2.0]], ahead=[[4.0, 3.0], [9.0, 3.0]], **{"from": [1.0, 2.0]})
     server.wait_ack("a", "ACCEPTED")
     server.tell("move", "b", path=[[4.0, 3.5]], theta=1.57, speed=0.4, **{"from": [4.0, 2.0]})
     assert server.wait_ack("b", "ACCEPTED", "RUNNING")["st"] == "ACCEPTED"
     assert server.acks("a") == ["ACCEPTED", "RUNNING"], "the second piece was to come while the first is driven"
+    vehicle.tell("hurry", timeLapse=4)
     assert server.wait_ack("a")["st"] == "DONE"
     assert server.wait_ack("b")["st"] == "DONE"
     assert server.acks("b") == ["ACCEPTED", "RUNNING", "DONE"]
@@ -212,7 +215,7 @@ def test_a_vehicle_that_needs_a_person_is_not_sent_on(join: Join) -> None:
 
 
 def test_a_connector_that_is_killed_goes_on_where_it_was(connector: Connector, join: Join) -> None:
-    _, server = join("7")
+    vehicle, server = join("7", timeLapse=CRAWL)
     server.tell("move", "a", path=[[5.0, 2.0]])
     server.wait_state(driving=True)
     server.tell("pause", "p", command="a")
@@ -229,6 +232,7 @@ def test_a_connector_that_is_killed_goes_on_where_it_was(connector: Connector, j
     server.tell("move", "a", path=[[5.0, 2.0]])
     assert server.wait_ack("a", "RUNNING")["st"] == "RUNNING", "what is known is answered again"
     server.tell("resume", "r", command="a")
+    vehicle.tell("hurry", timeLapse=4)
     assert server.wait_ack("a")["st"] == "DONE"
     assert server.wait_ack("b")["st"] == "DONE"
     server.wait_state(loc=[5.0, 4.0, 0.0, 0.5], done=True)
@@ -266,7 +270,7 @@ def test_a_vehicle_of_2_1_drives_carries_pauses_is_cancelled_and_refuses_with_a_
     server.tell("pick", "take", object="EPAL", value=1)
     assert server.wait_ack("take")["st"] == "DONE"
     server.wait_state(load="EPAL:1")
-    server.tell("move", "far", path=[[99.0, 4.0]])
+    server.tell("move", "far", path=[[99.0, 4.0]], speed=0.5)
     server.wait_state(driving=True)
     server.tell("pause", "p", command="far")
     assert server.wait_ack("p")["st"] == "DONE"

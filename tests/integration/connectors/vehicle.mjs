@@ -10,7 +10,6 @@ const client = {
   transport: { brokerUrl: `mqtt://127.0.0.1:${config.port}`, heartbeat: 5 },
   vdaVersion: "2.0.0",
 };
-const controlling = { agvAdapterType: VirtualAgvAdapter, publishStateInterval: 2000, publishVisualizationInterval: 100 };
 const adapting = {
   initialPosition: { mapId: "hall", x: config.x, y: config.y, theta: 0, lastNodeId: "0" },
   vehicleSpeed: config.speed,
@@ -19,6 +18,15 @@ const adapting = {
   initialBatteryCharge: 87.6,
 };
 
+let adapter;
+class Adapter extends VirtualAgvAdapter {
+  constructor(...asked) {
+    super(...asked);
+    adapter = this;
+  }
+}
+
+const controlling = { agvAdapterType: Adapter, publishStateInterval: 2000, publishVisualizationInterval: 100 };
 const vehicle = new AgvController(name, client, controlling, adapting);
 await vehicle.start();
 vehicle.updateFactsheet(config.factsheet);
@@ -29,5 +37,6 @@ for await (const line of createInterface({ input: process.stdin })) {
   const told = JSON.parse(line);
   if (told.do === "complain") vehicle.updateErrors(told.error, "add", true);
   if (told.do === "recover") vehicle.updateErrors(told.error, "remove", true);
+  if (told.do === "hurry") adapter.options.timeLapse = told.timeLapse;
   if (told.do === "mode") vehicle.updateOperatingMode(told.mode);
 }

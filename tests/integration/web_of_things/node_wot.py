@@ -97,7 +97,7 @@ class Observer:
         def ended() -> str:
             return "" if self.process.poll() is None else f"node ended with {self.process.returncode}"
 
-        return wait_for(name, lambda: self.said(name), 60, every_s=0.05, story=self.out.read_text, hopeless=ended)[0]
+        return wait_for(name, lambda: self.said(name), every_s=0.05, story=self.out.read_text, hopeless=ended)[0]
 
     def try_what_is_not_allowed(self) -> None:
         """Let the library under it come in by the same account, in its place, and try."""
@@ -152,6 +152,6 @@ def check_observer(admin: httpx.Client, address: str, folder: Path, authority: s
         assert seen.said("echo") == [], seen.out.read_text()
         since = time.time()
         assert admin.delete(f"/api/sites/{SITE}/tokens/{made['id']}").status_code == 204
-        wait_for("the end", lambda: [at for at in seen.said("closed") if at > since], 10, story=seen.out.read_text)
-        assert min(at for at in seen.said("closed") if at > since) - since < 3
-        wait_for("the refusal", lambda: seen.said("refused"), 10, story=seen.out.read_text)
+        # how soon is held by tests/integration/wire/dashboards/test_ends.py
+        wait_for("the end", lambda: [at for at in seen.said("closed") if at > since], story=seen.out.read_text)
+        wait_for("the refusal", lambda: seen.said("refused"), story=seen.out.read_text)

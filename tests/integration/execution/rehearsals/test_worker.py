@@ -23,7 +23,7 @@ from simulation.services import make_world
 from simulation.world import DELIVERY_S
 from tests.integration.execution.rehearsals.conftest import ENDLESS, SHORT, queue, row, wait_until
 from tests.kit.programs import SITE, describe_anew
-from tests.kit.waiting import wait_for
+from tests.kit.waiting import PATIENCE_S, wait_for
 from vipo_device.protocol.description import PropertySpec
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -141,7 +141,7 @@ def test_a_cancelled_rehearsal_ends_wherever_it_is_cancelled_as_soon_as_its_work
     assert (view.status, view.cause) == ("cancelled", {"code": "rehearsal_cancelled", "args": {"by": "Bob"}})
     wait_for("the end of its child, which would never end by itself", lambda: not is_alive(children[0].pid))
     assert worker.LOOK_S <= 0.1
-    thread.join(10)
+    thread.join(PATIENCE_S)
     assert (row(rehearsal).status, row(rehearsal).result) == ("cancelled", None)
 
 
@@ -167,19 +167,19 @@ def test_cancelling_twice_is_once_and_what_is_over_stays_over(factory):
 
 
 def test_a_frozen_child_is_ended_and_the_rehearsal_says_so(factory, working, children, monkeypatch):
-    monkeypatch.setattr(worker, "SILENT_S", 3.0)
     rehearsal = queue(ENDLESS)
     working()
     wait_for("its child", lambda: children and row(rehearsal).course)
     os.kill(children[0].pid, signal.SIGSTOP)
+    monkeypatch.setattr(worker, "SILENT_S", 3.0)  # not before: a child that reads its modules is silent, too
     failed = wait_until(rehearsal, "failed")
     assert cause_of(failed.reason) == {"code": "rehearsal_frozen", "args": {"seconds": "3"}}
     wait_for("the end of its child", lambda: not is_alive(children[0].pid))
 
 
 def test_a_child_that_does_not_end_itself_is_ended(factory, working, children, monkeypatch, settings):
-    settings.VIPO_REHEARSAL_LIMIT_S = 1
-    monkeypatch.setattr(worker, "GRACE_S", -0.9)  # before the child itself can
+    settings.VIPO_REHEARSAL_LIMIT_S = 30
+    monkeypatch.setattr(worker, "GRACE_S", -29.9)  # before the child itself can
     rehearsal = queue(ENDLESS)
     working()
     failed = wait_until(rehearsal, "failed")
@@ -235,7 +235,7 @@ def test_a_worker_that_is_told_to_end_gives_back_what_it_has(factory, working, c
     thread = working()
     wait_for("its child", lambda: children and row(rehearsal).course)
     worker.stopping.set()
-    thread.join(5)
+    thread.join(PATIENCE_S)
     assert not thread.is_alive()
     assert not is_alive(children[0].pid)
     given = row(rehearsal)
@@ -272,6 +272,6 @@ def test_a_rehearsal_that_is_deleted_under_way_ends_its_child(factory, working, 
     thread = working()
     wait_for("its child", lambda: children and row(rehearsal).course)
     Rehearsal.objects.all().delete()
-    thread.join(5)
+    thread.join(PATIENCE_S)
     assert not is_alive(children[0].pid)
     assert services.list_open_rehearsals(site=SITE) == []

@@ -26,12 +26,11 @@ from tests.kit.mqtt import Ear, Heard
 from tests.kit.processes.forked import ForkedPython
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Mosquitto, Redis, run_mosquitto
-from tests.kit.waiting import wait_for
+from tests.kit.waiting import PATIENCE_S, wait_for
 from vipo_site.settings import postgres
 
 pytestmark = pytest.mark.servers
 WORD = "the server's word"
-POINT = "after_claim"
 CLAIM_IS_OVER_S = 2.5
 
 
@@ -53,8 +52,8 @@ class Gateway:
             command = [sys.executable, "manage.py", "gateway"]
             self.process = ForkedPython(command, cwd=ROOT, env=environment, stdout=out, stderr=out)
 
-    def freeze_after_claim(self) -> None:
-        (self.freezing / POINT).write_text("freeze")
+    def freeze_at(self, point: str) -> None:
+        (self.freezing / point).write_text("freeze")
 
     def is_frozen(self) -> bool:
         stat = Path(f"/proc/{self.process.pid}/stat").read_text()
@@ -95,8 +94,12 @@ class Hall:
         )  # fmt: skip
         return str(row.id)
 
-    def told(self) -> list[str]:
-        return [heard.json["id"] for heard in self.ear.all(f"/{self.device}/down/cure")]
+    def heard(self) -> list[Heard]:
+        return self.ear.all(f"/{self.device}/down/cure")
+
+    def told(self) -> set[str]:
+        """Which commands; one that is not answered is told again, on a slow machine before anybody has looked."""
+        return {heard.json["id"] for heard in self.heard()}
 
     def wait_told(self, command: str) -> Heard:
         topic = f"vipo/v1/dev/{self.device}/down/cure"
@@ -106,8 +109,8 @@ class Hall:
         found: dict[str, Any] = self.ear.wait(lambda h: h.topic == self.stop_topic and wanted(h.json)).json
         return found
 
-    def freeze_with_a_claim(self) -> str:
-        self.gateway.freeze_after_claim()
+    def freeze_with_a_claim(self, point: str = "after_claim") -> str:
+        self.gateway.freeze_at(point)
         command = self.add_command()
         wait_for("the gateway that has claimed", self.gateway.is_frozen)
         return command
@@ -153,7 +156,7 @@ def test_a_frozen_gateway_sends_nothing_late_when_it_is_thawed(hall: Hall) -> No
     hall.gateway.thaw()
     second = hall.add_command()
     hall.wait_told(second)
-    assert hall.told() == [second]
+    assert hall.told() == {second}
     assert "claimed too long ago to be sent; 0 of them are free again" in hall.gateway.log.read_text()
 
 
@@ -162,14 +165,16 @@ def test_what_still_holds_is_sent_once_the_gateway_is_thawed(hall: Hall) -> None
     hall.outlast_the_claim()
     hall.gateway.thaw()
     hall.wait_told(command)
-    assert (hall.told(), Command.objects.get().tries) == ([command], 1)
+    assert hall.told() == {command}
+    wait_for("a try for each time that it is told", lambda: Command.objects.get().tries == len(hall.heard()))
     assert "claimed too long ago to be sent; 1 of them are free again" in hall.gateway.log.read_text()
 
 
 def test_a_command_that_was_claimed_before_a_stop_bears_an_older_fence(hall: Hall) -> None:
+    """The gateway is frozen after it has looked whether the claim still holds: here that may take any time."""
     services.press_stop(site=hall.slug, by="Ada")
     before = services.reset_stop(site=hall.slug, by="Ada").fence
-    command = hall.freeze_with_a_claim()
+    command = hall.freeze_with_a_claim("before_publish")
     pressed = services.press_stop(site=hall.slug, by="Ada")
     hall.gateway.thaw()
     assert hall.wait_told(command).json["fence"] == before
@@ -177,7 +182,22 @@ def test_a_command_that_was_claimed_before_a_stop_bears_an_older_fence(hall: Hal
     assert pressed.fence > before
 
 
-def test_the_web_process_tells_the_devices_of_a_stop_while_the_only_gateway_is_frozen(hall: Hall) -> None:
+def test_a_command_keeps_the_fence_under_which_it_was_claimed_or_is_given_back(hall: Hall) -> None:
+    """It is given back where the machine was so busy that the claim was over by the time that the stop was pressed."""
+    services.press_stop(site=hall.slug, by="Ada")
+    before = services.reset_stop(site=hall.slug, by="Ada").fence
+    command = hall.freeze_with_a_claim()
+    pressed = services.press_stop(site=hall.slug, by="Ada")
+    hall.gateway.thaw()
+    wait_for("the command, or its return", lambda: hall.told() or not Command.objects.get(id=command).tries)
+    assert hall.wait_stop(lambda said: said["fence"] == pressed.fence)["active"] is True
+    assert {heard.json["fence"] for heard in hall.heard()} <= {before}
+
+
+def test_the_web_process_tells_the_devices_of_a_stop_while_the_only_gateway_is_frozen(
+    hall: Hall, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stop_publisher, "FRESH_S", PATIENCE_S)  # however long it takes here to press the stop
     hall.gateway.freeze()
     where = {"host": "127.0.0.1", "port": hall.broker.port, "username": "server", "password": WORD, "tls": False}
     services.open_publisher(mqtt=where)
@@ -201,9 +221,9 @@ def test_a_stop_that_somebody_says_late_is_put_right_by_the_gateway(hall: Hall) 
     pressed = services.press_stop(site=hall.slug, by="Ada")
     hall.wait_stop(lambda said: said["fence"] == pressed.fence)
     hall.ear.say(hall.stop_topic, {"active": False, "at": None, "fence": pressed.fence - 1}, retain=True)
-    hall.wait_stop(lambda said: not said["active"])
-    hall.ear.forget()
-    assert hall.wait_stop(lambda said: said["active"])["fence"] == pressed.fence
+    wrong = hall.ear.wait(lambda h: h.topic == hall.stop_topic and h.json["fence"] == pressed.fence - 1)
+    right = hall.ear.wait(lambda h: h.topic == hall.stop_topic and h.json["active"] and h.at > wrong.at)
+    assert right.json["fence"] == pressed.fence
 
 
 def test_a_database_that_was_put_back_does_not_let_devices_go_that_were_stopped(hall: Hall) -> None:

@@ -9,7 +9,7 @@ from collections.abc import AsyncIterator
 from contextlib import aclosing
 from dataclasses import replace
 from datetime import UTC, datetime
-from threading import Thread
+from threading import Event, Thread
 from typing import Any
 
 import pytest
@@ -27,6 +27,7 @@ from registry.thing_directory import event_stream, property_values
 from registry.thing_directory.property_values import Observer, stream_values
 from tests.kit.sign_in import ROLES, find_person, signed_in
 from tests.kit.sites import MIXER, NOW, ROBOT, describe, say
+from tests.kit.waiting import PATIENCE_S
 from vipo_device.descriptions.td_schema import check_thing
 from vipo_device.protocol.description import PropertySpec
 
@@ -129,20 +130,28 @@ def test_a_thing_that_waits_for_approval_or_is_out_has_no_values(mixer: str) -> 
 
 
 def test_who_polls_hears_the_next_value_or_after_a_while_the_same(mixer: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    client = signed_in("viewer")
+    client, look, looked = signed_in("viewer"), property_values._look, Event()
+
+    def look_and_say_so(*asked: Any) -> Any:
+        found = look(*asked)
+        looked.set()
+        return found
 
     def change() -> None:
+        assert looked.wait(PATIENCE_S)
         time.sleep(0.3)
         say(seq=2, props={"lid": "open"})
         say(seq=3, props={"heat": 41})
         connections.close_all()
 
+    monkeypatch.setattr(property_values, "_look", look_and_say_so)
+    monkeypatch.setattr(property_values, "MOST_POLL_S", PATIENCE_S)
     thread = Thread(target=change)
     began = time.monotonic()
     thread.start()
     assert client.get(f"{HERE}/heat/next").json() == 41
+    assert time.monotonic() - began < PATIENCE_S, "it heard of the change, and did not just look at last"
     thread.join()
-    assert 0.2 < time.monotonic() - began < property_values.MOST_POLL_S
     monkeypatch.setattr(property_values, "MOST_POLL_S", 0.2)
     assert client.get(f"{HERE}/heat/next").json() == 41
     assert client.get(f"{HERE}/hot/next").json()["code"] == "no_value"
@@ -160,6 +169,14 @@ async def heard(events: AsyncIterator[bytes]) -> Any:
     return json.loads(text.removeprefix("data: ")) if text.startswith("data: ") else text
 
 
+@pytest.fixture
+def no_heartbeat(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let streams say nothing between two values, and look only when they hear of something, however long it takes."""
+    monkeypatch.setattr(property_values, "HEARTBEAT_S", 600.0)
+    monkeypatch.setattr(event_stream, "HEARTBEAT_S", 600.0)
+
+
+@pytest.mark.usefixtures("no_heartbeat")
 async def test_a_stream_tells_what_is_and_each_change_that_fits_until_the_token_ends(mixer: str) -> None:
     made, text = await sync_to_async(token)("read")
     async with aclosing(await stream("heat", text)) as events:
@@ -171,16 +188,18 @@ async def test_a_stream_tells_what_is_and_each_change_that_fits_until_the_token_
         assert await heard(events) == 42
         await sync_to_async(services.revoke_token)(token_id=made)
         with pytest.raises(StopAsyncIteration):
-            await asyncio.wait_for(anext(events), 3)
+            await asyncio.wait_for(anext(events), 60)
 
 
-async def test_a_stream_ends_with_its_thing(mixer: str) -> None:
+@pytest.mark.usefixtures("no_heartbeat")
+async def test_a_stream_ends_with_its_thing(mixer: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(event_stream, "HEARTBEAT_S", 1.0)  # so often it looks by itself
     _, text = await sync_to_async(token)("read")
     async with aclosing(await stream("heat", text)) as events:
         assert [await heard(events), await heard(events)] == ["retry: 2000\n\n", 40]
         await sync_to_async(services.retire_device)(site="hall", device_id="mixer1", by=None, at=NOW)
         with pytest.raises(StopAsyncIteration):
-            await asyncio.wait_for(anext(events), 20)
+            await asyncio.wait_for(anext(events), 60)
 
 
 def test_streams_and_polls_of_one_person_are_bounded(mixer: str, monkeypatch: pytest.MonkeyPatch) -> None:

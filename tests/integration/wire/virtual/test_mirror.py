@@ -43,14 +43,14 @@ def mirror(bus: Bus, gateway: Gateway, settings: LazySettings) -> Iterator[Mirro
 
 
 def test_what_the_device_takes_is_kept_beside_what_its_copy_takes(mixer: Mixer, mirror: Mirror) -> None:
-    mixer.pace = 1.5
+    mixer.pace = 3
     command = tell(time=1)
     wait_for("the measurement", Measurement.objects.first)
     wait_for("the end", lambda: is_over(command))
     found = Measurement.objects.get()
     assert (found.command, found.device, found.method, found.step) == (command, MIXER, "mixPaint", "mix")
     assert found.predicted_s == pytest.approx(A_MINUTE_S, abs=0.05)
-    assert 1.4 < found.real_s / found.predicted_s < 10, "a busy machine adds to it; a wrong unit is a factor of 60"
+    assert 1.4 < found.real_s / found.predicted_s < 60, "a busy machine adds to it; a wrong unit is a factor of 60"
 
 
 def test_two_mirrors_keep_a_command_once(mixer: Mixer, mirror: Mirror, settings: LazySettings) -> None:
@@ -100,7 +100,7 @@ def test_the_mirrors_account_hears_and_says_nothing(bus: Bus, mixer: Mixer, mirr
     for topic in (*MIRROR_FILTERS, "vipo/v1/dev/+/up/map", "vipo/v1/join/+/+", "$CONTROL/#"):
         account.subscribe(topic, 1, lambda topic, *_: heard.append(topic))
     account.start()
-    wait_for("the account", lambda: account.connected)
+    assert account.wait_subscribed(20)
     mixer.heard = 0
     account.publish(f"vipo/v1/dev/{MIXER}/down/mixPaint", b'{"id": "forged", "v": {"time": 1}, "ttl_s": 60}')
     account.publish(f"vipo/v1/dev/{MIXER}/up/ack", b'{"id": "forged", "st": "DONE"}')
@@ -108,10 +108,10 @@ def test_the_mirrors_account_hears_and_says_nothing(bus: Bus, mixer: Mixer, mirr
     mixer.client.publish(f"vipo/v1/dev/{MIXER}/up/map", b"not for it")
     command = tell(time=1)
     wait_for("the end", lambda: is_over(command))
+    wait_for("what it hears", lambda: any(topic.endswith("/down/mixPaint") for topic in heard))
     account.stop()
     assert mixer.heard == 1
     assert {topic.rsplit("/", 1)[1] for topic in heard} <= {"mixPaint", "ack", "state", "stop", "credential"}
-    assert any(topic.endswith("/down/mixPaint") for topic in heard)
     assert not record_ack(device=MIXER, command_id="forged", status="DONE", why="", result={}, at=datetime.now(UTC))
     assert not bus.lets_in(MIRROR, SERVER_WORD)
     assert not bus.lets_in(MIRROR, own_key(MIRROR, "another word"))
