@@ -50,13 +50,13 @@ def lane_m(turn: Turn, task: FloorTask, robot: Robot) -> float:
     return 2 * ((device.radius_m if device else 0.0) or DEFAULT_RADIUS_M)
 
 
-def distance_to_zone(turn: Turn, task: FloorTask, robot: Robot) -> float:
-    """Return how many cells lie between a robot and the zone that it might cover; 0 where no way leads there."""
+def distance_to_zone(turn: Turn, task: FloorTask, robot: Robot) -> float | None:
+    """Return how many cells lie between a robot and the zone that it might cover; None where no way leads there."""
     zone = zone_of(turn, task)
     layout = turn.layout
     reach = layout.lattice.distances(layout.cell(turn.node(robot)), closed_links=layout.against)
     cells = cells_of(layout, zone) if zone else ()
-    return float(min((reach[cell] for cell in cells if cell in reach), default=0))
+    return min((float(reach[cell]) for cell in cells if cell in reach), default=None)
 
 
 def cover(turn: Turn, task: FloorTask, robot: Robot) -> None:

@@ -71,11 +71,13 @@ def _has_earlier(turn: Turn, task: FloorTask) -> bool:
 
 def bind_roles(turn: Turn) -> None:
     """Find robots for the roles that wait for one: for those that go first, over all of them at once, by the length
-    of the path there; then for the next.
+    of the path there; then for the next. Those of paused runs look for none.
     """
     waiting: list[Waiting] = []
     seen: set[str] = set()
     for task in turn.in_order():
+        if task.run in turn.paused:
+            continue
         key = f"{task.run}/{task.order.role}"
         if task.order.role and task.order.kind != "release" and key not in turn.roles and key not in seen:
             waiting.append((key, task))
@@ -146,7 +148,8 @@ def _cost(turn: Turn, task: FloorTask, robot: Robot) -> float:
         return UNABLE / 2
     try:
         if task.order.kind == "cover":
-            return distance_to_zone(turn, task, robot)
+            cells = distance_to_zone(turn, task, robot)
+            return UNABLE / 2 if cells is None else cells
         goal = turn.layout.spot_for(task.order.target, task.run).cell
     except NoSuchSpot:
         return 0.0
@@ -381,8 +384,9 @@ def limit_of(device: Description, name: str, arguments: Mapping[str, object]) ->
 
 
 def _await_device(turn: Turn, task: FloorTask, device: str) -> None:
-    """Wait for a device that is away, but not for ever."""
-    since = turn.now if task.absent_since is None else task.absent_since
+    """Wait for a device that is away, but not for ever; its time begins anew when anything else was waited for last."""
+    waited = task.wait is not None and (task.wait.code, task.wait.args.get("device")) == ("offline", device)
+    since = task.absent_since if waited and task.absent_since is not None else turn.now
     if turn.now - since >= ABSENCE_S:
         turn.finish(task, "offline", f"{turn.name(device)} is offline.")
         return

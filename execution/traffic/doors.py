@@ -121,13 +121,13 @@ def _comes(turn: Turn, robot: Robot, zone: FloorZone) -> bool:
 
 
 def _look(turn: Turn, door: Door, methods: DoorMethods) -> Door:
-    """Take in how a door stands, and since when it has been waited for."""
+    """Take in how a door stands, and since when it has been waited for; one that is away lets in nobody else."""
     told = methods.is_open(turn.readings.get(door.id, {}).get(methods.reading))
     if told is not None and not door.command and turn.now >= door.moved_at + SETTLE_S:
         door = replace(door, is_open=told)
     if door.robots:
         door = replace(door, needed_at=turn.now)
-    if not door.robots or door.is_open:
+    if not door.robots or (door.is_open and door.id not in turn.offline):
         return replace(door, shut_since=None)
     is_new = door.shut_since is None or turn.stopped
     return replace(door, shut_since=turn.now) if is_new else door

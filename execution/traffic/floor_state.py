@@ -62,7 +62,7 @@ class FloorTask:
     arrived: bool = False
     wait: Reason | None = None
     absent_since: float | None = None
-    """Since when a device that is needed has been away."""
+    """Since when the device that it waits for has been away; left as it was while it waits for none."""
     where: Mapping[str, object] = field(default_factory=dict)
     """What must hold of any robot when it is chosen, as plans keep it in JSON; empty: nothing."""
     said: str = ""
@@ -112,7 +112,7 @@ class Door:
     robots: tuple[str, ...] = ()
     """Who is in the passage or will be soon."""
     shut_since: float | None = None
-    """Since when robots have needed it without its being open."""
+    """Since when robots have needed it without its being open, or while it was away."""
     needed_at: float = 0.0
     moved_at: float = 0.0
     retry_at: float = 0.0

@@ -6,7 +6,9 @@ from math import cos, hypot, radians, sin
 
 import pytest
 
+from execution.machine.floor_task import Target, TaskOrder
 from execution.machine.places import lies_in
+from execution.traffic import messages as m
 from execution.traffic.directions import edges_against
 from execution.traffic.outlines import touches
 from execution.traffic.path_planner import ELSEWHERE_COST, drawn, length_m
@@ -136,6 +138,18 @@ def test_the_robot_that_can_come_is_chosen_and_not_the_nearer_one_that_cannot():
     for zones in ((), (one_way(0),)):
         floor = floor_with(*zones, poses=poses)
         go(floor, "r", (5.5, -8.0), "")
+        chosen += [task.robot for task in floor.state.tasks]
+    assert chosen == ["robot01", "robot02"]
+
+
+def test_who_can_come_to_a_zone_covers_it_and_not_the_nearer_robot_that_cannot():
+    poses = {"robot01": (8.5, -8.0), "robot02": (1.5, -8.0), "robot03": (18.0, -8.0)}
+    covered = m.FloorZone("p/hall", "Hall", "slow", block_round((5.2, -8.0), 0.3), 0.5)
+    order = TaskOrder("cover", Target(), "robot", arguments={"zone": "hall", "lane": 0.0})
+    chosen = []
+    for zones in ((), (one_way(0),)):
+        floor = floor_with(*zones, poses=poses)
+        floor.tell(m.TaskAsked("r", 1, order, "", (), "r", (covered,)))
         chosen += [task.robot for task in floor.state.tasks]
     assert chosen == ["robot01", "robot02"]
 

@@ -4,6 +4,7 @@ import pytest
 
 from execution.traffic import floor as pure
 from execution.traffic import messages as m
+from execution.traffic.doors import WAIT_LIMIT_S
 from execution.traffic.layout import make_layout
 from tests.kit import demo_floor
 from tests.unit.execution.traffic.floor_with_door import (
@@ -108,6 +109,36 @@ def test_an_offline_door_is_waited_for_and_then_the_task_fails():
     go(floor, EAST, task=2)
     floor.run_until(over(floor, task=2))
     assert floor.over["r", 2] == ("", "")
+
+
+def test_an_open_door_that_goes_offline_before_a_robot_is_waited_for_a_minute_and_then_the_task_fails():
+    floor = WithDoor({"robot01": WEST})
+    floor.is_open = True
+    go(floor, EAST)
+    floor.tell(m.DeviceOffline("door02"))
+    floor.run_until(lambda: "door_away" in reasons(floor))
+    begun = floor.now
+    floor.run_until(over(floor), 2 * WAIT_LIMIT_S)
+    assert floor.over["r", 1] == ("blocked", "Door 2 did not open in time.")
+    assert floor.now <= begun + WAIT_LIMIT_S
+    floor.tell(m.DeviceOnline("door02"))
+    go(floor, EAST, task=2)
+    floor.run_until(over(floor, task=2))
+    assert floor.over["r", 2] == ("", "")
+
+
+def test_an_open_door_that_is_back_within_a_minute_lets_the_robot_through():
+    floor = WithDoor({"robot01": WEST})
+    floor.is_open = True
+    go(floor, EAST)
+    floor.tell(m.DeviceOffline("door02"))
+    floor.run_until(lambda: "door_away" in reasons(floor))
+    for _ in range(400):
+        floor.pass_time()
+    assert floor.over == {}
+    floor.tell(m.DeviceOnline("door02"))
+    floor.run_until(over(floor))
+    assert floor.over["r", 1] == ("", "")
 
 
 def in_the_doorway(floor, robot="robot01"):

@@ -146,6 +146,36 @@ def test_who_waits_alone_or_has_a_robot_does_not_age():
     assert [t.behind_since for t in world.state.tasks if t.run in {"low", "high"}] == [None, None]
 
 
+def test_a_paused_run_takes_no_robot_from_those_that_wait_and_finds_one_when_it_is_resumed():
+    world = busy_floor()
+    world.tell(ask("paused"), m.RunPaused("paused"), ask("other"))
+    assert free(world) == ["other"]
+    keep(world)
+    assert [t.wait.code for t in world.state.tasks if t.run == "paused"] == ["paused"]
+    world.tell(m.RunOver("other"))
+    assert "paused/robot" not in world.state.roles
+    world.tell(m.RunResumed("paused"))
+    assert world.state.roles["paused/robot"] == "robot01"
+
+
+def test_a_paused_run_does_not_fail_for_a_robot_that_is_not_there_and_takes_it_when_it_is_resumed():
+    world = PretendFloor(LAYOUT, deaf=["robot01"])
+    lost = replace(world.state.robots["robot01"], path=(), held=(), online=False)
+    world.state = replace(world.state, robots={**world.state.robots, "robot01": lost})
+    world.tell(m.DeviceOffline("robot01"), ask("a", device="robot01"), m.RunPaused("a"))
+    for _ in range(80):
+        world.pass_time(0.5)
+    assert (world.over, world.state.roles, world.waits[-1].reason.code) == ({}, {}, "paused")
+    world.deaf.clear()
+    world.tell(m.DeviceOnline("robot01"))
+    world.pass_time()
+    assert world.state.roles == {}
+    world.tell(m.RunResumed("a"))
+    assert world.state.roles == {"a/robot": "robot01"}
+    world.run_until(lambda: world.over)
+    assert world.over == {("a", 1): ("", "")}
+
+
 def test_a_task_asked_twice_counts_once():
     world = busy_floor()
     world.tell(ask("a", HIGH), replace(ask("a", HIGH), priority=LOW))
