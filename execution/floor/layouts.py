@@ -50,7 +50,7 @@ def look_at_site(slug: str) -> tuple[Layout, tuple[registry.PositionView, ...]]:
     placed = registry.list_placed(site=slug, lifecycle="approved")
     positions = tuple(position for position, _ in placed)
     at_home = tuple(replace(d, pose=Pose(0, 0)) if d.kind == "robot" else d for _, d in placed)
-    made_of = (grid, at_home, places, zones, _bodies(placed))
+    made_of = (grid, at_home, places, zones, find_bodies(placed))
     layout = _layout_of(known, made_of)
     _layouts[slug] = _Known(_stamp(grid, positions, places, zones), made_of, layout)
     return layout, positions
@@ -77,7 +77,9 @@ def _layout_of(known: _Known | None, made_of: _MadeOf) -> Layout:
     return known.layout if known.made_of == made_of else replace(known.layout, zones=zones, bodies=bodies)
 
 
-def _bodies(placed: Iterable[tuple[registry.PositionView, Description]]) -> tuple[FloorZone, ...]:
+def find_bodies(
+    placed: Iterable[tuple[registry.PositionView | registry.DeviceView, Description]],
+) -> tuple[FloorZone, ...]:
     """Return where real robots stand that are simulated for a while: all others keep out."""
     return tuple(
         FloorZone(f"body/{robot.id}", described.name, "keep_out", _outline(at, described.radius_m))
@@ -86,7 +88,7 @@ def _bodies(placed: Iterable[tuple[registry.PositionView, Description]]) -> tupl
     )
 
 
-def _standing(robot: registry.PositionView) -> tuple[float, float] | None:
+def _standing(robot: registry.PositionView | registry.DeviceView) -> tuple[float, float] | None:
     """Return where the real one of a simulated robot stands, metres; small movements of it do not count."""
     pose = robot.stands_at
     return None if pose is None else (round(pose.x / STILL_M) * STILL_M, round(pose.y / STILL_M) * STILL_M)

@@ -26,6 +26,7 @@ from editor.language.site.json_form import zone_from_json, zone_to_json
 from editor.language.site.surroundings import PlaceFacts, ZoneFacts
 from execution.rehearsals.progress import Progress
 from execution.rehearsals.rehearsal import Conditions, rehearse
+from execution.traffic.messages import zone_from_json as floor_zone_from_json
 from registry.floorplan.plan import Grid
 from simulation.fault_form import faults_to_json, read_faults
 from simulation.world import Scene
@@ -102,10 +103,11 @@ class Teller:
 
 
 def run_job(job: Mapping[str, Any]) -> dict[str, Any]:
-    """Carry a job out, writing how far it is; returns the result."""
+    """Carry a job out, writing how far it is; returns the result. Jobs from before there were `bodies` have none."""
     teller = begin(job)
     scene, places, zones = scene_from_json(job["scene"])
-    conditions = Conditions(job.get("driver", "physics"), job.get("parameters", {}))
+    bodies = tuple(map(floor_zone_from_json, job.get("bodies", ())))
+    conditions = Conditions(job.get("driver", "physics"), job.get("parameters", {}), bodies=bodies)
     plan = plan_from_json(job["plan"])
     return rehearse(plan, scene, places=places, zones=zones, conditions=conditions, follow=teller)
 

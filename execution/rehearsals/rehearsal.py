@@ -64,13 +64,15 @@ class Observer(Protocol):
 class Conditions:
     """How a rehearsal is done: the driver of the robots, the program's parameters, and the longest it may take (s).
 
-    `observer` is told what the record does not have.
+    `observer` is told what the record does not have. `bodies` is where real robots stand that are simulated for a while
+    (`Layout.bodies`).
     """
 
     driver: DriverName = "physics"
     parameters: Mapping[str, Scalar] = field(default_factory=dict)
     limit_s: float = LIMIT_S
     observer: Observer | None = None
+    bodies: tuple[m.FloorZone, ...] = ()
 
 
 def rehearse(
@@ -92,7 +94,7 @@ def rehearse(
     world = make_world(scene=scene, driver=conditions.driver)
     try:
         standing = [replace(d, pose=scene.poses.get(d.id, d.pose)) for d in scene.devices]
-        layout = make_layout(scene.grid, standing, places, m.site_zones(zones))
+        layout = replace(make_layout(scene.grid, standing, places, m.site_zones(zones)), bodies=conditions.bodies)
         commands = OpenCommands(world, scene.faults, scene.idless)
         return _Rehearsal(plan, layout, commands, conditions, follow).run()
     finally:

@@ -6,7 +6,7 @@ hints only. `worker` carries them out.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from typing import Any, Literal
 from uuid import UUID
@@ -20,7 +20,7 @@ from editor import services as editor
 from execution import mailbox
 from execution.archive.rows import read_rehearsal
 from execution.errors import NotFound, NotPossibleNow, TooManyRehearsals
-from execution.floor.layouts import place_facts
+from execution.floor.layouts import find_bodies, place_facts
 from execution.mirror.calibrations import find_paces
 from execution.models import Lease, Rehearsal
 from execution.rehearsals.beginnings import beginning_readings
@@ -29,6 +29,7 @@ from execution.rehearsals.queue_order import Entry, order_fairly
 from execution.rehearsals.recording_file import write_json, write_mcap
 from execution.rehearsals.views import RehearsalView, view_rehearsal
 from execution.runs.programs import Prepared
+from execution.traffic.messages import zone_to_json
 from registry import services as registry
 from simulation.fault_form import check_faults, read_faults
 from simulation.world import DELIVERY_S, Scene
@@ -54,11 +55,12 @@ def start_rehearsal(
         BadFaults: they are not understood, or are of a device, reading or step that there is not.
     """
     refuse_too_many(site=prepared.site, person=person)  # before the scene is made: who asks too often costs little
-    scene = _scene(prepared, seed, faults)
+    devices = registry.list_devices(site=prepared.site, lifecycle="approved")
+    scene = _scene(prepared, devices, seed, faults)
     given = {"driver": driver, "parameters": dict(prepared.parameters)}
     row = put_into_queue(
         site=prepared.site, person=person, program=prepared.program, program_name=prepared.name,
-        job={"plan": prepared.plan, "scene": scene, **given},
+        job={"plan": prepared.plan, "scene": scene, "bodies": _bodies(devices), **given},
         asked={
             "version": prepared.version, "seed": seed, **given, "faults": scene["faults"]["faults"],
             "paces": scene["paces"],
@@ -117,13 +119,19 @@ def order_of_queue() -> tuple[UUID, ...]:
     )
 
 
-def _scene(prepared: Prepared, seed: int, faults: Mapping[str, Any] | None) -> dict[str, Any]:
+def _bodies(devices: Sequence[registry.DeviceView]) -> list[dict[str, Any]]:
+    """Return where real robots stand that are simulated for a while: there a run lets nobody drive either."""
+    return [zone_to_json(body) for body in find_bodies((device, device.canonical) for device in devices)]
+
+
+def _scene(
+    prepared: Prepared, devices: Sequence[registry.DeviceView], seed: int, faults: Mapping[str, Any] | None
+) -> dict[str, Any]:
     """Return the site as it stands: its approved devices where they are, with what they hold and what they show.
 
     Simulated sources and sinks are seen to as the twin does, once they are empty or full; nobody knows of the others.
     """
     site = prepared.site
-    devices = registry.list_devices(site=site, lifecycle="approved")
     places = [place_facts(place) for place in registry.list_places(site=site)]
     robots = {d.id: d for d in devices if d.kind == "robot"}
     scene = Scene(

@@ -1,17 +1,20 @@
-"""Rehearsals heed the zones of the site's floor, as runs do."""
+"""Rehearsals heed the zones of the site's floor, and where real robots stand that are simulated, as runs do."""
 
 import json
 from dataclasses import replace
 
 import pytest
 
+from editor.language import plan_to_json
 from editor.language.expressions.nodes import PlaceRef
 from editor.language.plan.instructions import End, Instruction, Move, Plan, RoleBinding
 from editor.language.site.surroundings import ZoneFacts
 from execution.machine.places import lies_in
-from execution.rehearsals.child_process import scene_from_json, scene_to_json
+from execution.rehearsals.child_process import run_job, scene_from_json, scene_to_json
 from execution.rehearsals.program_file import rehearse_program
 from execution.rehearsals.rehearsal import Conditions, rehearse
+from execution.traffic import messages as m
+from execution.traffic.outlines import touches
 from tests.kit import demo_floor
 from vipo_device.protocol.description import Pose, description_to_json
 
@@ -102,3 +105,45 @@ def test_a_program_file_is_rehearsed_with_the_zones_of_its_own_site():
     zoned = rehearse_program(drawn, {**site, "zones": [{"id": "w", "rule": "keep_out", "points": box}]}, 1, "kinematic")
     assert (plain["ok"], zoned["ok"]) == (True, True)
     assert zoned["robots"]["cart"]["distance_m"] > plain["robots"]["cart"]["distance_m"] + 2
+
+
+RADIUS_M = next(device.radius_m for device in demo_floor.devices() if device.kind == "robot")
+
+
+def body(points, robot="robot02", name="TurtleBot 2"):
+    return m.FloorZone(f"body/{robot}", name, "keep_out", points)
+
+
+def rehearsed(*bodies, driver="kinematic"):
+    """Carry out a job as it lies in the database; one from before there were bodies has none."""
+    scene = scene_to_json(demo_floor.scene(), demo_floor.places())
+    job = {"plan": plan_to_json(PLAN), "scene": scene, "driver": driver}
+    return run_job(json.loads(json.dumps(job | ({"bodies": list(map(m.zone_to_json, bodies))} if bodies else {}))))
+
+
+def test_a_real_robot_that_stands_across_the_way_blocks_the_rehearsal_and_is_named():
+    result = rehearsed(body(HALF))
+    assert result["ok"] is False
+    assert [(error["kind"], error["message"]) for error in result["errors"]] == [
+        (
+            "blocked",
+            "The real TurtleBot 2 stands where TurtleBot 1 has to pass to Item Inventory. Let it be moved, or use the "
+            "real one again.",
+        )
+    ]
+
+
+def test_a_real_robot_is_not_in_the_way_of_what_is_simulated_in_its_place():
+    assert rehearsed(body(HALF, "robot01", "TurtleBot 1"))["ok"]
+
+
+@pytest.mark.parametrize("driver", ["kinematic", "physics"])
+def test_a_rehearsal_goes_round_a_real_robot(driver):
+    usual = driven(driver)[0]
+    x, y = usual[len(usual) // 2]
+    stands = body(((x - 0.1, y - 0.1), (x + 0.1, y - 0.1), (x + 0.1, y + 0.1), (x - 0.1, y + 0.1)))
+    result = rehearsed(stands, driver=driver)
+    track = [(x, y) for x, y, _ in result["frames"]["robots"]["robot01"]]
+    assert (result["ok"], result["errors"]) == (True, [])
+    assert any(touches(stands.points, point, RADIUS_M) for point in usual)
+    assert not any(touches(stands.points, point, RADIUS_M - 0.02) for point in track)
