@@ -25,6 +25,8 @@ from vipo_device.protocol.errors import VipoError
 log = logging.getLogger(__name__)
 ENROLMENT = "knock/"
 """The kind of a request to be enrolled; a kind of `up/` topics has no slash."""
+OTHER_TOPIC = "topic up"
+"""What messages of kinds that nobody knows are counted as, all as one: devices may make up any number of kinds."""
 POISON_TRIES = 3
 MOST_DESCRIPTIONS = 50
 """So many are read and kept in one go: what others wait for does not wait long behind them."""
@@ -136,7 +138,7 @@ class Ingester:
                 if isinstance(outcome, VipoError):
                     self._note(entry.device, f"{kind}: {outcome.detail}", {**outcome.facts, "kind": kind})
                 elif outcome is not None:
-                    self._pass_on(outcome, at)
+                    self._pass_on(outcome, kind, at)
                     if kind == "desc":
                         registry.note_mended(devices=[entry.device], code="description_refused")
         except (DatabaseError, InterfaceError):
@@ -201,7 +203,7 @@ class Ingester:
             if view is not None:
                 if kind == "presence" and view.online and not view.only_done_flag:
                     outbox.resend_commands(device=device)
-                self._pass_on(view, at)
+                self._pass_on(view, kind, at)
 
     def _ingest(self, entry: Entry, at: datetime) -> registry.DeviceView | None:
         device, kind, message = entry.device, entry.kind, entry.message
@@ -216,11 +218,12 @@ class Ingester:
             return registry.ingest_state(
                 device_id=device, payload=payload, at=at, retained=message.retained, stand_in=stand_in
             )
-        self._counts[f"topic up/{kind}"] += 1
+        self._counts[OTHER_TOPIC] += 1
         return None
 
-    def _pass_on(self, view: registry.DeviceView, at: datetime) -> None:
-        if view.only_done_flag:
+    def _pass_on(self, view: registry.DeviceView, kind: str, at: datetime) -> None:
+        """Let commands and floors know of what a device has said; of its done flag only where it said that."""
+        if view.only_done_flag and kind != "presence":
             outbox.record_done_flag(device=view.id, done=view.done, at=at)
         self._wake_watching(view.site, monotonic())
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import threading
 from collections import Counter, OrderedDict, deque
 from collections.abc import Hashable
 from dataclasses import dataclass, field
 from time import monotonic
 
+from vipo_device.protocol.messages import MAX_BYTES
 from vipo_device.protocol.mqtt_client import Message
 
 INBOX_LIMIT = 20_000
@@ -59,10 +61,45 @@ class Entry:
     outdated: bool = False
     stand_in: bool = False
     """The device's stand-in says it."""
+    _told: tuple[int, int, bool] | None = field(default=None, init=False, repr=False)
+    _is_read: bool = field(default=False, init=False, repr=False)
+
+    def outdates(self, older: Entry) -> bool:
+        """Tell whether of two states that wait this one says all that the older one did.
+
+        A turn of the done flag is news by itself: by it devices that know nothing else answer commands.
+        """
+        told, before = self._read(), older._read()
+        if told is None or before is None:
+            return told is before
+        return told[2] is before[2] and told[:2] >= before[:2]
+
+    def _read(self) -> tuple[int, int, bool] | None:
+        """Return a state's (boot, seq, done), read but once; None for what will be refused."""
+        if not self._is_read:
+            self._told, self._is_read = _order_and_flag(self.message.payload), True
+        return self._told
+
+
+def _order_and_flag(payload: bytes) -> tuple[int, int, bool] | None:
+    """Read what orders a state, and its done flag, in a few microseconds; all else is checked when it is taken in."""
+    try:
+        body = json.loads(payload) if len(payload) <= MAX_BYTES else None
+    except (ValueError, RecursionError):
+        return None
+    if not isinstance(body, dict):
+        return None
+    boot, seq, done = body.get("boot"), body.get("seq"), body.get("done")
+    return (boot, seq, done) if isinstance(boot, int) and isinstance(seq, int) and isinstance(done, bool) else None
 
 
 class Inbox:
-    """Messages in the order of their arrival; of a device's waiting states only the newest is kept."""
+    """Messages in the order of their arrival; of a device's waiting states in a row that tell the same `done`, only
+    the newest is to be taken in.
+
+    Each turn of the flag is kept. A device that alternates gains nothing by it: what is outdated has its place here,
+    too, and how much of it comes in a second is up to the device's bucket.
+    """
 
     def __init__(self, limit: int = INBOX_LIMIT) -> None:
         self._entries: deque[Entry] = deque()
@@ -80,7 +117,7 @@ class Inbox:
                 return False
             if entry.kind == "state":
                 older = self._states.get((entry.device, entry.stand_in))
-                if older is not None:
+                if older is not None and entry.outdates(older):
                     older.outdated = True
                 self._states[entry.device, entry.stand_in] = entry
             self._entries.append(entry)
@@ -132,20 +169,22 @@ class Complaints:
 
         Reasons that differ in figures alone are the same if they have the same `kind`.
         """
-        self.counts[reason.split(":", 1)[0]] += 1
-        self.waiting[device] += 1
         with self._guard:
+            self.counts[reason.split(":", 1)[0]] += 1
             self._dropped[device] += 1
-        said = (device, hash(kind or reason))
-        if now - self._written_at.get(said, -COMPLAINT_EVERY_S) < COMPLAINT_EVERY_S:
-            return None
-        if not self._lines_of(device, now).take(now):
-            return None
-        self._written_at[said] = now
-        self._written_at.move_to_end(said)
-        if len(self._written_at) > KNOWN_DEVICES:
-            self._written_at.popitem(last=False)
-        return self.waiting.pop(device, 1) - 1  # another thread may write a line just now, too
+            self.waiting[device] = self.waiting.pop(device, 0) + 1
+            if len(self.waiting) > KNOWN_DEVICES:  # whoever asks to be enrolled may name any device
+                del self.waiting[next(iter(self.waiting))]
+            said = (device, hash(kind or reason))
+            if now - self._written_at.get(said, -COMPLAINT_EVERY_S) < COMPLAINT_EVERY_S:
+                return None
+            if not self._lines_of(device, now).take(now):
+                return None
+            self._written_at[said] = now
+            self._written_at.move_to_end(said)
+            if len(self._written_at) > KNOWN_DEVICES:
+                self._written_at.popitem(last=False)
+            return self.waiting.pop(device) - 1
 
     def _lines_of(self, device: str, now: float) -> TokenBucket:
         """Return what keeps a device from filling its history."""

@@ -38,7 +38,7 @@ cost the square of its length."""
 _MARK = re.compile(_MARKS, re.DOTALL)
 _TOKEN = re.compile(_MARKS + r'|[^\s,:"\[\]{}]+', re.DOTALL)
 _COLON = re.compile(r"\s*:")
-_UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]+)")
+_UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]{1,16})")
 _STAND_IN_UP = re.compile(rf"vipo/v1/sim/([A-Za-z0-9_.-]{{1,64}})/up/({'|'.join(STAND_IN_KINDS)})")
 Voice = Literal["dev", "sim"]
 """Who speaks and is told as a device: the device itself, or its stand-in (docs/protocol.md)."""

@@ -10,7 +10,7 @@ import pytest
 
 from execution import database, services
 from execution.gateway.ingest import Ingester
-from execution.gateway.queue import Entry
+from execution.gateway.queue import Entry, Inbox
 from execution.models import Command
 from registry import services as registry
 from tests.kit.files import FIGURE_5
@@ -31,17 +31,21 @@ def mixer(db):
 class Mixer:
     def __init__(self):
         self.seq, self.problems = 0, []
-        self.ingester = Ingester(lambda device, reason, _: self.problems.append(reason), Counter())
+        self.counts = Counter()
+        self.ingester = Ingester(lambda device, reason, _: self.problems.append(reason), self.counts)
 
-    def say(self, kind, body):
-        topic = f"vipo/v1/dev/{NAME}/up/{kind}"
-        payload = body if isinstance(body, bytes) else json.dumps(body).encode()
-        self.ingester.ingest_all([Entry(Message(topic, payload, False, lambda: None), NAME, kind)], threading.Event())
+    def say(self, kind, *bodies):
+        """Say messages of a kind; several come while the gateway is busy, and wait together."""
+        topic, inbox = f"vipo/v1/dev/{NAME}/up/{kind}", Inbox()
+        for body in bodies:
+            payload = body if isinstance(body, bytes) else json.dumps(body).encode()
+            assert inbox.put(Entry(Message(topic, payload, False, lambda: None), NAME, kind))
+        self.ingester.ingest_all(inbox.get_all(0, 200), threading.Event())
         assert self.problems == []
 
-    def say_done(self, done):
-        self.seq += 1
-        self.say("state", {"boot": 1, "seq": self.seq, "done": done})
+    def say_done(self, *flags):
+        first, self.seq = self.seq + 1, self.seq + len(flags)
+        self.say("state", *({"boot": 1, "seq": first + number, "done": done} for number, done in enumerate(flags)))
 
 
 def send(method="mixPaint", position=1):
@@ -71,6 +75,20 @@ def test_a_command_is_done_when_the_flag_falls_and_rises_again(mixer):
     mixer.say_done(True)
     assert (status(row), row.why) == ("done", "")
     assert row.ended_at is not None
+
+
+def test_a_job_is_done_though_its_beginning_and_end_waited_together(mixer):
+    mixer.say_done(True)
+    row = send()
+    mixer.say_done(False, False, True, True)
+    assert (status(row), row.why) == ("done", "")
+
+
+def test_of_two_jobs_that_waited_together_both_are_done(mixer):
+    mixer.say_done(True)
+    rows = [send(position=1), send(position=2)]
+    mixer.say_done(False, True, False, True)
+    assert [status(row) for row in rows] == ["done", "done"]
 
 
 def test_work_that_was_under_way_before_does_not_count(mixer):
@@ -109,3 +127,18 @@ def test_whoever_answers_is_judged_by_the_answers(mixer):
     assert status(row) == "accepted"
     mixer.say("ack", {"id": str(row.id), "st": "FAILED", "why": "Empty"})
     assert (status(row), row.why) == ("failed", "Empty")
+
+
+def test_that_a_device_comes_is_no_word_of_its_done_flag(mixer):
+    mixer.say_done(False)
+    row = send()
+    mixer.say("presence", {"s": "online", "boot": 1})
+    assert status(row) == "sent"
+    mixer.say_done(True)
+    assert status(row) == "sent"
+
+
+def test_messages_of_kinds_that_nobody_knows_are_one_count(mixer):
+    for number in range(100):
+        mixer.say("x" * (number + 1), {"a": 1})
+    assert dict(mixer.counts) == {"topic up": 100}

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from execution.gateway.queue import COMPLAINT_EVERY_S, Complaints, Entry, Inbox, TokenBucket
+import json
+
+from execution.gateway.queue import COMPLAINT_EVERY_S, KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket
 from vipo_device.protocol.mqtt_client import Message
 
 
@@ -37,6 +39,38 @@ def test_a_state_that_was_taken_out_is_not_outdated_by_a_later_one() -> None:
     (first,) = inbox.get_all(0, 10)
     inbox.put(entry("a", "state", b"2"))
     assert not first.outdated
+
+
+def state(seq: int, done: bool, boot: int = 1) -> bytes:
+    return json.dumps({"boot": boot, "seq": seq, "done": done, "props": {"done": not done}}).encode()
+
+
+def kept(*payloads: bytes) -> list[bytes]:
+    inbox = Inbox()
+    for payload in payloads:
+        assert inbox.put(entry("a", "state", payload))
+    return [payload for _, _, payload, is_outdated in taken(inbox) if not is_outdated]
+
+
+def test_states_that_tell_the_same_flag_join_and_each_turn_of_it_is_kept() -> None:
+    said = [state(seq, done) for seq, done in enumerate((True, False, False, True, True, True, False), 1)]
+    assert kept(*said) == [said[0], said[2], said[5], said[6]]
+
+
+def test_a_state_is_outdated_by_none_that_is_older_or_will_be_refused() -> None:
+    new, old, older_start = state(5, True), state(3, True), state(9, True, boot=0)
+    assert kept(new, old) == [new, old]
+    assert kept(new, older_start) == [new, older_start]
+    for refused in (b"", b"{", b"7", b'{"seq": 6, "done": true}', b"[" * 16_000, new[:-1] + b" " * 16_384 + b"}"):
+        assert kept(new, refused) == [new, refused]
+        assert kept(refused, refused, new) == [refused, new]
+
+
+def test_a_device_that_alternates_fills_no_more_of_the_inbox_than_it_sends() -> None:
+    inbox = Inbox(limit=10)
+    assert [inbox.put(entry("a", "state", state(seq, seq % 2 == 0))) for seq in range(12)] == [True] * 10 + [False] * 2
+    assert [one.outdated for one in inbox.get_all(0, 20)] == [False] * 10
+    assert (len(inbox), inbox.put(entry("b", "state", state(1, True)))) == (0, True)
 
 
 def test_no_more_come_out_than_were_asked_for() -> None:
@@ -75,6 +109,14 @@ def test_complaints_of_one_kind_that_differ_in_figures_alone_are_one_complaint()
     assert [others is not None for others in said] == [True] + [False] * 19
     assert complaints.count("a", "no description", 20.0, ("markup",)) == 19
     assert complaints.count("a", "state 60 is old", 60.0, ("old_state",)) == 0
+
+
+def test_names_that_strangers_make_up_are_not_kept_for_ever() -> None:
+    complaints = Complaints()
+    for number in range(KNOWN_DEVICES + 10):
+        for _ in range(2):
+            complaints.add(f"made-up-{number}", "knock/: not JSON", float(number))
+    assert (len(complaints.waiting), "made-up-9" in complaints.waiting) == (KNOWN_DEVICES, False)
 
 
 def test_complaints_are_counted_and_written_once_a_minute() -> None:

@@ -52,6 +52,8 @@ def test_topics_are_made_and_read() -> None:
     assert down_topic("a", "mixPaint") == "vipo/v1/dev/a/down/mixPaint"
     assert read_up_topic("vipo/v1/dev/a.b-1/up/state") == ("a.b-1", "state")
     assert read_up_topic("vipo/v1/dev/a/b/up/state") is None
+    assert read_up_topic("vipo/v1/dev/a/up/" + "x" * 16) == ("a", "x" * 16)
+    assert read_up_topic("vipo/v1/dev/a/up/" + "x" * 17) is None
     assert read_up_topic("vipo/v1/dev/a/down/state") is None
     assert [is_device_id(i) for i in ("a", "A-1_.", "", "a/b", "a+", "x" * 65, "ä", "a\n")] == [True, True] + [
         False
