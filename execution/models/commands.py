@@ -62,6 +62,9 @@ class Command(models.Model):
                 condition=models.Q(status__in=["failed", "rejected", "timed_out"]),
                 name="commands_gone_wrong",
             ),
+            models.Index(
+                fields=["device", "method", "ended_at"], condition=models.Q(status="done"), name="commands_done"
+            ),
             models.Index(fields=["site", "ended_at"], condition=models.Q(run=None), name="commands_of_no_run"),
         ]
 
