@@ -13,6 +13,7 @@ from datetime import UTC, datetime, timedelta
 
 from django.conf import settings
 from django.db import transaction
+from django.db.models import Q
 
 from registry.alerts.buffer import note_alert
 from registry.audit.actor import VIPO
@@ -143,10 +144,15 @@ def _read_key(payload: bytes) -> str:
 
 
 def _make_room(site_id: int, at: datetime) -> None:
-    """Forget who enrolled long ago and never described itself; refuse more than 200 pending devices at a site."""
+    """Forget who enrolled, never described itself so that it could be read, and has not been heard of for a day.
+
+    Refuse more than 200 pending devices at a site.
+    """
     waiting = Device.objects.filter(site_id=site_id, lifecycle=Device.Lifecycle.PENDING)
-    gone = waiting.filter(description__isnull=True, last_seen_at__isnull=True, first_seen_at__lt=at - FORGOTTEN_AFTER)
-    for device in gone:
+    long_ago = at - FORGOTTEN_AFTER
+    gone = waiting.filter(description__isnull=True, first_seen_at__lt=long_ago)
+    gone = gone.filter(Q(last_seen_at=None) | Q(last_seen_at__lt=long_ago))
+    for device in gone.select_for_update(of=("self",)).order_by("pk"):  # who describes itself just now stays
         accounts().remove(device.pk)
         device.delete()
     if waiting.count() >= MOST_PENDING:
@@ -174,12 +180,14 @@ class ReservedDevice:
 def reserve_device(*, site: str, device_id: str, by: User, at: datetime, again: bool = False) -> ReservedDevice:
     """Reserve an id for a device that will come, and make its key, told this once.
 
-    It still waits for approval once it has described itself; whoever does not come within a day is forgotten. With
-    `again` a device that has not come yet gets another key, and the one before ends; not within seconds of that.
+    It still waits for approval once it has described itself; whoever does not within a day is forgotten. With `again` a
+    device that has not described itself yet gets another key, and the one before ends; not within seconds of that. It
+    may then count its starts from any number: what of it was heard before is forgotten.
 
     Raises:
         AlreadyReserved: somebody else has added it, or it has brought a key of its own, and `again` does not hold.
-        BadDevice: the id cannot be, is not the site's, belongs to a device that is known, or 200 devices wait already.
+        BadDevice: the id cannot be, is not the site's, belongs to a device that is known or just there, or 200 devices
+            wait already.
         NotAMember, BrokerAway.
     """
     check_id(device_id)
@@ -191,17 +199,23 @@ def reserve_device(*, site: str, device_id: str, by: User, at: datetime, again: 
         _require_unknown(device)
         _require_no_key_of_others(device, at, again=again)
         device.credential_hash, device.broker_hash = secret_hash(credential), broker_hash(credential)
-        device.first_seen_at = at
-        device.save(update_fields=["credential_hash", "broker_hash", "first_seen_at"])
+        device.first_seen_at, device.last_seen_at = at, None
+        forget_starts(device)
+        device.save(update_fields=["credential_hash", "broker_hash", "first_seen_at", "last_seen_at", *STARTS])
         write_event(device, at, "expected", history_text("expected"), by)
         accounts().put(Account(device_id, credential, site=site))
     return ReservedDevice(device_id, site, credential, str(settings.VIPO_BROKER_URL))
 
 
 def _require_unknown(device: Device) -> None:
-    waits = device.lifecycle == Device.Lifecycle.PENDING
-    if not waits or device.description is not None or device.last_seen_at is not None:
+    """Refuse to add what has described itself, and what is there: it may do so any moment."""
+    if device.lifecycle != Device.Lifecycle.PENDING or device.description is not None:
         raise BadDevice(f"{device.pk} is known at this site already. Choose another id, or give that device a new key.")
+    if device.online:
+        raise BadDevice(
+            f"{device.pk} is connected just now, but has not described itself. Mend its description, or disconnect it "
+            "and wait a minute. You may also choose another id."
+        )
 
 
 def _require_no_key_of_others(device: Device, at: datetime, *, again: bool) -> None:

@@ -18,6 +18,7 @@ from registry.services import BadDevice
 from tests.kit.sign_in import ROLES, post_json, signed_in
 from tests.kit.sites import MIXER, NOW, ROBOT, come, describe, may_come_in
 from vipo_device.descriptions.reader import read_description, write_description
+from vipo_device.protocol.errors import VipoError
 
 SITE = "/api/sites/hall"
 CALLS = {
@@ -115,6 +116,57 @@ def test_who_does_not_come_is_forgotten_and_no_more_than_two_hundred_wait(hall: 
     assert not Device.objects.filter(pk="early").exists()
     with pytest.raises(BadDevice):
         reserve_device(device_id="one-too-many", at=NOW, **who)
+
+
+def _refused_description(hall: str, *, last_seen_at: Any, online: bool = False) -> None:
+    """Let a device enrol and come, whose description nobody could read."""
+    services.enrol_device(site=hall, device_id="mixer1", payload=json.dumps({"key": "k" * 32}).encode(), at=NOW)
+    with pytest.raises(VipoError):
+        services.ingest_description(device_id="mixer1", payload=b"no description", at=NOW)
+    assert come(boot=7, online=True, at=NOW) is None
+    if not online:
+        assert come(boot=7, online=False, at=last_seen_at) is None
+
+
+def test_whose_description_was_refused_is_forgotten_a_day_after_it_was_last_seen(hall: str) -> None:
+    _refused_description(hall, last_seen_at=NOW + timedelta(hours=20))
+    within = NOW + timedelta(hours=20) + FORGOTTEN_AFTER
+    reserve_device(site=hall, device_id="one", by=None, at=within)
+    assert may_come_in("k" * 32, "mixer1")
+    reserve_device(site=hall, device_id="two", by=None, at=within + timedelta(seconds=1))
+    assert not Device.objects.filter(pk="mixer1").exists()
+    assert not may_come_in("k" * 32, "mixer1")
+
+
+def test_what_has_described_itself_or_was_expected_by_its_own_key_is_never_forgotten(hall: str) -> None:
+    describe(ROBOT)
+    services.expect_device(site=hall, device_id="mixer1", credential="c" * 32, approved=False)
+    assert come() is None
+    reserve_device(site=hall, device_id="one", by=None, at=NOW + timedelta(days=30))
+    assert {"mixer1", "robot1"} <= set(Device.objects.values_list("pk", flat=True))
+    assert may_come_in("c" * 32, "mixer1")
+
+
+def test_whose_description_was_refused_can_be_added_anew_once_it_is_gone(hall: str) -> None:
+    _refused_description(hall, last_seen_at=NOW)
+    assert send("admin", "newcomers").json()["code"] == "already_reserved"
+    told = send("admin", "newcomers", {"id": "mixer1", "again": True})
+    assert told.status_code == 201
+    assert (may_come_in("k" * 32), may_come_in(told.json()["credential"])) == (False, True)
+    row = Device.objects.get()
+    assert (row.last_seen_at, row.boot, row.seq, row.presence_boot) == (None, -1, -1, -1)
+    come(boot=1)  # another board, which counts its starts from the beginning
+    assert Device.objects.get().online
+    assert describe().lifecycle == "pending"
+
+
+def test_what_is_there_is_not_added_anew_though_its_description_was_refused(hall: str) -> None:
+    _refused_description(hall, last_seen_at=NOW, online=True)
+    for again in (False, True):
+        refused = send("admin", "newcomers", {"id": "mixer1", "again": again})
+        assert (refused.status_code, refused.json()["code"]) == (422, "bad_device")
+        assert refused.json()["detail"].startswith("mixer1 is connected just now")
+    assert may_come_in("k" * 32)
 
 
 def test_a_new_join_key_ends_the_old_one(hall: str) -> None:
