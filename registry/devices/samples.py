@@ -97,7 +97,8 @@ class SampleBuffer:
             self._waiting[key] = Bucket(value, number, number, at_ms)
 
     def _may_begin(self, device: str, minute: int) -> bool:
-        if minute > self._minute:
+        is_clock_put_back = minute < self._minute - 1
+        if minute > self._minute or is_clock_put_back:
             self._minute = minute
             self._begun.clear()
         self._begun[device] += 1

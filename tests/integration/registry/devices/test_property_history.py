@@ -185,6 +185,20 @@ def test_a_device_that_changes_its_names_all_the_time_fills_no_disk() -> None:
     assert len(buffer.take(0.0, all_of_it=True) or buffer._waiting) == 1_001
 
 
+def test_a_device_has_a_history_again_as_soon_as_a_clock_that_was_ahead_is_put_right() -> None:
+    buffer, ahead, right = SampleBuffer(), 1_000, 10
+    for number in range(2_000):
+        buffer._add("mixer1", f"p{number}", 1, ahead * 60_000)
+    assert len(buffer._waiting) == 1_000
+    buffer._add("mixer1", "heat", 1, (ahead - 1) * 60_000)  # what another process took in a moment ago
+    assert len(buffer._waiting) == 1_000
+    for number in range(2_000):
+        buffer._add("mixer1", f"p{number}", 1, right * 60_000)
+    assert len(buffer._waiting) == 2_000
+    buffer._add("mixer1", "heat", 1, (right + 1) * 60_000)
+    assert len(buffer._waiting) == 2_001
+
+
 @pytest.mark.parametrize("role", [*ROLES, "stranger", "nobody"])
 def test_every_member_may_read_what_was(oven: str, role: str) -> None:
     talk = Talk()
