@@ -12,6 +12,7 @@ from vipo_device.protocol.description import (
     MOST_METHODS,
     MOST_PARAMETERS,
     MOST_PROPERTIES,
+    SLOWEST_M_S,
     Description,
     MethodSpec,
     ParameterSpec,
@@ -46,7 +47,7 @@ def _faults_of_numbers(d: Description) -> Iterator[Fault]:
         yield fault("capacity_range")
     if not 0 <= d.radius_m <= 10:
         yield fault("radius_range")
-    if not 0 <= d.speed_m_s <= 20:
+    if d.speed_m_s != 0 and not SLOWEST_M_S <= d.speed_m_s <= 20:
         yield fault("speed_range")
     if d.kind == "robot" and not d.radius_m:
         yield fault("robot_radius")

@@ -121,6 +121,8 @@ class DeviceState:
     properties: Mapping[str, Scalar] = field(default_factory=dict)
 
 
+SLOWEST_M_S = 0.001
+"""A speed is at least so much, or 0 where a device tells none: distances are divided by it."""
 MOST_PROPERTIES = MOST_METHODS = 64
 MOST_PARAMETERS = 16
 
@@ -149,8 +151,13 @@ def _fields(record: Any) -> dict[str, Any]:
 
 
 def description_from_json(body: Mapping[str, Any]) -> Description:
-    """Return the description that description_to_json wrote; fields that are left out have their defaults."""
+    """Return the description that description_to_json wrote; fields that are left out have their defaults.
+
+    A speed below what is believed today, of a description that was taken in before, counts as none.
+    """
     fields = dict(body)
+    if fields.get("speed_m_s", 0.0) < SLOWEST_M_S:
+        fields["speed_m_s"] = 0.0
     fields["pose"], fields["size"] = Pose(**fields["pose"]), Size(**fields["size"])
     fields["gives"], fields["takes"] = tuple(fields.get("gives", ())), tuple(fields.get("takes", ()))
     fields["properties"] = tuple(PropertySpec(**_with_options(p)) for p in fields.get("properties", ()))

@@ -157,7 +157,7 @@ _MEANING: Mapping[str, str] = {
     "size_range": "Its size must be three lengths between 0 and 100 metres: {said}.",
     "capacity_range": "Its capacity must lie between 0 and 1000 objects.",
     "radius_range": "Its radius must lie between 0 and 10 m.",
-    "speed_range": "Its speed must lie between 0 and 20 m/s.",
+    "speed_range": "Its speed must lie between 0.001 and 20 m/s, or be 0 if it tells none.",
     "robot_radius": "A robot must give its radius.",
     "bad_id": "Its id must be 1 to 64 letters, digits, '_', '.' or '-': {id!r}.",
     "name_length": "Its name must have 1 to 100 characters.",

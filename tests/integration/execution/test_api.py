@@ -11,6 +11,7 @@ from editor.documents.shared_document import empty_document, encode_document
 from editor.documents.store import Change, append_changes
 from execution import services
 from execution.models import Rehearsal, Run
+from registry.models import Device
 from tests.kit.programs import SITE, TASK
 from tests.kit.sign_in import ROLES, below_role, join_and_sign_in, post_json
 from tests.kit.sites import NOW
@@ -131,6 +132,17 @@ def test_routes_that_do_not_exist_are_null_among_others(factory):
         None,
         None,
     ]
+
+
+def test_routes_are_told_though_a_stored_description_has_a_speed_that_is_refused_today(factory):
+    row = Device.objects.get(id="robot01")
+    Device.objects.filter(id="robot01").update(
+        description={**row.description, "speed_m_s": 1e-310}, description_hash="of before"
+    )
+    client = join_and_sign_in("viewer", SITE)
+    pairs = [{"from": {"device": "itemInventory01"}, "to": {"device": "paintMachine01"}}]
+    answer = client.post(f"/api/sites/{SITE}/routes", json.dumps({"pairs": pairs}), content_type="application/json")
+    assert answer.json()[0]["length_m"] == 26.74
 
 
 def test_a_run_over_http_reaches_its_end(factory, program):

@@ -98,7 +98,7 @@ def test_the_shapes_say_all_that_is_wrong_with_rdf(tmp_path: Path, capsys: pytes
     path.write_text(MIXER.read_text().replace("vipo:done true", "vipo:done true ; vipo:capacity 2.5 ; vipo:speed 99"))
     assert main(["describe", str(path), "--shacl"]) == 1
     lines = capsys.readouterr().err.splitlines()
-    assert f"{path}: vipo:speed may be given once: 0 to 20 m/s. It is '99'." in lines
+    assert f"{path}: vipo:speed may be given once: 0.001 to 20 m/s, or 0. It is '99'." in lines
     assert any("needs a whole number for vipo:capacity" in line for line in lines)
 
 

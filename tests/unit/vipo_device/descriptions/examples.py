@@ -8,7 +8,15 @@ from typing import Any
 from hypothesis import strategies as st
 
 from vipo_device.descriptions.plausibility import find_faults
-from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
+from vipo_device.protocol.description import (
+    SLOWEST_M_S,
+    Description,
+    MethodSpec,
+    ParameterSpec,
+    Pose,
+    PropertySpec,
+    Size,
+)
 from vipo_device.protocol.messages import down_topic
 from vipo_device.protocol.texts import normal
 
@@ -82,7 +90,7 @@ def descriptions(draw: st.DrawFn) -> Description:
         takes=draw(words),
         capacity=draw(st.integers(0, 1000)),
         radius_m=draw(st.floats(0.01, 10)) if kind == "robot" else 0.0,
-        speed_m_s=draw(st.floats(0, 20)) + 0.0,
+        speed_m_s=draw(st.one_of(st.just(0.0), st.floats(SLOWEST_M_S, 20))),
         properties=tuple(draw(st.lists(PROPERTIES, max_size=3, unique_by=lambda spec: spec.name))),
         methods=tuple(draw(st.lists(_methods(device_id), max_size=3, unique_by=lambda method: method.name))),
     )
