@@ -143,7 +143,7 @@ def _commands(says: Sequence[str], seen: Seen) -> _Answer:
              if line["code"] == "command"]  # fmt: skip
     at = 0
     for command, _ in given:
-        if at < len(says) and says[at] in {command, command.partition(".")[2]}:
+        if at < len(says) and says[at] in {command, command.rpartition(".")[2]}:
             at += 1
     if at == len(says):
         return expected, made_of, True, Saw("they came", "came")

@@ -145,7 +145,7 @@ def _settled(expectation: Expectation, subject: Subject) -> Expectation:
     if expectation.kind == "step":
         return replace(expectation, says={**says, "step": _step(says["step"], subject, line)})
     if expectation.kind == "commands":
-        _check_devices([named.partition(".")[0] for named in says if "." in named], devices, line)
+        _check_devices([named.rpartition(".")[0] for named in says if "." in named], devices, line)
     if expectation.kind == "item":
         _check_devices([says["at"]], devices, line)
     if expectation.kind == "property":

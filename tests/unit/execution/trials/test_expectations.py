@@ -18,7 +18,7 @@ def seen(**more):
         "frames": {"dt_s": 0.5, "robots": {
             "r1": [[0, 5, 0], [1, 1, 0], [1, 1.5, 0], [5, 5, 0]], "r2": [[1, 1, 0], [9, 9, 0], [0.5, 0.5, 0]]}},
         "log": [{"code": "command", "device": d, "t": 1.0, "args": {"method": m}}
-                for d, m in (("r1", "pick"), ("oven", "heat"), ("r1", "drop"))],
+                for d, m in (("r1", "pick"), ("oven", "heat"), ("r1", "drop"), ("hall.oven", "bake"))],
         "properties": {"oven": [[0.0, "heat", 20], [7.0, "heat", 55.5], [8.0, "lid", "open"], [9.0, "on", True]]},
         "steps": [{"step": "s1"}, {"step": "s1"}],
         **more,
@@ -50,6 +50,9 @@ FAILED = {
         ("commands", ["r1.pick", "drop"], True, "they came"),
         ("commands", ["drop", "oven.heat"], False, "oven.heat did not come after drop"),
         ("commands", ["oven.cool"], False, "oven.cool did not come"),
+        ("commands", ["drop", "hall.oven.bake"], True, "they came"),
+        ("commands", ["drop", "bake"], True, "they came"),
+        ("commands", ["oven.bake"], False, "oven.bake did not come"),
         ("property", {"device": "oven", "name": "heat", "at_least": 50}, True, "it was 55.5 at 7 s"),
         ("property", {"device": "oven", "name": "heat", "at_least": 60}, False, "it was from 20 to 55.5"),
         ("property", {"device": "oven", "name": "heat", "at_most": 20}, True, "it was 20 at 0 s"),

@@ -7,6 +7,8 @@ from dataclasses import replace
 import pytest
 
 from editor.language import compile_document
+from editor.language.expressions.nodes import Constant, PlaceRef
+from editor.language.plan.instructions import Call, End, Instruction, Plan
 from execution.trials.coverage import Coverage, coverage_to_json, missed
 from execution.trials.expectations import Verdict
 from execution.trials.junit import junit_xml
@@ -16,6 +18,7 @@ from execution.trials.trial import Expectation, Trial
 from execution.trials.trial_run import run_trial, settle
 from execution.trials.yaml_lines import BadTrialFile
 from simulation.world import Fault
+from tests.kit import demo_floor
 from tests.kit.demo_site import factory
 from tests.kit.programs import document, step
 from tests.unit.execution.trials.hot_box import BROKEN, NUMBERS, SUBJECT, WELL
@@ -154,3 +157,16 @@ def test_what_is_given_or_expected_of_devices_has_to_suit_them(given, why):
     with pytest.raises(BadTrialFile, match=re.escape(why)):
         settle(replace(WELL, **given), SUBJECT)
     assert settle(replace(WELL, then=(Expectation("commands", 7, ["paintMixer02.mixPaint", "drop"]),)), SUBJECT)
+
+
+def test_commands_of_devices_whose_ids_begin_with_their_site_are_found():
+    elsewhere = replace(next(d for d in demo_floor.devices() if d.id == "paintMixer02"), id="hall.mixer01")
+    call = Instruction(Call(PlaceRef(device="hall.mixer01"), "mixPaint", {"time": Constant(1)}), "mix", 1)
+    scene = replace(SUBJECT.scene, devices=(elsewhere,))
+    subject = replace(SUBJECT, plan=Plan((call, Instruction(End()))), scene=scene, numbers={}, lines=())
+    for named in ("hall.mixer01.mixPaint", "mixPaint"):
+        trial = settle(Trial("a", 1, (Expectation("commands", 7, [named]),)), subject)
+        assert [verdict.saw for verdict in run_trial(trial, subject).verdicts] == ["they came"]
+    for named, device in (("mixer01.mixPaint", "mixer01"), ("hall.mixPaint", "hall")):
+        with pytest.raises(BadTrialFile, match=f"There is no device “{device}” in the site. There are: hall.mixer01."):
+            settle(Trial("a", 1, (Expectation("commands", 7, [named]),)), subject)
