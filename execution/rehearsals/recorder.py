@@ -33,7 +33,7 @@ class Recorder:
         self.collisions: list[dict[str, Any]] = []
         self.steps: list[dict[str, Any]] = []
         self.log: list[dict[str, Any]] = []
-        self._open_steps: dict[str, dict[str, Any]] = {}
+        self._open_steps: list[dict[str, Any]] = []
         self._counts: dict[str, int] = {}
         self._waits: list[dict[str, Any]] = []
         self._open_waits: dict[int, dict[str, Any]] = {}
@@ -121,7 +121,7 @@ class Recorder:
                 self._counts[step] = self._counts.get(step, 0) + 1
                 entry = {"step": step, "count": self._counts[step], "robot": "", "device": "",
                          "started_s": round(t_s, 2), "ended_s": None, "status": "running"}  # fmt: skip
-                self._open_steps[step] = entry
+                self._open_steps.append(entry)
                 self.steps.append(entry)
             case r.AskPeople(step=step, text=text):
                 self._say(t_s, step, "", f"Asked: {text}", "asked", text=text)
@@ -136,8 +136,10 @@ class Recorder:
                     self.error(t_s, step, kind, why, f"step_{kind}", why=why)
 
     def _close_step(self, t_s: float, step: str, status: str) -> None:
-        entry = self._open_steps.pop(step, None)
+        """Note how a step ended; of one that several branches are in, the one that was begun first."""
+        entry = next((each for each in self._open_steps if each["step"] == step), None)
         if entry is not None:
+            self._open_steps.remove(entry)
             entry.update(ended_s=round(t_s, 2), status=status)
 
     def error(self, t_s: float, step: str, kind: str, message: str, code: str, **args: Scalar) -> None:
@@ -148,7 +150,8 @@ class Recorder:
 
     def step_now(self) -> str:
         """Return the step that was begun last of those under way; between two the one before."""
-        return next(reversed(self._open_steps), self.steps[-1]["step"] if self.steps else "")
+        last = (self._open_steps or self.steps)[-1:]
+        return str(last[0]["step"]) if last else ""
 
     def note_answer(self, t_s: float, step: str, answer: Scalar) -> None:
         """Take down what the rehearsal has answered in people's stead."""
@@ -183,16 +186,27 @@ class Recorder:
                 self._say(t_s, "", robot, text, "role_released", role=role)
 
     def _note_command(self, t_s: float, action: m.SendCommand) -> None:
-        entry = self._open_steps.get(action.step)
         device = self._layout.devices.get(action.device)
+        word = "robot" if device is not None and device.kind == "robot" else "device"
+        entry = self._entry_of(action, word)
         if entry is not None and device is not None:
-            entry["robot" if device.kind == "robot" else "device"] = action.device
+            entry[word] = action.device
             entry["device"] = entry["device"] or str(action.arguments.get("device", ""))
         if not action.piece:
             values = ", ".join(f"{name} {value}" for name, value in action.arguments.items())
             text = f"{self._layout.name(action.device)}: {action.method} {values}"
             named = ", ".join(self._layout.name(str(value)) for value in action.arguments.values())
             self._say(t_s, action.step, action.device, text, "command", method=action.method, values=named)
+
+    def _entry_of(self, action: m.SendCommand, word: str) -> dict[str, Any] | None:
+        """Return the entry of the step that a command is of.
+
+        Of a step that several branches are in, it is the one that the device has already, else the first that has none
+        yet, else the one that was begun last.
+        """
+        entries = [each for each in self._open_steps if each["step"] == action.step]
+        own = (each for device in (action.device, "") for each in entries if each[word] == device)
+        return next(own, entries[-1] if entries else None)
 
     def _note_answer(self, t_s: float, step: str, device: str, method: str, status: str, why: str) -> None:
         text = f"{self._layout.name(device)}, {method}: {status.lower()}" + (f", {why}" if why else "")
@@ -224,8 +238,8 @@ class Recorder:
         """Return the whole record."""
         for wait in self._open_waits.values():
             self._end_wait(t_s, wait)
-        for step in list(self._open_steps):
-            self._close_step(t_s, step, "failed")
+        for entry in list(self._open_steps):
+            self._close_step(t_s, entry["step"], "failed")
         touched = [e for e in self.monitor.encounters if e["distance_m"] <= 0]
         return {
             "ok": ok and not self.collisions and not touched,

@@ -1,7 +1,10 @@
 """A Parallel that ends with the first branch, and roles that give their robots back, with simulated robots."""
 
 from editor.language import compile_document, parse_script, tree_to_document
+from execution.machine.messages import StepEntered, StepLeft
+from execution.rehearsals.recorder import Recorder
 from execution.rehearsals.rehearsal import Conditions, rehearse
+from execution.traffic.messages import SendCommand
 from simulation.world import Scene
 from tests.kit import demo_floor
 from tests.kit.demo_site import factory
@@ -47,6 +50,69 @@ def test_a_drive_that_is_called_off_stops_and_the_robot_does_what_follows():
     assert 1.9 <= wait["ended_s"] <= 3
     assert parallel["ended_s"] == drive["ended_s"] == last["started_s"] == wait["ended_s"]
     assert last["robot"] == "robot01"
+
+
+def recorded(*actions):
+    """Return how the recorder tells the steps of what a run and its floor do, at these times."""
+    recorder = Recorder(demo_floor.layout(), {})
+    for t_s, action in actions:
+        recorder.note_floor(t_s, action) if isinstance(action, SendCommand) else recorder.note_run(t_s, action)
+    return recorder
+
+
+def test_of_a_step_that_two_branches_are_in_the_one_that_was_begun_first_ends_first():
+    began, left = StepEntered("f1"), StepLeft("f1")
+    recorder = recorded((0, began), (0.5, began), (10, left))
+    assert recorder.step_now() == "f1"
+    recorder.note_run(20, left)
+    steps = recorder.result(30.0, ok=True)["steps"]
+    told = [(each["count"], each["started_s"], each["ended_s"], each["status"]) for each in steps]
+    assert told == [(1, 0, 10, "done"), (2, 0.5, 20, "done")]
+
+
+def test_what_is_still_open_at_the_end_has_failed_though_two_branches_were_in_it():
+    began = StepEntered("f1")
+    steps = recorded((0, began), (0.5, began), (10, StepLeft("f1"))).result(30.0, ok=False)["steps"]
+    assert [(each["ended_s"], each["status"]) for each in steps] == [(10, "done"), (30, "failed")]
+
+
+def test_the_step_that_is_told_as_going_on_is_the_one_that_was_begun_last():
+    recorder = recorded((0, StepEntered("f1")), (1, StepEntered("f2")), (2, StepEntered("f1")))
+    assert recorder.step_now() == "f1"
+    recorder.note_run(3, StepLeft("f2"))
+    recorder.note_run(4, StepLeft("f1"))
+    assert recorder.step_now() == "f1"
+
+
+def test_each_entry_of_a_step_that_two_branches_are_in_has_its_own_robot():
+    began, left = StepEntered("f1"), StepLeft("f1")
+    first, second = (SendCommand(f"c{n}", f"robot0{n}", "move", {}, step="f1") for n in (1, 2))
+    steps = recorded((0, began), (0, began), (1, first), (2, second), (3, first), (10, left), (20, left)).steps
+    assert [(each["robot"], each["ended_s"]) for each in steps] == [("robot01", 10), ("robot02", 20)]
+
+
+def test_two_branches_that_call_one_function_leave_no_step_that_runs_for_ever():
+    result = rehearsed("""class Task(object):
+    def new_task(self):
+        self.parallel(self.branch_1a, self.branch_1b)
+
+    def branch_1a(self):
+        self.rest()
+
+    def branch_1b(self):
+        self.wait(5)
+        self.rest()
+
+    def rest(self):
+        self.wait(20)
+
+    def run(self, ctx):
+        self.new_task()
+""")
+    assert (result["ok"], {each["status"] for each in result["steps"]}) == (True, {"done"})
+    rests = [each for each in result["steps"] if each["count"] == 2]
+    assert len(rests) == 1
+    assert [round(each["ended_s"]) for each in result["steps"] if each["step"] == rests[0]["step"]] == [20, 25]
 
 
 def test_a_released_robot_serves_another_role_and_the_log_tells_it():
