@@ -63,6 +63,7 @@ class Actor(ABC):
         self._emit = emit
         self.troubles = Troubles(initial.faults)
         self._fault_chance = initial.fault_chance
+        self._drawn: dict[str, None] = {}
         self._late: list[tuple[float, AckMessage]] = []
         self._true_readings: dict[str, Scalar] = {}
         self._untold: dict[str, None] = {}
@@ -104,7 +105,7 @@ class Actor(ABC):
         """Take a command in; what comes of it is emitted."""
         self.notice_faults(t_s)
         known = self.ledger.find(command)
-        if known is None and method not in CONTROLS and self.troubles.hang_on_chance:
+        if known is None and method not in CONTROLS and self.troubles.hang_on_chance and self._is_first(command):
             chance = None if self._fault_chance is None else self._fault_chance()
             self._befall(t_s, self.troubles.draw(t_s, chance))
         if self.is_silent or self.troubles.has("deaf"):
@@ -123,11 +124,22 @@ class Actor(ABC):
         for fault in over:
             self._recover(t_s, fault)
         while self._late and self._late[0][0] <= t_s + 1e-9:
-            self._emit_ack(t_s, self._late.pop(0)[1])
+            _, ack = self._late.pop(0)
+            if not self.is_silent:
+                self._emit_ack(t_s, ack)
 
     def reach(self, t_s: float, step: str, count: int) -> None:
         """Let the faults begin that wait for this step of the program."""
         self._befall(t_s, self.troubles.reach(t_s, step, count))
+
+    def _is_first(self, command: str) -> bool:
+        """Tell whether a command comes for the first time, and remember it: one that is not heard leaves no answer."""
+        if command in self._drawn:
+            return False
+        self._drawn[command] = None
+        if len(self._drawn) > REMEMBERED:
+            del self._drawn[next(iter(self._drawn))]
+        return True
 
     def _befall(self, t_s: float, faults: Iterable[Fault]) -> None:
         for fault in faults:

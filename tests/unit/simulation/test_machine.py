@@ -12,7 +12,7 @@ from simulation.actors import InitialState, Machine
 from simulation.actors.machine import first_stock
 from simulation.behaviour import behaviour_of
 from simulation.kind_file import default_kinds
-from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
+from simulation.world import Ack, Fault, FaultKind, PropertyChanged, WorldEvent
 from tests.unit.simulation.stage_set import BENCH, OVEN, ROLLERS, SHELF
 from vipo_device.protocol.description import Description, PropertySpec
 
@@ -327,6 +327,20 @@ def test_an_offline_machine_is_silent_from_that_moment() -> None:
     bench.tell("weld", "c2", mode="slow")
     assert bench.answers() == ["ACCEPTED", "RUNNING"]
     assert bench.answers("c2") == []
+
+
+@pytest.mark.parametrize("kind", ["offline", "dead"])
+def test_an_answer_that_is_late_is_lost_where_nothing_is_said_any_more(kind: FaultKind) -> None:
+    late, silent = Fault("bench", "late", after_s=3.0), Fault("bench", kind, 2.0, for_s=10.0)
+    bench = Watched(BENCH, faults=(late, silent))
+    bench.tell("cool", time=60)
+    bench.wait(11.5)
+    assert bench.answers() == []
+    bench.wait(3)
+    assert bench.answers() == []
+    bench.tell("cool", time=60)
+    bench.wait(3)
+    assert bench.answers() == ["RUNNING"]
 
 
 def test_a_stopped_machine_never_ends_its_work() -> None:

@@ -27,7 +27,7 @@ from execution.rehearsals.open_commands import OpenCommands
 from execution.rehearsals.rehearsal import Conditions, rehearse
 from execution.traffic.messages import SendCommand
 from simulation.services import make_world
-from simulation.world import Ack, Fault
+from simulation.world import Ack, Fault, FaultBegan
 from tests.kit import demo_floor
 from vipo_device.protocol.description import PropertySpec
 
@@ -121,6 +121,24 @@ def test_a_device_that_knows_no_command_by_its_id_is_told_each_once(monkeypatch)
 def test_a_command_that_is_asked_for_again_is_one_for_chance():
     by_odds = (Fault("paintMixer02", "fail_next", odds=0.5), Fault("paintMixer02", "lose_ack"))
     assert said(mixed(*by_odds, times=1)) == [(0.0, "answer_lost")]
+
+
+@pytest.mark.parametrize("kind", ["deaf", "offline", "dead"])
+def test_a_command_that_is_not_heard_is_one_for_chance_however_often_it_comes(kind):
+    fault = Fault("paintMixer02", kind, odds=0.25, for_s=5.0)
+    world = make_world(scene=replace(demo_floor.scene(faults=(fault,)), seed=0), driver="kinematic")
+    commands, struck = OpenCommands(world, (fault,)), []
+    for number in range(1, 13):
+        commands.send(SendCommand(f"c{number}", "paintMixer02", "dispense", {"object": "can", "value": 1}))
+        answered = False
+        while not answered:
+            for event in world.advance(0.25):
+                struck += [number] if isinstance(event, FaultBegan) else []
+                if isinstance(event, Ack):
+                    commands.answered(event)
+                    answered |= event.is_final
+            commands.send_due()
+    assert struck == [4, 8, 12]
 
 
 def test_an_answer_said_twice_changes_nothing_for_the_program():
