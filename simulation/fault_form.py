@@ -7,6 +7,7 @@ from math import inf
 from typing import Any, Final
 
 from simulation.world import Fault, FaultKind
+from vipo_device.protocol.batteries import says_charge
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
 from vipo_device.protocol.errors import VipoError
 
@@ -90,7 +91,7 @@ def _misfit(fault: Fault, device: Description) -> str:
     """Return why a device cannot have this fault, or an empty text."""
     if fault.kind in {"drops", "battery"} and device.kind != "robot":
         return f"{device.name} is no robot; only robots drop things and run on batteries."
-    if fault.kind == "battery" and device.property("battery") is None:
+    if fault.kind == "battery" and not says_charge(device):
         return f"{device.name} does not say how full its battery is, so it cannot run low."
     if fault.kind != "wrong_value":
         return ""

@@ -181,7 +181,7 @@ class SimulatedWorld:
         """Do once a second what need not be done more often."""
         for name, robot in self._by_kind.robots.items():
             robot.notice_faults(t_s)
-            robot.use_battery(t_s, SLOW_TICK_S, driving=name in targets)
+            robot.use_battery(t_s, SLOW_TICK_S, driving=any(targets.get(name, (0.0, 0.0))))
         if self._delivery_s is not None:
             self._deliver(t_s, self._delivery_s)
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from datetime import timedelta
 from typing import Any, Literal
 
-from vipo_device.protocol.units import declared_unit, is_measure
+from vipo_device.protocol.batteries import is_charge
 
 Severity = Literal["info", "warning", "error"]
 AlertCode = Literal[
@@ -38,15 +38,10 @@ LOW_BATTERY_PERCENT = 15.0
 
 
 def is_battery_low(charge: object, unit: str) -> bool:
-    """Tell whether a battery is low by what a device says of it, in the unit that its description has.
-
-    A number without a unit is per cent. What is measured otherwise, such as volts, says nothing without the kind of
-    battery.
-    """
+    """Tell whether a battery is low by what a device says of it, in the unit that its description has."""
     if isinstance(charge, bool) or not isinstance(charge, int | float):
         return False
-    is_share = unit == "PERCENT" or not is_measure(declared_unit(unit))
-    return is_share and charge < LOW_BATTERY_PERCENT
+    return is_charge(unit) and charge < LOW_BATTERY_PERCENT
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,8 @@ from simulation.actors.follower import Follower, Motion
 from simulation.actors.machine import Machine
 from simulation.proximity import body_of
 from vipo_device.kit.arguments import counted_object, read_move, why_astray
+from vipo_device.protocol.arguments import is_number
+from vipo_device.protocol.batteries import says_charge
 from vipo_device.protocol.description import Description, Scalar
 from vipo_device.protocol.messages import AckMessage
 
@@ -53,8 +55,9 @@ class Robot(Actor):
         self.radius_m = description.radius_m or max(description.size.x, description.size.y) / 2 or DEFAULT_RADIUS_M
         self.touches = ""
         self.stands_before = ""
+        self._says_charge = says_charge(description)
         known = initial.readings.get("battery")
-        self.battery = float(known) if isinstance(known, int | float) else 100.0
+        self.battery = float(known) if self._says_charge and is_number(known) else 100.0
         self._machines, self._bounds = surroundings.machines, surroundings.bounds
         self._tasks: deque[Task] = deque()
         self.speed_m_s = (description.speed_m_s or self.behaviour.speed_m_s) / self.paces.get("move", 1.0)
@@ -105,15 +108,15 @@ class Robot(Actor):
         how = self.behaviour
         percent_h = 100 / how.charging_h if docked else -100 / (how.driving_h if driving else how.standing_h)
         self.battery = min(100.0, max(0.0, self.battery + percent_h / 3600 * dt_s))
-        self.read(t_s, "battery", round(self.battery))
+        self._show_charge(t_s)
 
     def notice_faults(self, t_s: float) -> None:
         """Let faults begin and end; what falls down is gone, and a battery that falls so low is so low."""
         super().notice_faults(t_s)
         fallen = self.troubles.spend("battery")
-        if fallen is not None and isinstance(fallen.value, int | float):
+        if fallen is not None and is_number(fallen.value):
             self.battery = min(self.battery, float(fallen.value))
-            self.read(t_s, "battery", round(self.battery))
+            self._show_charge(t_s)
         if self.carrying and self.troubles.spend("drops") is not None:
             self.carrying = {}
             self.read(t_s, "load", self._load_shown())
@@ -121,12 +124,17 @@ class Robot(Actor):
     def change_battery(self, t_s: float) -> None:
         """Put a full battery in, as people do with a robot that stands."""
         self.battery = 100.0
-        self.read(t_s, "battery", 100)
+        self._show_charge(t_s)
 
     @property
     def is_flat(self) -> bool:
         """True when a robot that says how full its battery is has nothing left."""
-        return self.battery <= 0 and self.description.property("battery") is not None
+        return self.battery <= 0 and self._says_charge
+
+    def _show_charge(self, t_s: float) -> None:
+        """Show how full the battery is, where the robot says that: volts, words and yes or no stay as they are."""
+        if self._says_charge:
+            self.read(t_s, "battery", round(self.battery))
 
     def _begin(self, t_s: float, task: Task) -> None:
         if not task.begun:
@@ -213,8 +221,9 @@ class Robot(Actor):
         return self._refusal_of_goods(method, machine, *goods)
 
     def _refusal_of_goods(self, method: str, machine: Machine, name: str, count: int) -> str:
-        room = max(1, self.description.capacity) - self.load
-        if method == "pick" and count > room:
+        capacity = self.description.capacity  # 0: it does not say
+        if method == "pick" and 0 < capacity < self.load + count:
+            room = capacity - self.load
             return f"{self.description.name} is full: it carries {self.load} and has room for {room}, not {count}."
         if method == "pick":
             return machine.refusal_to_give(name, count)
@@ -319,5 +328,7 @@ class Robot(Actor):
 
     def _start_readings(self) -> None:
         """Set the readings that follow from the robot's state, before anyone listens."""
-        values: dict[str, Scalar] = {"battery": round(self.battery), "load": self._load_shown()}
+        values: dict[str, Scalar] = {"load": self._load_shown()}
+        if self._says_charge:
+            values["battery"] = round(self.battery)
         self.readings.update({name: value for name, value in values.items() if name in self.readings})

@@ -12,6 +12,11 @@ export const UNIT_CHOICES: readonly { readonly value: string; readonly label: st
   ...Object.keys(TABLE).filter((code) => !COMMON.includes(code)),
 ].map((value) => ({ value, label: unitSign(value) }));
 
+const SHARES: ReadonlySet<string> = new Set(["", "PERCENT", "NUM", "UNITLESS"]);
+
+/** Whether a number in this unit is per cent, as one without a unit is; volts say nothing of how full a battery is. */
+export const isShare = (unit: string): boolean => SHARES.has(unit);
+
 /** `°C` for `DEG_C`; what is not known stays as it is, and what is no text (a document may hold anything) is none. */
 export function unitSign(unit: string | null | undefined): string {
   if (!unit || typeof unit !== "string") return "";

@@ -11,7 +11,7 @@ import pytest
 from simulation.behaviour import behaviour_of
 from simulation.kind_file import default_kinds, read_kinds
 from simulation.services import make_world
-from simulation.world import Ack, Scene, WorldEvent
+from simulation.world import Ack, Fault, PropertyChanged, Scene, WorldEvent
 from tests.unit.simulation.stage_set import OVEN, ROBOT, ROLLERS, hall, method
 from vipo_device.descriptions.reader import read_description, write_description
 from vipo_device.protocol.description import Description, ParameterSpec, Pose, PropertySpec, Scalar, Size
@@ -239,12 +239,77 @@ def test_a_robot_with_an_empty_battery_stands_until_it_is_charged() -> None:
     assert world.robots()["robot"].pose == at
 
 
-def test_a_robot_charges_at_home_and_goes_on() -> None:
-    world = make_world(scene=Scene(hall(), (ROBOT,), readings={"robot": {"battery": 0}}), driver="kinematic")
+LATE = Fault("robot", "late", at_s=5000.0, after_s=1.0)
+
+
+@pytest.mark.parametrize("faults", [(), (LATE,)], ids=["well", "with a fault to come"])
+def test_a_robot_charges_at_home_and_goes_on(faults: tuple[Fault, ...]) -> None:
+    empty = Scene(hall(), (ROBOT,), readings={"robot": {"battery": 0}}, faults=faults)
+    world = make_world(scene=empty, driver="kinematic")
     world.advance(900.0)
     assert world.readings()["robot"]["battery"] == 50
     world.command("robot", "move", {"path": [[3.0, 4.0], [5.0, 4.0]]}, "m")
     assert [e.status for e in world.advance(20.0) if isinstance(e, Ack)][-1] == "DONE"
+
+
+def test_a_robot_that_stands_with_work_uses_no_more_than_one_that_has_none() -> None:
+    away = {"robot": Pose(6.0, 4.0)}
+    charges = []
+    for does in ("rest", "wave", "wait", "drive"):
+        slow = {"robot": {"wave": 2000.0}}
+        world = make_world(scene=Scene(hall(), (ROBOT,), poses=away, paces=slow), driver="kinematic")
+        if does != "rest":
+            move = {"path": [[11.0 - x % 2 * 10, 4.0] for x in range(200)]}
+            world.command("robot", "wave" if does == "wave" else "move", {} if does == "wave" else move, "c")
+        if does == "wait":
+            world.command("robot", "pause", {}, "p")
+        world.advance(3600.0)
+        assert world.busy()["robot"] is (does != "rest")
+        charges.append(round(world.robots()["robot"].battery))
+        world.close()
+    assert charges == [96, 96, 96, 75]
+
+
+@pytest.mark.parametrize(
+    ("spec", "shown"),
+    [
+        (PropertySpec("battery", "number", "V", 20, 29), 24.6),
+        (PropertySpec("battery", "number", "V"), 0),
+        (PropertySpec("battery", "text"), "full"),
+        (PropertySpec("battery", "boolean"), True),
+    ],
+)
+def test_a_battery_that_is_not_told_in_per_cent_stays_as_it_is_and_is_never_flat(
+    spec: PropertySpec, shown: Scalar
+) -> None:
+    device = replace(ROBOT, properties=(spec,))
+    low = Fault("robot", "battery", value=0.0)
+    floor = Scene(
+        hall(),
+        (device,),
+        poses={"robot": Pose(6.0, 4.0)},
+        readings={"robot": {"battery": shown}},
+        faults=(low,),
+        delivery_s=60.0,
+    )
+    world = make_world(scene=floor, driver="kinematic")
+    assert world.readings()["robot"] == {"battery": shown}
+    said = world.advance(3660.0)
+    assert [e for e in said if isinstance(e, PropertyChanged)] == []
+    assert world.readings()["robot"] == {"battery": shown}
+    world.command("robot", "move", {"path": [[6.0, 4.0], [8.0, 4.0]]}, "m")
+    assert [e.status for e in world.advance(20.0) if isinstance(e, Ack)][-1] == "DONE"
+
+
+@pytest.mark.parametrize("unit", ["PERCENT", "", "NUM"])
+def test_a_number_without_a_measure_is_per_cent(unit: str) -> None:
+    device = replace(ROBOT, properties=(PropertySpec("battery", "number", unit),))
+    kept = {"robot": {"battery": 50}}
+    floor = Scene(hall(), (device,), poses={"robot": Pose(6.0, 4.0)}, readings=kept)
+    world = make_world(scene=floor, driver="kinematic")
+    assert world.readings()["robot"]["battery"] == 50
+    world.advance(3600.0)
+    assert world.readings()["robot"]["battery"] == 46, "a day of standing"
 
 
 def test_where_people_look_after_a_floor_they_change_an_empty_battery() -> None:

@@ -9,7 +9,8 @@ from simulation import fault_form
 from simulation.fault_form import BadFaults, check_faults, faults_to_json, read_faults, read_list
 from simulation.world import Fault
 from tests.kit.files import ROOT
-from tests.unit.simulation.stage_set import BENCH, OVEN
+from tests.unit.simulation.stage_set import BENCH, OVEN, ROBOT
+from vipo_device.protocol.description import PropertySpec
 
 ALL = [
     {"fault": "fails", "device": "oven", "error": "Too hot.", "at_step": "a", "nth": 2},
@@ -87,6 +88,26 @@ def test_a_form_that_is_none_is_refused(data, why):
 def test_a_fault_of_what_is_not_there_is_refused(fault, why):
     with pytest.raises(BadFaults, match=why):
         check_faults([fault], [replace(OVEN, id="oven"), replace(BENCH, id="bench")], ["a"])
+
+
+@pytest.mark.parametrize(
+    ("spec", "low"),
+    [
+        (PropertySpec("battery", "number", "PERCENT"), True),
+        (PropertySpec("battery", "number"), True),
+        (PropertySpec("battery", "number", "V"), False),
+        (PropertySpec("battery", "text"), False),
+        (PropertySpec("battery", "boolean"), False),
+        (PropertySpec("load", "text"), False),
+    ],
+)
+def test_a_battery_runs_low_only_where_it_is_told_in_per_cent(spec, low):
+    told = replace(ROBOT, properties=(spec,))
+    if low:
+        check_faults([Fault("robot", "battery", value=5.0)], [told], [])
+    else:
+        with pytest.raises(BadFaults, match="Robot does not say how full its battery is, so it cannot run low"):
+            check_faults([Fault("robot", "battery", value=5.0)], [told], [])
 
 
 def test_the_screens_form_knows_the_same_words_needs_and_ranges():

@@ -1,6 +1,7 @@
 /** Finding devices: by words, status, kind and what they can do. Pure. */
 import type { Device } from "@/api/types";
 import { activityWords } from "@/i18n/activity";
+import { isShare } from "@/i18n/units";
 
 export interface DeviceFilter {
   readonly query: string;
@@ -39,12 +40,10 @@ export function methodNames(devices: readonly Device[]): string[] {
   return [...new Set(devices.flatMap((device) => device.methods.map((method) => method.name)))].sort();
 }
 
-const SHARES: ReadonlySet<string> = new Set(["", "PERCENT", "NUM", "UNITLESS"]);
-
 /** Per cent, when the device tells how full its battery is; null where it tells volts. */
 export function batteryOf(device: Device): number | null {
   const battery = device.properties.find((property) => property.name === "battery");
-  return typeof battery?.value === "number" && SHARES.has(battery.unit) ? battery.value : null;
+  return typeof battery?.value === "number" && isShare(battery.unit) ? battery.value : null;
 }
 
 /** 0 to 1 of the job at hand; null when it has none or does not say. */

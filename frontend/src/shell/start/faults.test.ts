@@ -12,13 +12,13 @@ import {
   problemsOf,
 } from "./faults";
 
-const device = (id: string, kind: string, properties: { name: string; type: string }[]) =>
+const device = (id: string, kind: string, properties: { name: string; type: string; unit?: string }[]) =>
   ({ id, name: id, kind, lifecycle: "approved", properties }) as unknown as Device;
 const oven = device("oven", "machine", [
   { name: "temperature", type: "number" },
   { name: "quality", type: "string" },
 ]);
-const robot = device("robot", "robot", [{ name: "battery", type: "number" }]);
+const robot = device("robot", "robot", [{ name: "battery", type: "number", unit: "PERCENT" }]);
 const plain = device("plain", "robot", []);
 const away = { ...oven, id: "away", lifecycle: "pending" } as Device;
 const around = { devices: [oven, robot, plain, away], steps: new Set(["a"]) };
@@ -92,6 +92,16 @@ test("only robots drop things, and only those that tell of a battery can run low
     ["oven", "robot"],
     ["oven", "robot", "plain"],
   ]);
+});
+
+test("a battery that is told in volts, in words or by yes or no says nothing of how full it is", () => {
+  const robots = [
+    device("share", "robot", [{ name: "battery", type: "number", unit: "" }]),
+    device("volts", "robot", [{ name: "battery", type: "number", unit: "V" }]),
+    device("words", "robot", [{ name: "battery", type: "text", unit: "" }]),
+    device("truth", "robot", [{ name: "battery", type: "boolean", unit: "" }]),
+  ];
+  expect(devicesFor("battery", robots).map(({ id }) => id)).toEqual(["share"]);
 });
 
 test("what the server tells of a fault is a form again, and the same when it is sent", () => {

@@ -1,5 +1,6 @@
 /** Faults on purpose as a form has them, what is wrong with them, and how the server is told of them; pure. */
 import type { Device } from "@/api/types";
+import { isShare } from "@/i18n/units";
 import table from "./faultKinds.json";
 
 type Scalar = string | number | boolean;
@@ -74,7 +75,12 @@ export function devicesFor(fault: FaultWord, devices: readonly Device[]): readon
   if (fault === "drops") return there.filter(({ kind }) => kind === "robot");
   if (fault === "wrong_value") return there.filter(({ properties }) => properties.length > 0);
   if (fault !== "battery") return there;
-  return there.filter(({ kind, properties }) => kind === "robot" && properties.some(({ name }) => name === "battery"));
+  return there.filter(({ kind, properties }) => kind === "robot" && properties.some(saysCharge));
+}
+
+/** Whether it says how full a battery is, as the server asks (`vipo_device/protocol/batteries.py`). */
+function saysCharge({ name, type, unit }: Device["properties"][number]): boolean {
+  return name === "battery" && type === "number" && isShare(unit);
 }
 
 /** The fields of a fault that cannot be sent as they are, by their names. */

@@ -47,6 +47,14 @@ def test_the_robot_that_comes_holds_all_that_the_program_picks(large: str, picks
     assert [load for _, load in result["carrying"][large]][-2:] == [{"can": 2}, {}]
 
 
+@pytest.mark.parametrize("picks", [(3,), (1, 2)])
+def test_a_robot_that_does_not_say_how_much_it_holds_holds_what_the_program_picks(picks: tuple[int, ...]) -> None:
+    result, robots = rehearsed({"robot01": 0, "robot02": 0, "robot03": 0}, *picks)
+    (robot,) = robots
+    assert (result["ok"], result["errors"]) == (True, [])
+    assert [load for _, load in result["carrying"][robot]][-2:] == [{"can": 3}, {}]
+
+
 def test_a_program_that_any_robot_can_carry_out_takes_the_nearest_though_it_is_small() -> None:
     near = rehearsed({}, 1)[1]
     (small,) = near
