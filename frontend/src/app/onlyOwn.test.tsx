@@ -1,12 +1,12 @@
 // @vitest-environment jsdom
 import { type QueryClient } from "@tanstack/react-query";
 import { act, fireEvent, screen } from "@testing-library/react";
-import { beforeEach, expect, test, vi } from "vitest";
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { keys, makeQueryClient, useMe } from "@/api/queries";
 import type { Device } from "@/api/types";
 import { useSiteLive } from "@/live/site";
 import { EMPTY, useLiveStore } from "@/live/store";
-import { useShownKey } from "@/pages/devices/keys/shownKey";
+import { useShownKeys } from "@/pages/devices/keys/shownKey";
 import { useMembers } from "@/pages/settings/people";
 import { SignInPage } from "@/pages/signin/SignInPage";
 import { showAt, testsPages } from "@/testing/page";
@@ -58,8 +58,9 @@ beforeEach(async () => {
   useLiveStore.setState(EMPTY);
   await openPage();
   useLiveStore.setState({ deviceById: { mixer: { id: "mixer" } as Device } });
-  useShownKey.getState().show(KEY);
+  useShownKeys.setState([KEY, KEY], true);
 });
+afterEach(() => useShownKeys.setState([], true));
 
 async function openPage() {
   queries = makeQueryClient();
@@ -70,14 +71,14 @@ async function openPage() {
 }
 
 const text = () => screen.queryByRole("main")?.textContent;
-const known = () => [Object.keys(useLiveStore.getState().deviceById), useShownKey.getState().shown];
+const known = () => [Object.keys(useLiveStore.getState().deviceById), useShownKeys.getState()];
 const fill = (label: string, value: string) => fireEvent.change(screen.getByLabelText(label), { target: { value } });
 
 test("who signs in where another's session has ended sees nothing of theirs", async () => {
   signedIn = null;
   act(() => Line.all[0]?.onclose?.({ code: 4401 }));
   await expect.poll(() => screen.queryByLabelText("Email address")).not.toBeNull();
-  expect(known()).toEqual([[], null]);
+  expect(known()).toEqual([[], []]);
   fill("Email address", "bartholomew@fab.example");
   fill("Password", "four odd words");
   fireEvent.click(screen.getByRole("button", { name: "Sign in" }));
@@ -89,10 +90,10 @@ test("who signs in elsewhere in the same browser takes another's place with noth
   signedIn = "Bartholomew";
   await act(() => queries.refetchQueries({ queryKey: keys.me }));
   await expect.poll(text).toBe("Bartholomew sees nobody");
-  expect(known()).toEqual([[], null]);
+  expect(known()).toEqual([[], []]);
 });
 
 test("what was fetched stays while the same person is signed in", async () => {
   await act(() => queries.refetchQueries({ queryKey: keys.me }));
-  expect([text(), known()]).toEqual(["Anna sees Carla", [["mixer"], KEY]]);
+  expect([text(), known()]).toEqual(["Anna sees Carla", [["mixer"], [KEY, KEY]]]);
 });

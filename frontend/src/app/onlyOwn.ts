@@ -4,7 +4,7 @@ import { hashKey, type Query, type QueryClient } from "@tanstack/react-query";
 import { keys } from "@/api/queries";
 import type { Me } from "@/api/types";
 import { forgetLive } from "@/live/site";
-import { useShownKey } from "@/pages/devices/keys/shownKey";
+import { useShownKeys } from "@/pages/devices/keys/shownKey";
 
 const ME = hashKey(keys.me);
 
@@ -25,6 +25,6 @@ function forget(queries: QueryClient, isAnybody: boolean): void {
   if (isAnybody) void queries.resetQueries({ predicate });
   else queries.removeQueries({ predicate });
   forgetLive(isAnybody);
-  useShownKey.getState().forget();
+  useShownKeys.setState([], true);
   notifications.clean(); // what they say and offer was for who has left
 }

@@ -1,13 +1,13 @@
 // @vitest-environment jsdom
-import { cleanup, render, screen } from "@testing-library/react";
+import { cleanup, fireEvent, render, screen } from "@testing-library/react";
 import { afterEach, expect, test } from "vitest";
 import { useFocusAfter, useReturnFocus } from "./useReturnFocus";
 
 afterEach(cleanup);
 
 function Dialog() {
-  useReturnFocus();
-  return <input aria-label="in it" />;
+  const goOnElsewhere = useReturnFocus(() => document.getElementById("heading"));
+  return <input aria-label="in it" onChange={goOnElsewhere} />;
 }
 
 function Page({ open, menu }: { open: boolean; menu: boolean }) {
@@ -32,6 +32,26 @@ test.each([false, true])("the focus goes back to what opened the dialog (by a me
   screen.getByLabelText("in it").focus();
   rerender(<Page open={false} menu={false} />);
   expect(document.activeElement?.id).toBe("opener");
+});
+
+test.each([false, true])("where what opened the dialog has gone, or will (%s), the focus goes elsewhere", (later) => {
+  const page = (row: boolean, open: boolean) => (
+    <>
+      <h2 id="heading" tabIndex={-1}>
+        Rows
+      </h2>
+      {row ? <button>Remove</button> : null}
+      {open ? <Dialog /> : null}
+    </>
+  );
+  const { rerender } = render(page(true, false));
+  screen.getByText("Remove").focus();
+  rerender(page(true, true));
+  screen.getByLabelText("in it").focus();
+  if (later) fireEvent.change(screen.getByLabelText("in it"), { target: { value: "Yes" } });
+  else rerender(page(false, true));
+  rerender(page(later, false));
+  expect(document.activeElement?.id).toBe("heading");
 });
 
 function Card() {

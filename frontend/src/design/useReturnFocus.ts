@@ -8,9 +8,17 @@ function opener(): HTMLElement | null {
   return button ? document.getElementById(button) : active instanceof HTMLElement ? active : null;
 }
 
-export function useReturnFocus(): void {
+/**
+ * `otherwise` finds who has the focus where what opened the dialog has gone too, such as the row of what was removed.
+ * Call what is returned where that is about to go: a list is often drawn anew only after the dialog has closed.
+ */
+export function useReturnFocus(otherwise: () => HTMLElement | null = () => null): () => void {
   const [from] = useState(opener);
-  useFocusAfter(() => from);
+  const isGoing = useRef(false);
+  useFocusAfter(() => (from?.isConnected && !isGoing.current ? from : otherwise()));
+  return () => {
+    isGoing.current = true;
+  };
 }
 
 /** When the caller goes and takes the focus with it, what `find` finds then has it. */

@@ -2,7 +2,7 @@
 import { Button, Modal, PasswordInput, TextInput } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
-import { useState, type FormEvent, type ReactNode } from "react";
+import { useRef, useState, type FormEvent, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { api, ApiProblem } from "@/api/client";
 import type { Factor, NewFactor, RecoveryCodes } from "@/api/types";
@@ -12,6 +12,7 @@ import { takeKeyboard } from "@/design/takeKeyboard";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatMoment } from "@/i18n/format";
 import { LoadProblem } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import styles from "./account.module.css";
 import { Told } from "./Told";
@@ -27,15 +28,21 @@ interface Proof {
   code: string;
 }
 
-/** Something that is done with the own password; how the factor stands is read anew afterwards. */
-function useProven<Told>(path: string, onTold: (told: Told, proof: Proof) => void) {
+/** Keeps the dialog open, or lets it be closed again. */
+type Hold = (isHeld: boolean) => void;
+
+/** Something that is done with the own password: what is told once is shown at once, then all is read anew. */
+function useProven<Told>(path: string, onTold: (told: Told) => void, hold: Hold) {
   const queries = useQueryClient();
   return useMutation({
     mutationFn: (proof: Proof) => api.post<Told>(path, proof),
-    onSuccess: async (told, proof) => {
-      await queries.invalidateQueries();
-      onTold(told, proof);
+    onSuccess: (told) => {
+      onTold(told);
+      return queries.invalidateQueries();
     },
+    onError: useTellUnseen(),
+    onMutate: () => hold(true),
+    onSettled: () => hold(false),
   });
 }
 
@@ -97,7 +104,7 @@ function ProofForm({ code, go, error, busy, children, password, onSend, onClose 
       ) : null}
       <Told error={error} done="" />
       <div className={pages.buttons}>
-        <Button variant="default" onClick={onClose}>
+        <Button variant="default" disabled={busy} onClick={onClose}>
           {t("factor.cancel")}
         </Button>
         <Button
@@ -138,20 +145,16 @@ function CodesShown({ codes, note, onClose }: { codes: readonly string[]; note?:
   );
 }
 
-/** The app's secret as a picture and as text, and the code by which the app shows that it has it. */
-function Confirm({
-  made,
-  password,
-  onCodes,
-  onClose,
-}: {
-  made: NewFactor;
-  password: string;
+interface CodesProps {
   onCodes: (codes: readonly string[]) => void;
+  hold: Hold;
   onClose: () => void;
-}) {
+}
+
+/** The app's secret as a picture and as text, and the code by which the app shows that it has it. */
+function Confirm({ made, password, onCodes, hold, onClose }: CodesProps & { made: NewFactor; password: string }) {
   const { t } = useTranslation();
-  const confirm = useProven<RecoveryCodes>(`${PATH}/confirm`, ({ codes }) => onCodes(codes));
+  const confirm = useProven<RecoveryCodes>(`${PATH}/confirm`, ({ codes }) => onCodes(codes), hold);
   return (
     <ProofForm
       code="code"
@@ -169,28 +172,30 @@ function Confirm({
   );
 }
 
-function SetUp({ onCodes, onClose }: { onCodes: (codes: readonly string[]) => void; onClose: () => void }) {
+function SetUp({ hold, ...rest }: CodesProps) {
   const { t } = useTranslation();
   const [made, setMade] = useState<{ factor: NewFactor; password: string } | null>(null);
   const begin = useMutation({
     mutationFn: ({ password }: Proof) => api.post<NewFactor>(PATH, { password }),
     onSuccess: (factor, { password }) => setMade({ factor, password }),
+    onMutate: () => hold(true),
+    onSettled: () => hold(false),
   });
-  if (made) return <Confirm made={made.factor} password={made.password} onCodes={onCodes} onClose={onClose} />;
+  if (made) return <Confirm made={made.factor} password={made.password} hold={hold} {...rest} />;
   return (
     <ProofForm
       go={t("factor.go")}
       error={begin.error}
       busy={begin.isPending}
       onSend={(proof) => begin.mutate(proof)}
-      onClose={onClose}
+      onClose={rest.onClose}
     />
   );
 }
 
-function Renew({ onCodes, onClose }: { onCodes: (codes: readonly string[]) => void; onClose: () => void }) {
+function Renew({ onCodes, hold, onClose }: CodesProps) {
   const { t } = useTranslation();
-  const renew = useProven<RecoveryCodes>(`${PATH}/recovery-codes`, ({ codes }) => onCodes(codes));
+  const renew = useProven<RecoveryCodes>(`${PATH}/recovery-codes`, ({ codes }) => onCodes(codes), hold);
   return (
     <ProofForm
       code="anyCode"
@@ -205,19 +210,17 @@ function Renew({ onCodes, onClose }: { onCodes: (codes: readonly string[]) => vo
   );
 }
 
-function TurnOff({ onClose }: { onClose: () => void }) {
+function TurnOff({ onDone, hold, onClose }: { onDone: () => void; hold: Hold; onClose: () => void }) {
   const { t } = useTranslation();
-  const off = useProven<Factor>(`${PATH}/off`, () => {
-    notifications.show({ message: t("factor.turnedOff") });
-    onClose();
-  });
+  const tell = () => notifications.show({ message: t("factor.turnedOff") });
+  const off = useProven<Factor>(`${PATH}/off`, tell, hold);
   return (
     <ProofForm
       code="anyCode"
       go={t("factor.turnOff")}
       error={off.error}
       busy={off.isPending}
-      onSend={(proof) => off.mutate(proof)}
+      onSend={(proof) => off.mutate(proof, { onSuccess: onDone })}
       onClose={onClose}
     >
       <p>{t("factor.offText")}</p>
@@ -231,24 +234,42 @@ const TITLES: Readonly<Record<Doing, string>> = {
   off: "factor.offTitle",
 };
 
-function Dialog({ doing, onClose }: { doing: Doing; onClose: () => void }) {
+interface DialogProps {
+  doing: Doing;
+  onClose: () => void;
+  /** Who has the focus when the dialog is gone, and with it the button that opened it. */
+  otherwise: () => HTMLElement | null;
+}
+
+function Dialog({ doing, onClose, otherwise }: DialogProps) {
   const { t } = useTranslation();
-  useReturnFocus();
+  const goOnElsewhere = useReturnFocus(otherwise);
   const [codes, setCodes] = useState<readonly string[] | null>(null);
+  // Neither before it is known what comes of a proof, nor where codes are shown, by a slip of the hand.
+  const [isHeld, hold] = useState(false);
+  const isKept = isHeld || codes !== null;
+  const show = (told: readonly string[]) => {
+    goOnElsewhere();
+    setCodes(told);
+  };
+  const done = () => {
+    goOnElsewhere();
+    onClose();
+  };
   const note = doing === "begin" ? t("factor.elsewhere") : undefined;
   return (
     <Modal
       opened
       onClose={onClose}
-      closeOnEscape={codes === null}
-      withCloseButton={codes === null}
+      closeOnEscape={!isKept}
+      withCloseButton={!isKept}
       title={t(codes ? "factor.codes" : TITLES[doing])}
       size={460}
     >
       {codes ? <CodesShown codes={codes} note={note} onClose={onClose} /> : null}
-      {!codes && doing === "begin" ? <SetUp onCodes={setCodes} onClose={onClose} /> : null}
-      {!codes && doing === "renew" ? <Renew onCodes={setCodes} onClose={onClose} /> : null}
-      {!codes && doing === "off" ? <TurnOff onClose={onClose} /> : null}
+      {!codes && doing === "begin" ? <SetUp onCodes={show} hold={hold} onClose={onClose} /> : null}
+      {!codes && doing === "renew" ? <Renew onCodes={show} hold={hold} onClose={onClose} /> : null}
+      {!codes && doing === "off" ? <TurnOff onDone={done} hold={hold} onClose={onClose} /> : null}
     </Modal>
   );
 }
@@ -257,6 +278,7 @@ export function SecondFactor() {
   const { t } = useTranslation();
   const factor = useQuery({ queryKey: KEY, queryFn: () => api.get<Factor>(PATH) });
   const [doing, setDoing] = useState<Doing | null>(null);
+  const heading = useRef<HTMLHeadingElement>(null);
   if (factor.isLoadingError) return <LoadProblem error={factor.error} again={() => void factor.refetch()} />;
   if (!factor.data) return null;
   const { since, recovery_codes: left } = factor.data;
@@ -264,7 +286,9 @@ export function SecondFactor() {
     <Panel className={styles.card} role="region" aria-labelledby="second-factor">
       <div className={styles.form}>
         <div>
-          <h2 id="second-factor">{t("factor.title")}</h2>
+          <h2 ref={heading} tabIndex={-1} id="second-factor">
+            {t("factor.title")}
+          </h2>
           <p>{since ? t("factor.on", { when: formatMoment(since) }) : t("factor.off")}</p>
           {since ? <p>{t("factor.left", { count: left })}</p> : null}
         </div>
@@ -283,7 +307,7 @@ export function SecondFactor() {
           </Button>
         )}
       </div>
-      {doing ? <Dialog doing={doing} onClose={() => setDoing(null)} /> : null}
+      {doing ? <Dialog doing={doing} onClose={() => setDoing(null)} otherwise={() => heading.current} /> : null}
     </Panel>
   );
 }

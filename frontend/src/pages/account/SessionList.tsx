@@ -3,13 +3,14 @@ import { Button } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { useRef } from "react";
 import { useTranslation } from "react-i18next";
-import { api } from "@/api/client";
+import { api, ApiProblem } from "@/api/client";
 import { keys, useMySessions } from "@/api/queries";
 import type { OwnSession } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { useNow } from "@/design/useNow";
 import { formatAgo, formatMoment } from "@/i18n/format";
 import { LoadProblem } from "@/shell/LoadProblem";
+import { tellRefusal } from "@/shell/refusal";
 import styles from "./account.module.css";
 
 function useName(session: OwnSession): string {
@@ -30,8 +31,11 @@ function Session({ session, now, onEnded }: { session: OwnSession; now: number; 
       queries.setQueryData<OwnSession[]>(keys.mySessions, (all) => all?.filter((each) => each.id !== session.id));
       onEnded();
     },
-    // One that has ended meanwhile is not there any more: the list says so.
-    onError: () => void queries.invalidateQueries({ queryKey: keys.mySessions }),
+    onError: (error) => {
+      // One that has ended meanwhile is not there any more: the list says so.
+      if (!(error instanceof ApiProblem && error.status === 404)) tellRefusal(error, t);
+      void queries.invalidateQueries({ queryKey: keys.mySessions });
+    },
   });
   return (
     <li className={styles.session}>

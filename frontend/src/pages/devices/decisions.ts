@@ -7,7 +7,7 @@ import { keys } from "@/api/queries";
 import type { Device } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
 import { formatNumber } from "@/i18n/format";
-import { useShownKey } from "./keys/shownKey";
+import { useShownKeys, type ShownKey } from "./keys/shownKey";
 
 export type Decision =
   | { do: "approve" | "reject" | "retire" | "readmit" | "rotate" | "revoke"; device: Device }
@@ -43,11 +43,12 @@ function send(slug: string, decision: Decision): Promise<Told> {
   }
 }
 
+const show = (key: ShownKey) => useShownKeys.setState((all) => [...all, key], true);
+
 /** Decide about a device. Decisions, as moves on the map, go out one after another. */
 export function useDecide(slug: string) {
   const { t } = useTranslation();
   const queries = useQueryClient();
-  const show = useShownKey((state) => state.show);
   return useMutation({
     scope: { id: `places ${slug}` },
     mutationFn: (decision: Decision) => send(slug, decision),
@@ -55,7 +56,13 @@ export function useDecide(slug: string) {
       const { device } = decision;
       if (credential) show({ device: device.id, name: device.name, credential, taken });
       notifications.show({ message: doneText(t, decision) });
-      const changed = [keys.devices(slug), keys.site(slug), keys.sites, keys.deviceEvents(slug, device.id)];
+      const changed = [
+        keys.devices(slug),
+        keys.site(slug),
+        keys.sites,
+        keys.deviceEvents(slug, device.id),
+        keys.rdf(slug, device.id),
+      ];
       for (const queryKey of changed) void queries.invalidateQueries({ queryKey });
     },
     onError: (error) =>

@@ -9,6 +9,7 @@ import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { Program, Version } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import styles from "../pages.module.css";
 
 interface CopyProps {
@@ -29,6 +30,7 @@ export function CopyVersion({ version, program, onClose }: CopyProps) {
       void queries.invalidateQueries({ queryKey: keys.programs(program.site) });
       return navigate(`/programs/${made.id}`);
     },
+    onError: useTellUnseen(),
   });
   const submit = (event: FormEvent) => {
     event.preventDefault();

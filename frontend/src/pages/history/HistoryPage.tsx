@@ -88,7 +88,8 @@ function Versions({ program, site }: { program: Program; site: Site }) {
           <Rows key={versions[0]?.number} {...{ versions, program, site }} before={parts[at + 1]?.[0]?.number} />
         ))}
       </ol>
-      {query.hasNextPage ? (
+      {query.isFetchNextPageError ? <LoadProblem error={query.error} again={() => void query.fetchNextPage()} /> : null}
+      {query.hasNextPage && !query.isFetchNextPageError ? (
         <Button variant="default" loading={query.isFetchingNextPage} onClick={() => void query.fetchNextPage()}>
           {t("history.older")}
         </Button>

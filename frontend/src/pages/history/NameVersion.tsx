@@ -5,6 +5,7 @@ import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { Program, Version } from "@/api/types";
+import { useTellUnseen } from "@/shell/refusal";
 import { VersionForm, type VersionWords } from "./VersionForm";
 
 interface NameProps {
@@ -23,6 +24,7 @@ export function NameVersion({ version, program, onClose }: NameProps) {
       onClose();
       return queries.invalidateQueries({ queryKey: keys.versions(program.id) });
     },
+    onError: useTellUnseen(),
   });
   return (
     <VersionForm

@@ -8,12 +8,12 @@ import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { Program, Version } from "@/api/types";
+import { useTellUnseen } from "@/shell/refusal";
 import { VersionForm, type VersionWords } from "./VersionForm";
 
-export function SaveVersion({ program }: { program: Program }) {
+function SaveForm({ program, onClose }: { program: Program; onClose: () => void }) {
   const { t } = useTranslation();
   const queries = useQueryClient();
-  const [opened, setOpened] = useState(false);
   const save = useMutation({
     mutationFn: async (words: VersionWords) => {
       const before = await api.part<Version>(`/programs/${program.id}/versions?limit=1`);
@@ -21,25 +21,32 @@ export function SaveVersion({ program }: { program: Program }) {
       return { made, isNew: made.number !== before.items[0]?.number };
     },
     onSuccess: ({ made, isNew }) => {
-      setOpened(false);
+      onClose();
       notifications.show({ message: t(isNew ? "history.saved" : "history.unchanged", { number: made.number }) });
       return queries.invalidateQueries({ queryKey: keys.versions(program.id) });
     },
+    onError: useTellUnseen(),
   });
+  return (
+    <VersionForm
+      title={t("history.save_title")}
+      busy={save.isPending}
+      error={save.error}
+      onSend={save.mutate}
+      onClose={onClose}
+    />
+  );
+}
+
+export function SaveVersion({ program }: { program: Program }) {
+  const { t } = useTranslation();
+  const [opened, setOpened] = useState(false);
   return (
     <>
       <Button leftSection={<Bookmark size={16} aria-hidden="true" />} onClick={() => setOpened(true)}>
         {t("history.save")}
       </Button>
-      {opened ? (
-        <VersionForm
-          title={t("history.save_title")}
-          busy={save.isPending}
-          error={save.error}
-          onSend={save.mutate}
-          onClose={() => setOpened(false)}
-        />
-      ) : null}
+      {opened ? <SaveForm program={program} onClose={() => setOpened(false)} /> : null}
     </>
   );
 }

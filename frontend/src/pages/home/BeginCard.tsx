@@ -4,6 +4,7 @@ import { Play, X } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
+import { tellRefusal } from "@/shell/refusal";
 import { hasTried, markTried } from "@/shell/triedSteps";
 import { useDevices, useMe, usePrograms, useSiteMap } from "@/api/queries";
 import { useRuns } from "@/api/runs";
@@ -39,7 +40,7 @@ function Steps({ steps }: { steps: readonly DemoStep[] }) {
 function useContinue(site: Site, user: User, programs: readonly Program[], next: DemoStep | undefined) {
   const { t } = useTranslation();
   const navigate = useNavigate();
-  const create = useCreateProgram(site.slug);
+  const create = useCreateProgram(site.slug, (error) => tellRefusal(error, t));
   const own = ownProgram(user, programs) ?? programs.find((each) => each.name === t("pages.home.firstProgram"));
   const go = () => {
     if (next?.key === "look") void navigate(`/sites/${site.slug}/map`);

@@ -10,6 +10,7 @@ import type { Device, Site, SiteMap } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { StaticMap } from "@/map/StaticMap";
+import { tellRefusal } from "@/shell/refusal";
 import { planOf } from "../devices/robotMap/robotPlan";
 import { MappingRobots, useMappingRobots } from "../map/MappingRobots";
 import { useCreateProgram } from "../programs/NewProgram";
@@ -94,7 +95,7 @@ function Steps({ site, steps, next }: { site: Site; steps: readonly StartStep[];
 
 function Next({ site, step }: { site: Site; step: StartStep }) {
   const { t } = useTranslation();
-  const create = useCreateProgram(site.slug);
+  const create = useCreateProgram(site.slug, (error) => tellRefusal(error, t));
   const { key } = step;
   const words = t(`mapEdit.start.go.${key}`);
   const icon = <ArrowRight size={16} aria-hidden="true" />;

@@ -4,7 +4,12 @@ import { demoSteps, ownProgram } from "./demoSteps";
 
 const ada: User = { id: 1, name: "Ada", initials: "A", email: "ada@vipo.example" };
 const program = (id: string, by: string | null, edited_at: string, kinds = ["pick_and_drop"]) =>
-  ({ id, edited_by: by ? { name: by, initials: "" } : null, edited_at, kinds }) as unknown as Program;
+  ({
+    id,
+    edited_by: by ? { id: by === "Ada" ? ada.id : 2, name: by, initials: "" } : null,
+    edited_at,
+    kinds,
+  }) as unknown as Program;
 const run = (by: string) => ({ started_by: { name: by, initials: "" } }) as unknown as RunSummary;
 const NOTHING = { user: ada, programs: [], runs: [], lookedAround: false, simulated: false };
 const done = (known: Parameters<typeof demoSteps>[0]) =>
@@ -22,6 +27,11 @@ test("only one's own drawing and runs count", () => {
   expect(done(others)).toEqual([]);
   const own = { ...NOTHING, programs: [program("a", "Ada", "2026-01-01")], runs: [run("Ada")] };
   expect(done(own)).toEqual(["draw", "run"]);
+});
+
+test("a program of somebody of the same name is not one's own", () => {
+  const other = { ...program("a", "Ada", "2026-01-01"), edited_by: { id: 9, name: "Ada", initials: "A" } };
+  expect(ownProgram(ada, [other])).toBeUndefined();
 });
 
 test("looking around and simulating are ticked by themselves", () => {

@@ -18,7 +18,7 @@ interface Known {
 /** The program that this person last drew a Pick-and-Drop in, if any. */
 export function ownProgram(user: User, programs: readonly Program[]): Program | undefined {
   return programs
-    .filter((each) => nameOf(each.edited_by) === user.name && each.kinds.includes("pick_and_drop"))
+    .filter((each) => each.edited_by?.id === user.id && each.kinds.includes("pick_and_drop"))
     .sort((a, b) => b.edited_at.localeCompare(a.edited_at))[0];
 }
 

@@ -9,6 +9,7 @@ import { api } from "@/api/client";
 import { useSites } from "@/api/queries";
 import type { LibraryFunction } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import pages from "../pages.module.css";
 
 const DRAW: readonly string[] = ["author", "admin"];
@@ -73,5 +74,6 @@ function useCopy(wanted: { site: string; name: string; item: LibraryFunction; on
       onClose();
       void navigate(`/sites/${made.site}/library/${made.id}`);
     },
+    onError: useTellUnseen(),
   });
 }

@@ -5,6 +5,7 @@ import { Search, SquareFunction } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useParams } from "react-router-dom";
+import { ApiProblem } from "@/api/client";
 import { useLibrary, useLibraryFunction } from "@/api/queries";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
@@ -35,6 +36,23 @@ function EmptyLibrary({ slug }: { slug: string }) {
 function Count({ count, hasMore }: { count: number; hasMore: boolean }) {
   const { t } = useTranslation();
   return <Chip>{hasMore ? t("library.first", { count }) : t("library.functions", { count })}</Chip>;
+}
+
+interface BeyondProps {
+  slug: string;
+  error: Error;
+  again: () => void;
+}
+
+/** An address that leads to a function which is not here, or not any more; or which could not be fetched. */
+function NoFunction({ slug, error, again }: BeyondProps) {
+  const { t } = useTranslation();
+  if (!(error instanceof ApiProblem && error.status === 404)) return <LoadProblem error={error} again={again} />;
+  return (
+    <p role="alert" className={styles.noSuch}>
+      {t("library.noSuch")} <Link to={`/sites/${slug}/library`}>{t("library.toList")}</Link>
+    </p>
+  );
 }
 
 export function LibraryPage() {
@@ -79,6 +97,9 @@ export function LibraryPage() {
             onChange={(event) => setFitting(event.currentTarget.checked)}
           />
         </div>
+        {beyond.isLoadingError && !chosen ? (
+          <NoFunction slug={slug} error={beyond.error} again={() => void beyond.refetch()} />
+        ) : null}
         {found.isPending ? <TableSkeleton /> : null}
         {found.isLoadingError ? <LoadProblem error={found.error} again={() => void found.refetch()} /> : null}
         {found.data && items.length === 0 && narrowed ? <NothingFound clear={clear} /> : null}

@@ -1,6 +1,5 @@
 /** Changing a site's map by hand: tools, undo and redo until it is saved as a new version. */
 import { Button } from "@mantine/core";
-import { notifications } from "@mantine/notifications";
 import { Check, Redo2, Undo2, X } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
@@ -33,9 +32,8 @@ export function MapEditor({ site, newest }: { site: Site; newest: SiteMap }) {
   const isChanged = edits.now !== base;
   const choose = (tool: typeof settings.tool) => set({ ...settings, tool });
   useEditKeys({ choose, undo, redo, isOff: stage !== "drawing" });
-  const saved = (version: number) => {
+  const saved = () => {
     setStage("saved");
-    notifications.show({ message: t("mapEdit.saved", { version }) });
     // the guard lets go with the next render
     window.setTimeout(() => void navigate(`/sites/${site.slug}/map`));
   };

@@ -1,5 +1,6 @@
 /** Before a changed or brought map is saved: what it changes, and which machines, places and programs it troubles. */
 import { Button, Modal, Skeleton } from "@mantine/core";
+import { notifications } from "@mantine/notifications";
 import { TriangleAlert } from "lucide-react";
 import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
@@ -11,6 +12,7 @@ import { isSameMap } from "@/api/wholeMap";
 import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatNumber, withUnit } from "@/i18n/format";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import styles from "./mapEdit.module.css";
 
 const AMOUNTS = [
@@ -33,7 +35,8 @@ interface SaveProps {
   /** The map that was changed, and the one that the site has by now. */
   base: MapName;
   newest: MapName;
-  onSaved: (version: number) => void;
+  /** It is saved and told; not called once this dialog is gone. */
+  onSaved: () => void;
   onClose: () => void;
 }
 
@@ -45,11 +48,23 @@ export function SaveDialog({ slug, title, action, makeForm, source, base, newest
   const [form] = useState(makeForm);
   useEffect(() => lookAt(form), [lookAt, form]);
   const isOvertaken = !isSameMap(newest, base) || (bring.error instanceof ApiProblem && bring.error.status === 412);
+  const tellUnseen = useTellUnseen();
+  /** What comes of it is told also to who has left the page before the answer. */
   const save = () =>
-    bring.mutate({ form, source, replaces: newest.tag }, { onSuccess: ({ version }) => onSaved(version) });
+    bring
+      .mutateAsync({ form, source, replaces: newest.tag }, { onSuccess: onSaved })
+      .then(({ version }) => notifications.show({ message: t("mapEdit.saved", { version }) }), tellUnseen);
   const problem = look.error ?? (isOvertaken ? null : bring.error);
   return (
-    <Modal opened onClose={onClose} title={title} size={560}>
+    // Behind it the map could be drawn on while it is being saved: so it stays until the answer.
+    <Modal
+      opened
+      onClose={onClose}
+      closeOnEscape={!bring.isPending}
+      withCloseButton={!bring.isPending}
+      title={title}
+      size={560}
+    >
       <div className={styles.dialog}>
         {look.data ? <Difference slug={slug} difference={look.data} /> : null}
         {look.isPending ? <Skeleton height={120} radius="md" /> : null}
@@ -65,10 +80,10 @@ export function SaveDialog({ slug, title, action, makeForm, source, base, newest
         ) : null}
         <p className={styles.quiet}>{t("mapEdit.kept")}</p>
         <div className={styles.decide}>
-          <Button variant="default" onClick={onClose} data-autofocus>
+          <Button variant="default" disabled={bring.isPending} onClick={onClose} data-autofocus>
             {t("keys.cancel")}
           </Button>
-          <Button loading={bring.isPending} disabled={!look.data} onClick={save}>
+          <Button loading={bring.isPending} disabled={!look.data} onClick={() => void save()}>
             {isOvertaken ? t("mapEdit.saveOver") : action}
           </Button>
         </div>

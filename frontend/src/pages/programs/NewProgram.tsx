@@ -9,14 +9,15 @@ import { api } from "@/api/client";
 import { keys, useSite } from "@/api/queries";
 import type { Program, Role } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 
 /** Whether the role may edit programs. */
 export function mayEdit(role: Role | undefined): boolean {
   return role === "author" || role === "admin";
 }
 
-/** Makes a program and opens it. */
-export function useCreateProgram(slug: string) {
+/** Makes a program and opens it; `onRefused` is called also where the caller is gone by then. */
+export function useCreateProgram(slug: string, onRefused: (error: Error) => void) {
   const queries = useQueryClient();
   const navigate = useNavigate();
   return useMutation({
@@ -25,6 +26,7 @@ export function useCreateProgram(slug: string) {
       void queries.invalidateQueries({ queryKey: keys.programs(slug) });
       await navigate(`/programs/${program.id}`);
     },
+    onError: onRefused,
   });
 }
 
@@ -48,7 +50,7 @@ export function NewProgramButton({ slug }: { slug: string }) {
 function NewProgramForm({ slug }: { slug: string }) {
   const { t } = useTranslation();
   const [name, setName] = useState("");
-  const create = useCreateProgram(slug);
+  const create = useCreateProgram(slug, useTellUnseen());
   const submit = (event: FormEvent) => {
     event.preventDefault();
     create.mutate(name.trim() || t("pages.programs.untitled"));

@@ -6,6 +6,7 @@ import { Ellipsis, Pencil, Send, Trash2 } from "lucide-react";
 import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { Program } from "@/api/types";
@@ -18,7 +19,7 @@ interface DialogProps {
   onClose: () => void;
 }
 
-/** Sends a change of the list, says that it is done, and closes the dialog; a refusal stays in the dialog. */
+/** Sends a change of the list, says that it is done, and closes the dialog, where a refusal stays while it is open. */
 function useChange<T>(program: Program, change: (value: T) => Promise<unknown>, done: string, onClose: () => void) {
   const queries = useQueryClient();
   return useMutation({
@@ -29,6 +30,7 @@ function useChange<T>(program: Program, change: (value: T) => Promise<unknown>, 
       void queries.invalidateQueries({ queryKey: keys.program(program.id) });
       onClose();
     },
+    onError: useTellUnseen(),
   });
 }
 

@@ -11,6 +11,7 @@ import { keys, useSites } from "@/api/queries";
 import type { Program, PromotionBinding, PromotionLook, Site } from "@/api/types";
 import { abilityWords } from "@/program/words/libraryWords";
 import { LoadProblem, problemText } from "@/shell/LoadProblem";
+import { useTellUnseen } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import { TableSkeleton } from "../TableSkeleton";
 import { mayEdit } from "./NewProgram";
@@ -155,5 +156,6 @@ function usePromote(program: Program, site: Site, onClose: () => void) {
       onClose();
       void navigate(`/programs/${made.id}`);
     },
+    onError: useTellUnseen(),
   });
 }

@@ -97,7 +97,10 @@ export function AuditPane({ slug }: { slug: string }) {
         {audit.isPending ? <TableSkeleton /> : null}
         {first && lines.length === 0 ? <p className={styles.none}>{t("people.audit.none")}</p> : null}
         <Days lines={lines} />
-        {audit.hasNextPage ? (
+        {audit.isFetchNextPageError ? (
+          <LoadProblem error={audit.error} again={() => void audit.fetchNextPage()} />
+        ) : null}
+        {audit.hasNextPage && !audit.isFetchNextPageError ? (
           <Button
             variant="default"
             size="xs"

@@ -22,12 +22,14 @@ export function FactorRule({ slug }: { slug: string }) {
   if (rule.isLoadingError) return <LoadProblem error={rule.error} again={() => void rule.refetch()} />;
   if (!rule.data) return <TableSkeleton />;
   const { demanded_from: demanded, of_server: ofServer } = rule.data;
-  /** The answer is told also where nobody looks at this any more. */
-  const choose = (role: Demanded) =>
-    set.mutateAsync(role).then(
+  /** The answer is told also where nobody looks at this any more. Until then nothing else is chosen. */
+  const choose = async (role: Demanded) => {
+    if (set.isPending) return;
+    await set.mutateAsync(role).then(
       () => notifications.show({ message: t("factor.rule.saved") }),
       (error: Error) => tellRefusal(error, t),
     );
+  };
   return (
     <Panel className={styles.section} role="region" aria-labelledby="factor-rule">
       <div className={styles.head}>
@@ -38,7 +40,7 @@ export function FactorRule({ slug }: { slug: string }) {
           label={t("factor.rule.label")}
           description={t("factor.rule.text")}
           value={set.isPending ? (set.variables ?? "") : (demanded ?? "")}
-          disabled={set.isPending}
+          aria-disabled={set.isPending} // and not disabled: the field keeps the focus
           onChange={(event) => void choose((event.currentTarget.value || null) as Demanded)}
         >
           <option value="">{t("factor.rule.nobody")}</option>

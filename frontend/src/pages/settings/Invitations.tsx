@@ -2,6 +2,7 @@
 import { Button } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
 import { Plus } from "lucide-react";
+import { useRef } from "react";
 import { useTranslation } from "react-i18next";
 import type { Invitation } from "@/api/types";
 import { Chip } from "@/design/Chip";
@@ -9,13 +10,22 @@ import { Panel } from "@/design/Panel";
 import { formatMoment } from "@/i18n/format";
 import { tellRefusal } from "@/shell/refusal";
 import pages from "../pages.module.css";
+import { EndButton } from "./EndButton";
 import { useRevoke } from "./people";
 import { RoleChip } from "./RoleSelect";
 import styles from "./settings.module.css";
 
 const COLUMNS = ["role", "ends", "uses", "by", "act"];
 
-function Row({ invitation, revoke, busy }: { invitation: Invitation; revoke: () => void; busy: boolean }) {
+interface RowProps {
+  invitation: Invitation;
+  revoke: () => void;
+  busy: boolean;
+  /** Who has the focus when it was revoked. */
+  afterwards: () => HTMLElement | null;
+}
+
+function Row({ invitation, revoke, busy, afterwards }: RowProps) {
   const { t } = useTranslation();
   const { role, state, people, email, made_at } = invitation;
   const isOpen = state === "open";
@@ -37,19 +47,13 @@ function Row({ invitation, revoke, busy }: { invitation: Invitation; revoke: () 
       <td className={pages.optional}>{invitation.mine ? t("people.invitations.you") : invitation.made_by || "–"}</td>
       <td>
         {isOpen ? (
-          <Button
-            size="xs"
-            variant="default"
-            c="var(--error)"
-            loading={busy}
-            aria-label={t("people.invitations.revokeLabel", {
-              role: t(`role.${role}`),
-              when: formatMoment(made_at),
-            })}
-            onClick={revoke}
-          >
-            {t("people.invitations.revoke")}
-          </Button>
+          <EndButton
+            label={t("people.invitations.revokeLabel", { role: t(`role.${role}`), when: formatMoment(made_at) })}
+            words={t("people.invitations.revoke")}
+            busy={busy}
+            end={revoke}
+            afterwards={afterwards}
+          />
         ) : null}
       </td>
     </tr>
@@ -65,6 +69,7 @@ interface Props {
 export function Invitations({ slug, invitations, onNew }: Props) {
   const { t } = useTranslation();
   const revoke = useRevoke(slug);
+  const heading = useRef<HTMLHeadingElement>(null);
   /** Each answer is told, also where another invitation is ended meanwhile. */
   const end = (id: number) =>
     revoke.mutateAsync(id).then(
@@ -74,7 +79,9 @@ export function Invitations({ slug, invitations, onNew }: Props) {
   return (
     <Panel className={styles.section} aria-label={t("people.invitations.title")}>
       <div className={styles.head}>
-        <h2>{t("people.invitations.title")}</h2>
+        <h2 ref={heading} tabIndex={-1}>
+          {t("people.invitations.title")}
+        </h2>
         <Chip>{invitations.filter((each) => each.state === "open").length}</Chip>
         <Button
           className={styles.last}
@@ -109,6 +116,7 @@ export function Invitations({ slug, invitations, onNew }: Props) {
                   invitation={each}
                   revoke={() => void end(each.id)}
                   busy={revoke.isPending && revoke.variables === each.id}
+                  afterwards={() => heading.current}
                 />
               ))}
             </tbody>

@@ -23,7 +23,7 @@ const OF_BO = { slug: "hall", member: BO, onClose: () => undefined };
 
 test.each([
   ["Set the end", () => <AccessEnd {...OF_BO} />],
-  ["Remove", () => <AskRemove {...OF_BO} />],
+  ["Remove", () => <AskRemove {...OF_BO} afterwards={() => null} />],
   ["Leave", () => <AskLeave {...OF_BO} />],
   ["Reset", () => <AskReset {...OF_BO} />],
 ])("who has closed the question before it is refused is told: %s", async (word, dialog) => {

@@ -109,7 +109,6 @@ interface AskProps {
 }
 
 function Ask({ title, go, stay, busy, disabled, error, onGo, onClose, children }: AskProps) {
-  useReturnFocus();
   return (
     <Modal opened onClose={onClose} title={title} size={460}>
       <div className={pages.form}>
@@ -128,13 +127,20 @@ function Ask({ title, go, stay, busy, disabled, error, onGo, onClose, children }
   );
 }
 
-export function AskRemove({ slug, member, onClose }: OfMember) {
+interface RemoveProps extends OfMember {
+  /** Who has the focus when the member and this question are gone. */
+  afterwards: () => HTMLElement | null;
+}
+
+export function AskRemove({ slug, member, onClose, afterwards }: RemoveProps) {
   const { t } = useTranslation();
+  const goOnElsewhere = useReturnFocus(afterwards);
   const known = useMember(slug, member.id);
   const remove = useRemoveMember(slug, useTellUnseen());
   const { name } = member;
   const done = () => {
     notifications.show({ message: t("people.remove.done", { name }) });
+    goOnElsewhere();
     onClose();
   };
   return (
@@ -159,6 +165,7 @@ export function AskLeave({ slug, onClose }: Omit<OfMember, "member">) {
   const { t } = useTranslation();
   const queries = useQueryClient();
   const navigate = useNavigate();
+  useReturnFocus();
   const leave = useLeave(slug, useTellUnseen());
   /** Also where the page has closed before the answer: it does for who is no member any more. */
   const go = () =>

@@ -2,7 +2,7 @@
 import { Menu, TextInput } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
 import { CalendarClock, Ellipsis, KeyRound, LogOut, Search, UserMinus } from "lucide-react";
-import { useState } from "react";
+import { useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Member, Role } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
@@ -158,11 +158,18 @@ function useSetRole(slug: string) {
   return { setRole, busy: change.isPending ? change.variables.id : null };
 }
 
-function Doing({ slug, doing, onClose }: { slug: string; doing: Doing; onClose: () => void }) {
+interface DoingProps {
+  slug: string;
+  doing: Doing;
+  onClose: () => void;
+  afterwards: () => HTMLElement | null;
+}
+
+function Doing({ slug, doing, onClose, afterwards }: DoingProps) {
   const { member } = doing;
   if (doing.do === "end") return <AccessEnd {...{ slug, member, onClose }} />;
   if (doing.do === "reset") return <AskReset {...{ slug, member, onClose }} />;
-  if (doing.do === "remove") return <AskRemove {...{ slug, member, onClose }} />;
+  if (doing.do === "remove") return <AskRemove {...{ slug, member, onClose, afterwards }} />;
   return <AskLeave {...{ slug, onClose }} />;
 }
 
@@ -171,12 +178,15 @@ export function MemberTable({ slug, members, manages }: { slug: string; members:
   const now = useNow(15_000);
   const [typed, setTyped] = useState("");
   const [doing, setDoing] = useState<Doing | null>(null);
+  const heading = useRef<HTMLHeadingElement>(null);
   const { setRole, busy } = useSetRole(slug);
   const found = findMembers(members, typed);
   return (
     <Panel className={styles.section} aria-label={t("people.members")}>
       <div className={styles.head}>
-        <h2>{t("people.members")}</h2>
+        <h2 ref={heading} tabIndex={-1}>
+          {t("people.members")}
+        </h2>
         {manages ? <Chip>{members.length}</Chip> : null}
         {members.length >= MANY ? (
           <TextInput
@@ -221,7 +231,9 @@ export function MemberTable({ slug, members, manages }: { slug: string; members:
       </div>
       {found.length === 0 ? <p className={styles.none}>{t("people.nobody")}</p> : null}
       {manages && members.length === 1 ? <p className={styles.none}>{t("people.alone")}</p> : null}
-      {doing ? <Doing slug={slug} doing={doing} onClose={() => setDoing(null)} /> : null}
+      {doing ? (
+        <Doing slug={slug} doing={doing} onClose={() => setDoing(null)} afterwards={() => heading.current} />
+      ) : null}
     </Panel>
   );
 }

@@ -22,6 +22,7 @@ export function RoleChip({ role }: { role: Role }) {
 interface Props {
   label: string;
   role: Role;
+  /** A role is being set: none is chosen meanwhile, and the field keeps the focus. */
   busy: boolean;
   onChoose: (role: Role) => void;
 }
@@ -34,10 +35,10 @@ export function RoleSelect({ label, role, busy, onChoose }: Props) {
       className={styles.role}
       data-tone={TONES[role]}
       aria-label={label}
-      disabled={busy}
+      aria-disabled={busy}
       value={role}
       data={ROLES.map((value) => ({ value, label: t(`role.${value}`) }))}
-      onChange={(event) => onChoose(event.currentTarget.value as Role)}
+      onChange={(event) => (busy ? undefined : onChoose(event.currentTarget.value as Role))}
     />
   );
 }

@@ -2,7 +2,7 @@
 import { Button, Modal, NativeSelect, TextInput } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
 import { Plus } from "lucide-react";
-import { useState } from "react";
+import { useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { MadeWallScreen, WallScreen } from "@/api/types";
 import { Chip } from "@/design/Chip";
@@ -16,13 +16,21 @@ import { tellRefusal, useTellUnseen } from "@/shell/refusal";
 import pages from "../pages.module.css";
 import { TableSkeleton } from "../TableSkeleton";
 import { useShownOnce } from "../useShownOnce";
+import { EndButton } from "./EndButton";
 import { useMakeWallScreen, useTurnOff, useWallScreens } from "./people";
 import styles from "./settings.module.css";
 
 const DAYS = [7, 30, 90, 365, 1825];
 const COLUMNS = ["name", "seen", "ends", "by", "act"];
 
-function Row({ screen, turnOff, busy }: { screen: WallScreen; turnOff: () => void; busy: boolean }) {
+interface RowProps {
+  screen: WallScreen;
+  turnOff: () => void;
+  busy: boolean;
+  afterwards: () => HTMLElement | null;
+}
+
+function Row({ screen, turnOff, busy, afterwards }: RowProps) {
   const { t } = useTranslation();
   const now = useNow();
   return (
@@ -32,16 +40,13 @@ function Row({ screen, turnOff, busy }: { screen: WallScreen; turnOff: () => voi
       <td className={pages.nowrap}>{screen.expired ? t("wall.admin.expired") : formatMoment(screen.expires_at)}</td>
       <td className={pages.optional}>{screen.made_by || "–"}</td>
       <td>
-        <Button
-          size="xs"
-          variant="default"
-          c="var(--error)"
-          loading={busy}
-          aria-label={t("wall.admin.offLabel", { name: screen.name })}
-          onClick={turnOff}
-        >
-          {t("wall.admin.off")}
-        </Button>
+        <EndButton
+          label={t("wall.admin.offLabel", { name: screen.name })}
+          words={t("wall.admin.off")}
+          busy={busy}
+          end={turnOff}
+          afterwards={afterwards}
+        />
       </td>
     </tr>
   );
@@ -120,7 +125,14 @@ function LinkOnce({ made, onClose }: { made: MadeWallScreen; onClose: () => void
   );
 }
 
-function Table({ slug, screens }: { slug: string; screens: readonly WallScreen[] }) {
+interface TableProps {
+  slug: string;
+  screens: readonly WallScreen[];
+  /** Who has the focus when a screen was turned off. */
+  afterwards: () => HTMLElement | null;
+}
+
+function Table({ slug, screens, afterwards }: TableProps) {
   const { t } = useTranslation();
   const off = useTurnOff(slug);
   /** Each answer is told, also where another screen is turned off meanwhile. */
@@ -150,6 +162,7 @@ function Table({ slug, screens }: { slug: string; screens: readonly WallScreen[]
               screen={screen}
               turnOff={() => void turnOff(screen)}
               busy={off.isPending && off.variables === screen.id}
+              afterwards={afterwards}
             />
           ))}
         </tbody>
@@ -163,12 +176,15 @@ export function WallScreens({ slug }: { slug: string }) {
   const screens = useWallScreens(slug);
   const [making, setMaking] = useState(false);
   const links = useShownOnce<MadeWallScreen>();
+  const heading = useRef<HTMLHeadingElement>(null);
   if (screens.isLoadingError) return <LoadProblem error={screens.error} again={() => void screens.refetch()} />;
   if (!screens.data) return <TableSkeleton />;
   return (
     <Panel className={styles.section} aria-label={t("wall.admin.title")}>
       <div className={styles.head}>
-        <h2>{t("wall.admin.title")}</h2>
+        <h2 ref={heading} tabIndex={-1}>
+          {t("wall.admin.title")}
+        </h2>
         <Chip>{screens.data.filter((each) => !each.expired).length}</Chip>
         <Button
           className={styles.last}
@@ -183,7 +199,7 @@ export function WallScreens({ slug }: { slug: string }) {
       {screens.data.length === 0 ? (
         <p className={styles.none}>{t("wall.admin.none")}</p>
       ) : (
-        <Table slug={slug} screens={screens.data} />
+        <Table slug={slug} screens={screens.data} afterwards={() => heading.current} />
       )}
       {making ? <NewScreen slug={slug} onMade={links.show} onClose={() => setMaking(false)} /> : null}
       {links.shown ? <LinkOnce key={links.shown.id} made={links.shown} onClose={links.next} /> : null}

@@ -24,26 +24,20 @@ import { MapChoiceFields, MapChoicePreview } from "./MapChoiceParts";
 import styles from "./newsite.module.css";
 import { filesForm, useMapChoice, type MapChoice } from "./useMapChoice";
 
-function useSaved(slug: string) {
-  const { t } = useTranslation();
-  const navigate = useNavigate();
-  return (version: number) => {
-    notifications.show({ message: t("mapEdit.saved", { version }) });
-    void navigate(`/sites/${slug}/map`);
-  };
-}
-
 function FirstMap({ site }: { site: Site }) {
   const { t } = useTranslation();
   const choice = useMapChoice(site.slug);
   const bring = useBringMap(site.slug);
-  const saved = useSaved(site.slug);
+  const navigate = useNavigate();
   const submit = (event: FormEvent) => {
     event.preventDefault();
     const sent = bring.mutateAsync({ form: choice.makeForm(), source: choice.source, replaces: null });
     // The page may be loading the new map by then, so this does not hang on what is shown.
     sent.then(
-      ({ version }) => saved(version),
+      ({ version }) => {
+        notifications.show({ message: t("mapEdit.saved", { version }) });
+        return navigate(`/sites/${site.slug}/map`);
+      },
       () => undefined, // the form shows why
     );
   };
@@ -107,7 +101,7 @@ function useCells(site: string, choice: MapChoice, isWanted: boolean) {
 function AnotherMap({ site, present }: { site: Site; present: SiteMap }) {
   const { t } = useTranslation();
   const choice = useMapChoice(site.slug);
-  const saved = useSaved(site.slug);
+  const navigate = useNavigate();
   const [isAligned, align] = useState(false);
   const [base, setBase] = useState<SiteMap | null>(null);
   const { cells, error, isReading } = useCells(site.slug, choice, isAligned && choice.isReady);
@@ -164,7 +158,7 @@ function AnotherMap({ site, present }: { site: Site; present: SiteMap }) {
           source={choice.source}
           base={base}
           newest={present}
-          onSaved={saved}
+          onSaved={() => void navigate(`/sites/${site.slug}/map`)}
           onClose={() => setBase(null)}
         />
       )}

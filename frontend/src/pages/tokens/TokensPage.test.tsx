@@ -1,5 +1,5 @@
 // @vitest-environment jsdom
-import { fireEvent, screen } from "@testing-library/react";
+import { fireEvent, screen, waitFor } from "@testing-library/react";
 import { Link } from "react-router-dom";
 import { expect, test, vi } from "vitest";
 import type { Token } from "@/api/types";
@@ -13,12 +13,33 @@ testsPages();
 test("who has closed the question before the end of a token is refused is told", async () => {
   const { nth } = slowServer();
   const token = { id: "1", name: "Display" } as Token;
-  const { leave } = showWithCorner(<AskRevoke slug="hall" token={token} onClose={() => undefined} />);
+  const { leave } = showWithCorner(
+    <AskRevoke slug="hall" token={token} onClose={() => undefined} afterwards={() => null} />,
+  );
   fireEvent.click(screen.getByText("Revoke"));
   const asked = await nth(1);
   leave();
   await asked.answer(409);
   expect(await screen.findByText("No.")).toBeTruthy();
+});
+
+test("who has revoked a token goes on where it is said what tokens are", async () => {
+  vi.stubGlobal("WebSocket", class { close() {} }); // prettier-ignore
+  const token = { id: "1", name: "Display", scopes: [], mine: true, last_used_at: null, expires_at: "2026-12-24" };
+  const tokens = [token];
+  const site = { slug: "hall", name: "Hall", role: "viewer", stop: { active: false } };
+  const { nth } = slowServer({ "/tokens": tokens, "/sites/hall": site });
+  const queries = makeQueryClient();
+  queries.setQueryData(keys.me, { csrf: "", demo_accounts: [], user: { id: 1, name: "Anna", initials: "A" } });
+  showAt("/sites/hall/tokens", [{ path: "/sites/:slug/tokens", element: <TokensPage /> }], queries);
+  const row = await screen.findByLabelText("Revoke Display");
+  row.focus();
+  fireEvent.click(row);
+  fireEvent.click(await screen.findByText("Revoke", { selector: "[role=dialog] button *" }));
+  const asked = await nth(1);
+  tokens.pop();
+  await asked.answer(200, {});
+  await waitFor(() => expect(document.activeElement?.textContent).toMatch(/^A program shows a token/));
 });
 
 test("of two tokens that are made at once each is shown, one after the other", async () => {

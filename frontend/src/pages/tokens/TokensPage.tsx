@@ -2,7 +2,7 @@
 import { Button, Modal } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
 import { KeyRound, Plus } from "lucide-react";
-import { useState } from "react";
+import { useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
@@ -89,12 +89,21 @@ function TokenTable({ tokens, choose }: { tokens: Token[]; choose: (token: Token
   );
 }
 
-export function AskRevoke({ slug, token, onClose }: { slug: string; token: Token; onClose: () => void }) {
+interface AskProps {
+  slug: string;
+  token: Token;
+  onClose: () => void;
+  /** Who has the focus when the token and this question are gone. */
+  afterwards: () => HTMLElement | null;
+}
+
+export function AskRevoke({ slug, token, onClose, afterwards }: AskProps) {
   const { t } = useTranslation();
-  useReturnFocus();
+  const goOnElsewhere = useReturnFocus(afterwards);
   const revoke = useRevokeToken(slug, useTellUnseen());
   const done = () => {
     notifications.show({ message: t("tokens.revoked", { name: token.name }) });
+    goOnElsewhere();
     onClose();
   };
   return (
@@ -132,6 +141,7 @@ function TokensOfSite({ slug, onMade }: { slug: string; onMade: (token: MadeToke
   const tokens = useTokens(slug);
   const [making, setMaking] = useState(false);
   const [ending, setEnding] = useState<Token | null>(null);
+  const intro = useRef<HTMLParagraphElement>(null);
   const problem = missing(site, tokens);
   const begin = (
     <Button leftSection={<Plus size={16} aria-hidden="true" />} onClick={() => setMaking(true)}>
@@ -142,7 +152,9 @@ function TokensOfSite({ slug, onMade }: { slug: string; onMade: (token: MadeToke
     <PageShell title={t("tokens.title")} actions={tokens.data?.length ? begin : null}>
       <SettingsTabs slug={slug} role={site.data?.role} />
       <div className={pages.stack}>
-        <p className={styles.intro}>{t("tokens.intro")}</p>
+        <p ref={intro} className={styles.intro} tabIndex={-1}>
+          {t("tokens.intro")}
+        </p>
         {problem ? (
           <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), tokens.refetch()])} />
         ) : null}
@@ -157,7 +169,9 @@ function TokensOfSite({ slug, onMade }: { slug: string; onMade: (token: MadeToke
         ) : null}
       </div>
       {making && site.data ? <NewToken site={site.data} onMade={onMade} onClose={() => setMaking(false)} /> : null}
-      {ending ? <AskRevoke slug={slug} token={ending} onClose={() => setEnding(null)} /> : null}
+      {ending ? (
+        <AskRevoke slug={slug} token={ending} onClose={() => setEnding(null)} afterwards={() => intro.current} />
+      ) : null}
     </PageShell>
   );
 }

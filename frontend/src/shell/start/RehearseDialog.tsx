@@ -10,6 +10,7 @@ import { NumberField } from "@/design/NumberField";
 import { useEditorText } from "@/program/canvas/useScene";
 import { ownEntry } from "@/design/ownEntry";
 import { problemText } from "../LoadProblem";
+import { useTellUnseen } from "../refusal";
 import {
   type Conditions,
   type Driver,
@@ -61,6 +62,7 @@ function useStart({ about, onStarted, onClose }: RehearseProps) {
       onClose();
       onStarted(id);
     },
+    onError: useTellUnseen(),
   });
 }
 

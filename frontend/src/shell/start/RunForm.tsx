@@ -9,6 +9,7 @@ import { useOnce } from "@/api/once";
 import { keys, useDevices } from "@/api/queries";
 import type { Run } from "@/api/types";
 import { type Fact, FactList } from "@/design/FactList";
+import { useTellUnseen } from "../refusal";
 import { ReviewBeforeRun, useRunReview } from "../review/ReviewBeforeRun";
 import { completed, type Given, Parameters } from "./Parameters";
 import { RunTermsForm } from "./RunTermsForm";
@@ -90,6 +91,7 @@ function useStartRun(
   const navigate = useNavigate();
   const begin = useOnce();
   const queries = useQueryClient();
+  const tellUnseen = useTellUnseen();
   return useMutation({
     mutationFn: async () => {
       await stored();
@@ -104,8 +106,11 @@ function useStartRun(
       onStarted();
       void navigate(`/runs/${started.id}`);
     },
-    // What was known before may be what it was refused for.
-    onError: () => queries.invalidateQueries({ queryKey: keys.reviews }),
+    onError: (error) => {
+      tellUnseen(error);
+      // What was known before may be what it was refused for.
+      return queries.invalidateQueries({ queryKey: keys.reviews });
+    },
   });
 }
 

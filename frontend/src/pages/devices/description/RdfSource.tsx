@@ -35,7 +35,7 @@ export function RdfSource({ slug, device }: { slug: string; device: string }) {
   const { t } = useTranslation();
   const [format, setFormat] = useState<DescriptionForm>("turtle");
   const rdf = useQuery({
-    queryKey: keys.rdf(slug, device, format),
+    queryKey: [...keys.rdf(slug, device), format],
     queryFn: async () => laidOut(await api.text(rdfPath(slug, device, format)), format),
   });
   return (

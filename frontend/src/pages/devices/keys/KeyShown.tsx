@@ -4,16 +4,17 @@ import { useTranslation } from "react-i18next";
 import { SecretField } from "@/design/SecretField";
 import { useFocusInList } from "../focus";
 import styles from "./keys.module.css";
-import { useShownKey, type ShownKey } from "./shownKey";
+import { useShownKeys, type ShownKey } from "./shownKey";
 
 export function KeyShown() {
-  const shown = useShownKey((state) => state.shown);
-  return shown ? <KeyDialog shown={shown} /> : null;
+  const [shown] = useShownKeys();
+  return shown ? <KeyDialog key={shown.credential} shown={shown} /> : null;
 }
+
+const forget = () => useShownKeys.setState((all) => all.slice(1), true);
 
 function KeyDialog({ shown }: { shown: ShownKey }) {
   const { t } = useTranslation();
-  const forget = useShownKey((state) => state.forget);
   useFocusInList(shown.device);
   return (
     <Modal

@@ -1,4 +1,4 @@
-/** The new key that is shown, of one device at a time. */
+/** New keys of devices, each shown this one time, one after the other: none takes another's place. */
 import { create } from "zustand";
 
 export interface ShownKey {
@@ -8,14 +8,5 @@ export interface ShownKey {
   taken: boolean;
 }
 
-interface ShownKeyStore {
-  shown: ShownKey | null;
-  show: (key: ShownKey) => void;
-  forget: () => void;
-}
-
-export const useShownKey = create<ShownKeyStore>()((set) => ({
-  shown: null,
-  show: (shown) => set({ shown }),
-  forget: () => set({ shown: null }),
-}));
+/** The first of them is shown, the others wait. */
+export const useShownKeys = create((): readonly ShownKey[] => []);
