@@ -115,8 +115,11 @@ const SCREEN = /\/src\/(pages\/[^/]+\/\w+Page|(compare|run|simulation)\/.*Screen
 /** What the editor shows beside the map, which does not wait for it. */
 const BESIDE = /\/src\/editor\/(inspector\/ProgramPanel|beginning\/(EmptyProgram|NextSteps)|parts\/DrawerBody)\.tsx$/;
 
-/** Dialogs and forms of the editor, all of which it fetches soon after the program has come. */
-const LATER = /\/src\/editor\/((beginning|canvas|commands|dialogs|inspector|zones)\/|gestures\/GhostCard)/;
+/**
+ * Dialogs and forms of the editor, all of which it fetches soon after the program has come; what it adds to the palette
+ * comes before them.
+ */
+const LATER = /\/src\/editor\/((beginning|canvas|commands|dialogs|inspector|zones)\/(?!offer\.ts)|gestures\/GhostCard)/;
 
 /** Bytes, below which what some pages share joins what others share. */
 const SMALL = 5_000;

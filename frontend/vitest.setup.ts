@@ -1,6 +1,6 @@
 import { afterAll, beforeAll, vi } from "vitest";
 
-/** What a browser has and jsdom lacks: pages ask for it while they are loaded. Nothing matches, and nothing has a size. */
+/** What a browser has and jsdom lacks: pages ask for it while they are loaded. Nothing matches, nothing has a size, no font comes. */
 if (typeof document !== "undefined") {
   const nothing = () => undefined;
   const silent = { addEventListener: nothing, removeEventListener: nothing };
@@ -12,7 +12,7 @@ if (typeof document !== "undefined") {
       disconnect() {}
     },
   });
-  Object.defineProperty(document, "fonts", { configurable: true, value: silent });
+  Object.defineProperty(document, "fonts", { configurable: true, value: { ...silent, ready: new Promise(nothing) } });
   Element.prototype.scrollIntoView = nothing;
   // Only a fault takes so long: beside the other tests, a drawing and what follows an answer take seconds.
   const { configure } = await import("@testing-library/react");

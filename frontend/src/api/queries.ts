@@ -3,7 +3,6 @@ import { keepPreviousData, QueryClient, skipToken, useInfiniteQuery, useQuery } 
 import { api, ApiProblem, rememberCsrf, untilRefused } from "./client";
 import type {
   ArmedProgram,
-  Comparison,
   Device,
   Finding,
   LibraryFunction,
@@ -12,10 +11,8 @@ import type {
   OwnSession,
   Processes,
   Program,
-  ProgramDocument,
   ProgramRelatives,
   Question,
-  Rehearsal,
   RehearsalSummary,
   Run,
   RunSummary,
@@ -44,7 +41,6 @@ export const keys = {
   programs: (slug: string) => ["programs", slug] as const,
   program: (id: string) => ["program", id] as const,
   versionRuns: (slug: string, program: string) => ["runs", slug, "versions", program] as const,
-  document: (id: string) => ["document", id] as const,
   runs: (slug: string) => ["runs", slug] as const,
   openRuns: (slug: string) => ["runs", slug, "open"] as const,
   run: (id: string) => ["run", id] as const,
@@ -180,23 +176,11 @@ export const useProgram = (id: Maybe) =>
     keys.program(id ?? ""),
     at(id, (p) => `/programs/${p}`),
   );
-export const useProgramDocument = (id: Maybe) =>
-  useGet<ProgramDocument>(
-    keys.document(id ?? ""),
-    at(id, (p) => `/programs/${p}/document`),
-  );
 /** All runs of a site that are not over, however old they are: those that are planned, too. */
 export const useOpenRuns = (slug: Maybe) =>
   useAll<RunSummary>(
     keys.openRuns(slug ?? ""),
     at(slug, (s) => `/sites/${s}/runs?state=open&limit=200`),
-  );
-const RUNS_OF_A_PROGRAM = 200;
-/** The newest runs of one program, each with the version that it used. */
-export const useProgramRuns = (slug: Maybe, program: Maybe) =>
-  useGet<RunSummary[]>(
-    [...keys.runs(slug ?? ""), "of", program],
-    slug && program ? `/sites/${slug}/runs?program=${encodeURIComponent(program)}&limit=${RUNS_OF_A_PROGRAM}` : null,
   );
 export const useQuestions = (slug: Maybe) =>
   useGet<Question[]>(
@@ -239,11 +223,6 @@ export const useLibraryFunction = (id: Maybe, fits = "") =>
   useGet<LibraryFunction>(
     keys.libraryFunction(id ?? "", fits),
     at(id, (f) => `/library/${f}?fits=${encodeURIComponent(fits)}`),
-  );
-export const useRehearsal = (id: Maybe) =>
-  useGet<Rehearsal>(
-    keys.rehearsal(id ?? ""),
-    at(id, (r) => `/rehearsals/${r}`),
   );
 export const useFindings = (slug: Maybe) =>
   useWatch<Finding[]>(
@@ -291,13 +270,4 @@ export const useRelatives = (id: Maybe) =>
   useQuery({
     queryKey: ["program-origin", id],
     queryFn: id ? () => api.get<ProgramRelatives>(`/programs/${id}/origin`) : skipToken,
-  });
-/** Two sides compared: numbers of versions, or `draft` for what is drawn now. */
-export const useComparison = (id: Maybe, sides: readonly [old: string, new: string] | null) =>
-  useQuery({
-    queryKey: [...keys.comparison(id ?? ""), ...(sides ?? [])],
-    queryFn:
-      id && sides ? () => api.get<Comparison>(`/programs/${id}/comparison?old=${sides[0]}&new=${sides[1]}`) : skipToken,
-    staleTime: 0,
-    placeholderData: keepPreviousData,
   });

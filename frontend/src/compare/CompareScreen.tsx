@@ -5,16 +5,7 @@ import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { Button } from "@mantine/core";
 import { missing } from "@/api/failed";
-import {
-  useComparison,
-  useDevices,
-  useProgram,
-  useProgramRuns,
-  useRelatives,
-  useSite,
-  useSiteMap,
-  useVersions,
-} from "@/api/queries";
+import { useDevices, useProgram, useRelatives, useSite, useSiteMap, useVersions } from "@/api/queries";
 import type { Comparison, ConstructChange, Device, Program, RunSummary, Site, Version } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { useTitle } from "@/shell/useTitle";
@@ -24,6 +15,7 @@ import { LoadProblem } from "@/shell/LoadProblem";
 import { Crumb, TopBar } from "@/shell/TopBar";
 import { ChangeList } from "./ChangeList";
 import { CompareHead } from "./CompareHead";
+import { useComparison, useProgramRuns } from "./comparison";
 import { Frame, MapOf, useChoice } from "./ComparedParts";
 import styles from "./compare.module.css";
 import type { Shown } from "./marks";
@@ -105,6 +97,7 @@ function Loaded({ program, site, versions }: LoadedProps) {
             {...{ program, site, versions, runs, sides, choose, devices }}
             asked={asked}
             comparison={comparison.data}
+            isFormer={comparison.isPlaceholderData}
           />
         )}
       </main>
@@ -155,6 +148,8 @@ interface ComparedProps extends LoadedProps {
   choose: (next: { old: string; new: string }) => void;
   devices: readonly SiteDevice[];
   comparison: Comparison | undefined;
+  /** It is that of the sides before, until that of these has come. */
+  isFormer: boolean;
 }
 
 const isNumber = (side: string) => /^\d+$/.test(side);
@@ -170,8 +165,9 @@ function useKnownRelatives(program: string): readonly Relative[] {
 }
 
 /** Restoring goes from a version on the old side into what is drawn now; null where there is no such way. */
-function useOffer({ program, site, sides, asked, choose, comparison }: ComparedProps) {
-  const from = asked && isNumber(asked[0]) && comparison?.old.problem === "" ? Number(asked[0]) : null;
+function useOffer({ program, site, sides, asked, choose, comparison, isFormer }: ComparedProps) {
+  const isKnown = !isFormer && comparison?.old.problem === "";
+  const from = asked && isNumber(asked[0]) && isKnown ? Number(asked[0]) : null;
   const toDraft = () => choose({ old: sides.old, new: DRAFT });
   const restore = useRestore(program.id, from, sides.new !== DRAFT, toDraft);
   const canEdit = site.role === "author" || site.role === "admin";

@@ -16,7 +16,7 @@ export function RestoreDialog(props: { restore: Restore; version: number | null;
     <Modal
       opened={asked !== null}
       onClose={restore.close}
-      title={t("compare.restore_title", { number: version })}
+      title={t("compare.restore_title", { number: asked?.version ?? version })}
       size={460}
     >
       {asked ? <Question asked={asked} restore={restore} pictures={pictures} /> : null}

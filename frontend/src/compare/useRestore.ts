@@ -14,9 +14,14 @@ export type Wanted =
   | { readonly what: "construct"; readonly change: ConstructChange }
   | { readonly what: "field"; readonly change: ConstructChange; readonly path: readonly string[] };
 
-/** A restore that waits for a person's word. */
-export interface Asked {
+/** What shall be restored, and out of which version: another one may be chosen before the answer comes. */
+interface Order {
   readonly wanted: Wanted;
+  readonly version: number;
+}
+
+/** A restore that waits for a person's word. */
+export interface Asked extends Order {
   readonly found: Restored;
 }
 
@@ -46,10 +51,11 @@ export function reversed(changes: readonly ValueChange[]): ValueChange[] {
 }
 
 /** The calls: restoring, looking at what it would do, and taking changes back. */
-function useCalls(program: string, version: number | null) {
+function useCalls(program: string) {
   const { t } = useTranslation();
   const queries = useQueryClient();
-  const address = `/programs/${program}/versions/${version}/restore`;
+  const send = ({ wanted, version }: Order, address: "restore" | "restore/look") =>
+    api.post<Restored>(`/programs/${program}/versions/${version}/${address}`, bodyOf(wanted));
   const onError = (error: Error) =>
     notifications.show({ color: "red", message: problemText(error, t("shell.problem.screen")) });
   const onSuccess = () => {
@@ -57,12 +63,12 @@ function useCalls(program: string, version: number | null) {
     void queries.invalidateQueries({ queryKey: keys.versions(program) });
   };
   const restore = useMutation({
-    mutationFn: (wanted: Wanted) => api.post<Restored>(address, bodyOf(wanted)),
+    mutationFn: (order: Order) => send(order, "restore"),
     onSuccess,
     onError,
   });
   const look = useMutation({
-    mutationFn: (wanted: Wanted) => api.post<Restored>(`${address}/look`, bodyOf(wanted)),
+    mutationFn: (order: Order) => send(order, "restore/look"),
     onError,
   });
   const back = useMutation({
@@ -77,12 +83,12 @@ function useCalls(program: string, version: number | null) {
 /** `always` to ask even where nothing else is needed: what is drawn now is not what is looked at. */
 export function useRestore(program: string, version: number | null, always: boolean, onDone: () => void): Restore {
   const { t } = useTranslation();
-  const { restore, look, back, busy } = useCalls(program, version);
+  const { restore, look, back, busy } = useCalls(program);
   const [asked, setAsked] = useState<Asked | null>(null);
   const [done, setDone] = useState<readonly (readonly ValueChange[])[]>([]);
   const last = done.at(-1);
-  const begin = (wanted: Wanted) =>
-    restore.mutate(wanted, {
+  const begin = (order: Order) =>
+    restore.mutate(order, {
       onSuccess: ({ changes }) => {
         setAsked(null);
         setDone((before) => [...before, changes]);
@@ -90,11 +96,11 @@ export function useRestore(program: string, version: number | null, always: bool
         onDone();
       },
     });
-  const ask = (wanted: Wanted) =>
-    look.mutate(wanted, {
+  const ask = (order: Order) =>
+    look.mutate(order, {
       onSuccess: (found) => {
-        if (found.needs.length > 0 || wanted.what === "all" || always) setAsked({ wanted, found });
-        else begin(wanted);
+        if (found.needs.length > 0 || order.wanted.what === "all" || always) setAsked({ ...order, found });
+        else begin(order);
       },
     });
   const undo = (changes: readonly ValueChange[]) =>
@@ -108,8 +114,8 @@ export function useRestore(program: string, version: number | null, always: bool
   return {
     asked,
     busy,
-    ask: (wanted) => version !== null && !busy && ask(wanted),
-    confirm: () => asked && !busy && begin(asked.wanted),
+    ask: (wanted) => version !== null && !busy && ask({ wanted, version }),
+    confirm: () => asked && !busy && begin(asked),
     close: () => setAsked(null),
     undo: () => last && !busy && undo(last),
     canUndo: last !== undefined,

@@ -1,7 +1,7 @@
 /** Where things stand on the editor's screen. */
 import { useMediaQuery, useViewportSize } from "@mantine/hooks";
 import { type CSSProperties, lazy, Suspense, useEffect, useMemo } from "react";
-import { useFetchLater } from "@/design/useFetchLater";
+import { beside, useFetchLater } from "@/design/useFetchLater";
 import type { Insets } from "@/map/plane/projection";
 import { useTour } from "./beginning/tourStops";
 import { Announcer } from "./keyboard/Announcer";
@@ -12,7 +12,6 @@ import classes from "./editor.module.css";
 import { loadCorners } from "./canvas/CornerHandles";
 import { ContextMenu } from "./commands/ContextMenu";
 import { useCommandKeys } from "./commands/keys";
-import { usePaletteOffer } from "./commands/offer";
 import { EditorMap } from "./EditorMap";
 import { useClipboard } from "./gestures/clipboard";
 import { loadPasting, pasteIfScript } from "./gestures/pasting";
@@ -37,6 +36,7 @@ const loadNextSteps = () => import("./beginning/NextSteps");
 const EmptyProgram = lazy(async () => ({ default: (await loadEmptyProgram()).EmptyProgram }));
 const NextSteps = lazy(async () => ({ default: (await loadNextSteps()).NextSteps }));
 const Tour = lazy(async () => ({ default: (await import("./beginning/Tour")).Tour }));
+const PaletteOffer = beside(async () => (await import("./commands/offer")).PaletteOffer);
 const loadComments = () => import("./comments/CommentsPanel");
 const ZoneForm = lazy(async () => ({ default: (await loadZoneForm()).ZoneForm }));
 /** Fetched once the program has come, so that the first form opens and the first script is pasted at once. */
@@ -114,6 +114,9 @@ export function EditorWorkspace() {
       </main>
       <Dialogs />
       <Announcer />
+      <Suspense fallback={null}>
+        <PaletteOffer />
+      </Suspense>
     </div>
   );
 }
@@ -125,7 +128,6 @@ function useGestureInput(): void {
   useOthersEdits(open);
   useCommandKeys(open);
   useRunning(open);
-  usePaletteOffer(open);
   useClipboard(open, pasteIfScript);
   useEffect(() => resetGestures, [open.program.id]);
 }

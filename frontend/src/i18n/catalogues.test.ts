@@ -75,6 +75,18 @@ test("where there is one plural form, the languages' other forms are there", () 
   expect(missing).toEqual([]);
 });
 
+test("a text with places for values is asked for with values", () => {
+  const bare = Object.entries(sources).flatMap(([file, text]) =>
+    [...text.matchAll(/\bt\(\s*["']([\w.-]+)["']\s*,?\s*\)/g)].map(([, key = ""]) => ({ file, key })),
+  );
+  // A key that begins within an area may be that of another one, too.
+  const textsOf = (key: string) =>
+    ["", ...areas.map((area) => `${area}.`)].flatMap((area) => en[area + key] ?? en[`${area}${key}_other`] ?? []);
+  const needsValues = (key: string) => textsOf(key).length > 0 && textsOf(key).every((text) => holes(text).length > 0);
+  expect(bare.filter(({ key }) => needsValues(key))).toEqual([]);
+  expect(bare.length).toBeGreaterThan(200);
+});
+
 /** Literal keys given to a `t` of the whole catalogue; the editor's own `t` begins within its area. */
 function askedFor(): { file: string; key: string }[] {
   return Object.entries(sources).flatMap(([file, text]) =>

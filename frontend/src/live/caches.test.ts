@@ -5,16 +5,16 @@ import { LiveCaches } from "./caches";
 const KEY = ["run-events", "1"];
 let queries: QueryClient;
 let caches: LiveCaches;
-let answers: ((lines: string[]) => void)[];
+let answers: ((lines: string[] | Promise<string[]>) => void)[];
 let leave: () => void;
 
 /** Somebody looks at the query; each fetch waits until the test answers it. */
 function look(): void {
   const queryFn = () => new Promise<string[]>((resolve) => answers.push(resolve));
-  leave = new QueryObserver(queries, { queryKey: KEY, queryFn }).subscribe(() => undefined);
+  leave = new QueryObserver(queries, { queryKey: KEY, queryFn, retry: false }).subscribe(() => undefined);
 }
 
-async function answer(fetch: number, lines: string[]): Promise<void> {
+async function answer(fetch: number, lines: string[] | Promise<string[]>): Promise<void> {
   answers[fetch]?.(lines);
   await new Promise((resolve) => setTimeout(resolve));
 }
@@ -65,6 +65,25 @@ test("what was missed during the first fetch is fetched after it", async () => {
   expect(answers).toHaveLength(2);
   await answer(1, ["began", "finished"]);
   expect([shown(), answers.length]).toEqual([["began", "finished"], 2]);
+});
+
+test("news that came while a fetch failed are not put on a newer answer", async () => {
+  await answer(0, ["began"]);
+  caches.refresh(KEY);
+  add("paused");
+  await answer(1, Promise.reject(new Error("away")));
+  expect(shown()).toEqual(["began", "paused"]);
+  caches.refresh(KEY);
+  await answer(2, ["began", "went on"]);
+  expect(shown()).toEqual(["began", "went on"]);
+});
+
+test("what was missed during a first fetch that failed is in the answer to the second", async () => {
+  caches.refresh(KEY);
+  await answer(0, Promise.reject(new Error("away")));
+  caches.refresh(KEY);
+  await answer(1, ["began"]);
+  expect([shown(), answers.length]).toEqual([["began"], 2]);
 });
 
 test("nothing is kept for what nobody asked for", () => {

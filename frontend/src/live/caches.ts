@@ -14,9 +14,10 @@ export class LiveCaches {
 
   constructor(private readonly queries: QueryClient) {
     this.#unfollow = queries.getQueryCache().subscribe((event) => {
-      if (event.type === "removed") this.#late.delete(event.query.queryHash);
-      if (event.type === "updated" && event.action.type === "success" && !event.action.manual)
-        this.#arrived(event.query as Query);
+      const action = event.type === "updated" ? event.action : null;
+      // What a fetch that failed had to be given is in the answer to the next one.
+      if (event.type === "removed" || action?.type === "fetch") this.#late.delete(event.query.queryHash);
+      if (action?.type === "success" && !action.manual) this.#arrived(event.query as Query);
     });
   }
 

@@ -44,6 +44,8 @@ import { isLookedAt, setLive, useLiveStore } from "./store";
 const SLOW_MS = 1000;
 const FAST_MS = 150;
 const NOTICES_KEPT = 50;
+/** Of what a device tells, where it is and what it reads are all the time; a change of one of these makes history. */
+const IN_HISTORY: readonly (keyof Device)[] = ["status", "lifecycle", "name", "methods", "stand_in", "has_key"];
 
 export class SiteFeed {
   readonly #changes = new Map<string, DeviceChange>();
@@ -168,6 +170,7 @@ export class SiteFeed {
     const all = [
       ...ofSite,
       ["paces", this.slug],
+      ["device-events", this.slug],
       ["measurements"],
       ["comparison"],
       ["program"],
@@ -198,10 +201,11 @@ export class SiteFeed {
     const changes = new Map(this.#changes);
     this.#changes.clear();
     const { strangers } = applyChanges(this.queries.getQueryData<Device[]>(key) ?? [], changes);
-    const news = [...changes.values()].some((change) => "lifecycle" in change || "status" in change);
+    const news = [...changes.values()].filter((change) => IN_HISTORY.some((key) => key in change));
     this.#caches.write<Device[]>(key, (devices) => applyChanges(devices, changes).devices);
     if (strangers.length > 0) this.#caches.refresh(key);
-    if (strangers.length > 0 || news) this.#siteChanged();
+    for (const { id } of news) this.#caches.refresh(keys.deviceEvents(this.slug, id));
+    if (strangers.length > 0 || news.length > 0) this.#siteChanged();
   }
 
   #siteChanged(): void {

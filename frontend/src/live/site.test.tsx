@@ -135,6 +135,7 @@ const OF_NEWS: readonly QueryKey[] = [
   keys.comparison("program"),
   keys.measurements("run"),
   keys.paces("a", "mixer"),
+  keys.deviceEvents("a", "mixer"),
   keys.sites,
 ];
 

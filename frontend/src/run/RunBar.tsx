@@ -10,14 +10,15 @@ import { isPlanned } from "./terms";
 import { useUsualTime } from "./usualTime";
 import styles from "./RunScreen.module.css";
 
-/** How the run stands, with its clock. */
+/** How the run stands, which is read out when it changes, with its clock, which would be each second. */
 export function RunPill({ run, elapsed_s, now }: { run: Run; elapsed_s: number; now: number }) {
   const { t } = useTranslation();
   const usual = useUsualTime(run, run.ended_at !== null);
   const planned = isPlanned(run, now);
   return (
-    <span className={styles.pill} data-status={run.status} role="status">
-      <i aria-hidden="true" /> {t(planned ? "run.terms.planned" : `run.status.${run.status}`)}{" "}
+    <span className={styles.pill} data-status={run.status}>
+      <i aria-hidden="true" />{" "}
+      <span role="status">{t(planned ? "run.terms.planned" : `run.status.${run.status}`)}</span>{" "}
       {planned ? null : <b>{clock(elapsed_s)}</b>}
       {planned || usual === null ? null : <small>{t("run.usual", { time: clock(usual) })}</small>}
     </span>

@@ -1,11 +1,10 @@
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useParams, useSearchParams } from "react-router-dom";
-import { missing } from "@/api/failed";
 import { useDevices, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Rehearsal, RehearsalResult } from "@/api/types";
 import { Crumb, TopBar } from "@/shell/TopBar";
-import { useFreshRehearsal } from "@/live/rehearsal";
+import { useFreshRehearsal, useWhyUnknown } from "@/live/rehearsal";
 import { useSiteLive } from "@/live/site";
 import { momentIn, useMomentInAddress } from "./address";
 import { Actions } from "./Actions";
@@ -121,7 +120,8 @@ export function SimulationScreen() {
   useTitle(program && `${t("simulation.title")} · ${program.name}`);
   const data = rehearsal.data;
   const result = data?.status === "done" ? data.result : null;
-  const refusal = problem ?? missing(rehearsal)?.message;
+  const unknown = useWhyUnknown(rehearsalId, rehearsal);
+  const refusal = problem ?? unknown;
   return (
     <div className={styles.screen}>
       <TopBar

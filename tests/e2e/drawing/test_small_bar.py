@@ -10,7 +10,19 @@ import pytest
 from playwright.sync_api import Page, Route, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import SITE, address_of, ask, make_program, resize, saved, shoot, tell, violations, write_program
+from tests.e2e.screens import (
+    SITE,
+    address_of,
+    ask,
+    make_program,
+    resize,
+    run_state,
+    saved,
+    shoot,
+    tell,
+    violations,
+    write_program,
+)
 
 pytestmark = pytest.mark.browser
 NEVER_OVER = """class Task(object):
@@ -177,7 +189,7 @@ def test_a_run_with_all_that_its_bar_can_tell_leaves_stop_all_its_place(sign_in:
             page.context.new_cdp_session(page).send("Emulation.setTouchEmulationEnabled", {"enabled": True})
             page.goto(address_of(page, f"/runs/{started['id']}"))
             bar = page.get_by_role("banner")
-            expect(bar.get_by_role("status").filter(has_text="1:01:28")).to_be_attached()
+            expect(run_state(page).filter(has_text="1:01:28")).to_be_attached()
             expect(bar.get_by_role("button", name=re.compile("1 robot", re.IGNORECASE))).to_be_visible()
             expect(page.get_by_text("Ada Meyer", exact=False).last).to_be_visible()
             for width in (1440, 1366, 1280, 1180, 820):

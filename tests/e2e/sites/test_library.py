@@ -69,6 +69,7 @@ def test_functions_are_found_by_what_they_do_compared_and_copied(sign_in: SignIn
     expect(detail).to_contain_text("Yes: the devices of this site can do all that it needs.")
     assert violations(page) == []
     detail.get_by_role("tab", name="Versions").press("Enter")
+    expect(detail.get_by_role("listitem").filter(has_text="v1")).to_contain_text("first version")
     expect(detail.get_by_role("status")).to_have_text("Breaking since version 1: look at your calls and devices.")
     expect(detail.get_by_text("minutes is in s now instead of min.")).to_have_count(2)
     expect(detail.get_by_role("region", name="Both scripts line by line")).to_contain_text('Number("s")')

@@ -58,8 +58,11 @@ function Change({ event }: { event: DeviceEvent }) {
 /** What happened to a device, newest first. */
 export function DeviceHistory({ slug, device, most }: { slug: string; device: string; most: number }) {
   const { t } = useTranslation();
-  const path = `/sites/${slug}/devices/${encodeURIComponent(device)}/events`;
-  const events = useQuery({ queryKey: keys.deviceEvents(slug, device), queryFn: () => api.get<DeviceEvent[]>(path) });
+  const path = `/sites/${slug}/devices/${encodeURIComponent(device)}/events?limit=${most}`;
+  const events = useQuery({
+    queryKey: [...keys.deviceEvents(slug, device), most],
+    queryFn: () => api.get<DeviceEvent[]>(path),
+  });
   return (
     <Panel className={styles.changes}>
       <div className={styles.cardHead}>
@@ -68,7 +71,7 @@ export function DeviceHistory({ slug, device, most }: { slug: string; device: st
       {events.isPending ? <Skeleton height={120} m={12} w="auto" /> : null}
       {events.isLoadingError ? <LoadProblem error={events.error} again={() => void events.refetch()} /> : null}
       <ul>
-        {events.data?.slice(0, most).map((event, index) => (
+        {events.data?.map((event, index) => (
           <Change key={index} event={event} />
         ))}
       </ul>

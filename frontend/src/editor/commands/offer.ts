@@ -8,7 +8,7 @@ import { keysOf, useKeymap } from "@/shell/keys/keymap";
 import { type Offer, useOffer } from "@/shell/palette/offers";
 import { type Target, wordsOf } from "@/shell/palette/search";
 import { createStep } from "../state/actions";
-import type { OpenProgram } from "../state/context";
+import { type OpenProgram, useOpenProgram } from "../state/context";
 import { focusMap } from "../state/focus";
 import { useGestures } from "../state/gestures";
 import { useScreen } from "../state/screen";
@@ -22,12 +22,15 @@ import { showSteps } from "./view";
 
 type Words = (key: string) => string;
 
-export function usePaletteOffer(open: OpenProgram): void {
+/** Offers it for as long as the editor is on the screen, as soon as this script has come. */
+export function PaletteOffer() {
+  const open = useOpenProgram();
   const offer = useMemo<Offer>(
     () => ({ targets: (other) => targetsOf(open, other), said: (query, other) => saidTargets(open, query, other) }),
     [open],
   );
   useOffer(offer);
+  return null;
 }
 
 function targetsOf(open: OpenProgram, other: Words): Target[] {

@@ -1,8 +1,9 @@
 /** A version is run as it was, asked about like any other run. */
 import { Loader, Modal } from "@mantine/core";
 import { useTranslation } from "react-i18next";
-import { useComparison, useDevices, useSiteMap, useVersion } from "@/api/queries";
+import { useDevices, useSiteMap, useVersion } from "@/api/queries";
 import type { Program, Site, Version } from "@/api/types";
+import { useComparison } from "@/compare/comparison";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { RunDialog } from "@/shell/start/RunForm";
 

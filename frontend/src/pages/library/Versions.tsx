@@ -55,7 +55,7 @@ function VersionList({ versions }: { versions: readonly LibraryVersion[] }) {
 
 function Verdict({ reasons }: { reasons: readonly FunctionReason[] | null }) {
   const { t } = useTranslation();
-  if (!reasons) return <Chip>{t("library.first")}</Chip>;
+  if (!reasons) return <Chip>{t("library.firstVersion")}</Chip>;
   const breaks = isBreaking(reasons);
   return <Chip tone={breaks ? "warn" : "done"}>{t(breaks ? "library.breaking" : "library.compatible")}</Chip>;
 }

@@ -228,8 +228,8 @@ export function MapPage() {
   const [query] = useSearchParams();
   const [mode, setMode] = useState<Mode | "measure" | null>(query.has("places") ? "places" : null);
   const isMeasuring = mode === "measure";
-  const editing = isMeasuring ? null : mode;
   const modes = useModes(site.data);
+  const editing = mode !== null && mode !== "measure" && modes.includes(mode) ? mode : null;
   const problem = missing(site, map);
   return (
     <PageShell

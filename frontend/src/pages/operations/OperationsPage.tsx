@@ -66,12 +66,15 @@ function Facts({ findings, alerts }: { findings: readonly Finding[] | undefined;
   );
 }
 
+/** That no answer comes is said once; how long ago the last one was, which changes each second, is only shown. */
 function Age({ at }: { at: number }) {
   const { t } = useTranslation();
   const age = useNow(1000) - at;
+  const isOld = at > 0 && age > OLD_MS;
   return (
-    <p role="status" className={at > 0 && age > OLD_MS ? styles.old : "visually-hidden"}>
-      {at > 0 && age > OLD_MS ? t("operations.old", { ago: formatSpan(age / 1000) }) : ""}
+    <p className={isOld ? styles.old : "visually-hidden"}>
+      <span role="status">{isOld ? t("operations.old") : null}</span>{" "}
+      {isOld ? <span>{t("operations.lastAnswer", { ago: formatSpan(age / 1000) })}</span> : null}
     </p>
   );
 }
@@ -86,6 +89,7 @@ function OperationsOfSite({ slug }: { slug: string }) {
   const site = useSite(slug);
   const role = site.data?.role;
   const mayLook = seesOperations(role);
+  const isForOthers = role !== undefined && !mayOperate(role);
   const findings = useFindings(mayLook ? slug : undefined);
   const operations = useOperations(mayLook ? slug : undefined);
   const processes = useProcesses(role === "admin" ? slug : undefined);
@@ -100,12 +104,12 @@ function OperationsOfSite({ slug }: { slug: string }) {
         {problem ? (
           <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), operations.refetch()])} />
         ) : null}
-        {!mayOperate(role) ? (
+        {isForOthers ? (
           <Panel>
             <EmptyState title={t("operations.notForYou")} />
           </Panel>
         ) : null}
-        {!problem && mayOperate(role) && operations.isPending ? <TableSkeleton /> : null}
+        {!problem && !isForOthers && operations.isPending ? <TableSkeleton /> : null}
         <Age at={operations.dataUpdatedAt} />
         {found?.length ? <FindingList findings={found} /> : null}
         {role === "admin" ? <SetAside slug={slug} /> : null}

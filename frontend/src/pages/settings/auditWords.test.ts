@@ -1,9 +1,9 @@
-import { beforeAll, expect, test } from "vitest";
+import { afterEach, beforeAll, expect, test, vi } from "vitest";
 import i18next from "i18next";
 import type { AuditEntry } from "@/api/types";
 import role from "@/i18n/en/role.json";
 import people from "@/i18n/en/screens/people.json";
-import { actorWords, byDay, deedWords, placeWords } from "./auditWords";
+import { actorWords, byDay, dayWords, deedWords, placeWords } from "./auditWords";
 
 const line = (code: string, facts: Record<string, unknown> = {}, some: Partial<AuditEntry> = {}): AuditEntry => ({
   id: 1,
@@ -19,6 +19,7 @@ const line = (code: string, facts: Record<string, unknown> = {}, some: Partial<A
   ...some,
 });
 
+afterEach(() => void vi.unstubAllGlobals());
 beforeAll(() => i18next.init({ lng: "en", resources: { en: { translation: { people, role } } } }));
 
 test("roles are called as people call them", () => {
@@ -72,4 +73,30 @@ test("lines of a day stand together", () => {
     ["Today", [4, 3]],
     ["Yesterday", [2]],
   ]);
+});
+
+const HOUR_MS = 3_600_000;
+const SUMMER = [Date.UTC(2026, 2, 29, 1), Date.UTC(2026, 9, 25, 1)] as const;
+const ahead = (at: number) => (at >= SUMMER[0] && at < SUMMER[1] ? 2 : 1) * HOUR_MS;
+
+/** The clock of a browser in Berlin; a process has one zone, that of the machine. */
+class InBerlin extends Date {
+  #wall = () => new Date(this.getTime() + ahead(this.getTime()));
+  override toDateString = () => this.#wall().toISOString().slice(0, 10);
+  override getDate = () => this.#wall().getUTCDate();
+  override setDate = (day: number) => {
+    const wall = this.#wall().setUTCDate(day);
+    return this.setTime(wall - ahead(wall - ahead(wall)));
+  };
+}
+
+test.each([
+  ["2026-03-30T00:30:00+02:00", "2026-03-29T00:10:00+01:00", "2026-03-28T23:50:00+01:00"],
+  ["2026-10-25T23:30:00+01:00", "2026-10-24T00:10:00+02:00", "2026-10-23T23:50:00+02:00"],
+])("yesterday is the day before, also where one is longer or shorter: %s", (now, yesterday, before) => {
+  vi.stubGlobal("Date", InBerlin);
+  vi.stubGlobal("navigator", { languages: [] });
+  const at = new Date(now).getTime();
+  expect([dayWords(now, at), dayWords(yesterday, at)]).toEqual(["Today", "Yesterday"]);
+  expect(dayWords(before, at)).not.toBe("Yesterday");
 });

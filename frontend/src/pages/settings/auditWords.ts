@@ -43,10 +43,11 @@ export function placeWords({ address, browser, system }: AuditEntry): string {
 
 /** The day of a line as a heading: today, yesterday, or its date. */
 export function dayWords(at: string, now: number): string {
-  const day = (time: number) => new Date(time).toDateString();
-  const of = new Date(at).getTime();
-  if (day(of) === day(now)) return i18next.t("people.audit.today");
-  if (day(of) === day(now - 24 * 3600 * 1000)) return i18next.t("people.audit.yesterday");
+  const of = new Date(at).toDateString();
+  const day = new Date(now);
+  if (of === day.toDateString()) return i18next.t("people.audit.today");
+  day.setDate(day.getDate() - 1); // a day is 23 hours long when summer time begins, and 25 when it ends
+  if (of === day.toDateString()) return i18next.t("people.audit.yesterday");
   return formatDay(at);
 }
 

@@ -1,9 +1,10 @@
 // @vitest-environment jsdom
 import { act, fireEvent, screen, waitFor } from "@testing-library/react";
+import { useLocation } from "react-router-dom";
 import { expect, test, vi } from "vitest";
 import { keys, makeQueryClient } from "@/api/queries";
 import type { Run, Site } from "@/api/types";
-import { show, testsPages } from "@/testing/page";
+import { show, showAt, testsPages } from "@/testing/page";
 import { RunComments } from "./RunComments";
 import { useRunComments } from "./useRunComments";
 
@@ -52,4 +53,23 @@ test("a form about another moment stays open when what was sent before has arriv
   await waitFor(() => expect(screen.getByLabelText<HTMLTextAreaElement>("Comment on 0:20").value).toBe(""));
   await act(async () => {}); // what comes of the answer is over
   expect(screen.getByLabelText("Comment on 0:20")).toBeDefined();
+});
+
+test("a thread that is opened and closed leaves what else the address says", async () => {
+  vi.stubGlobal("fetch", () => Promise.resolve(Response.json([])));
+  function Threads() {
+    const { open } = useRunComments(RUN, SITE);
+    return (
+      <>
+        <button onClick={() => open("t")}>Open</button>
+        <button onClick={() => open(null)}>Close</button>
+        <p>{useLocation().search}</p>
+      </>
+    );
+  }
+  showAt("/runs/r?view=3d", [{ path: "/runs/:id", element: <Threads /> }]);
+  fireEvent.click(screen.getByText("Open"));
+  expect(await screen.findByText("?view=3d&thread=t")).toBeTruthy();
+  fireEvent.click(screen.getByText("Close"));
+  expect(await screen.findByText("?view=3d")).toBeTruthy();
 });

@@ -28,7 +28,15 @@ export function useRunComments(run: Run, site: Site | undefined) {
   const open = useCallback(
     (thread: string | null) => {
       setMoment(null);
-      setParameters(thread === null ? {} : { [THREAD]: thread }, { replace: true });
+      setParameters(
+        (before) => {
+          const after = new URLSearchParams(before);
+          if (thread === null) after.delete(THREAD);
+          else after.set(THREAD, thread);
+          return after;
+        },
+        { replace: true },
+      );
     },
     [setParameters],
   );
