@@ -35,6 +35,8 @@ test("a test stands beside the module that it tests, or names what several do to
     "catalogues",
     "offline",
     "answers",
+    "closedBefore",
+    "focus",
     "unseen",
   ];
   const names = new Set(modules.map(([path]) => path.replace(/\.tsx?$/, "")));

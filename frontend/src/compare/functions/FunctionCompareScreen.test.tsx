@@ -6,6 +6,7 @@ import { CompareScreen } from "../CompareScreen";
 import { FunctionCompareScreen } from "./FunctionCompareScreen";
 
 const drawn = vi.fn((_props: object) => null);
+// A module that another file's tests have fetched already, as the screen of programs may be, has none of these.
 vi.mock("../ComparedParts", async (read) => ({ ...(await read<object>()), MapOf: (props: object) => drawn(props) }));
 vi.mock("../ReviewBar", () => ({ ReviewBar: () => null }));
 vi.mock("@/shell/TopBar", () => ({ TopBar: () => null, Crumb: () => null }));
@@ -16,10 +17,11 @@ const ANSWERS: readonly (readonly [RegExp, unknown])[] = [
   [/\/library\/f\/sides|\/comparison\?old=draft/, SAME],
   [/\/library\/f\/comparison/, { reasons: [] }],
   [/\/library\/f/, { id: "f", name: "mix", version: 1 }],
-  [/\/runs|program=p/, []],
-  [/\/programs\/p\/(?!compar)/, { items: [], next: null, copies: [], origin: null }],
+  [/\/runs|version-tests|program=p/, []],
+  [/\/review(\?|$)/, { needed: 0, number: null, history: [], why_not: "", may_run: true, compare_with: null }],
+  [/\/programs\/p\/(?!compar|review)/, { items: [], next: null, copies: [], origin: null }],
   [/\/programs\/p/, { id: "p", name: "Paint", site: "hall" }],
-  [/\/sites\/hall$/, { slug: "hall", name: "Hall", has_map: false, role: "viewer" }],
+  [/\/sites\/hall$/, { slug: "hall", name: "Hall", has_map: false, role: "viewer", stop: { active: false } }],
 ];
 
 testsPages();
