@@ -37,6 +37,9 @@ Will = tuple[str, bytes, int, bool]
 MessageCallback = Callable[[str, bytes, bool], None]
 
 EARLY_LIMIT = 10_000
+OWN_PREFIX = "server:"
+"""Before the client ids of VIPO's own processes. Client ids are one table over all of a broker's listeners, and who
+comes with a known one ends the other's connection; a device's is its user name, which has no such beginning."""
 KEEPALIVE_S = 15
 SESSION_EXPIRY_S = 10
 MISSES_TOLD = 3
@@ -129,13 +132,13 @@ class MqttClient:
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], *, client_id: str, **more: Any) -> MqttClient:
-        """Return a client for the server's own account, from the setting VIPO_MQTT."""
+        """Return a client of VIPO's own, from the setting VIPO_MQTT; no device can have its client id."""
         return cls(
             host=settings["host"],
             port=settings["port"],
             username=settings["username"],
             password=settings["password"],
-            client_id=client_id,
+            client_id=OWN_PREFIX + client_id,
             tls=tls_context(settings.get("ca", "")) if settings.get("tls") else None,
             protocol=settings.get("protocol", "auto"),
             **more,

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 import pytest
+from django.conf import LazySettings
 
 from execution.gateway.gateway import Gateway
 from registry import services
@@ -44,6 +46,30 @@ def test_an_id_that_can_be_none_is_told_to_the_admins_of_the_site(bus: Bus, gate
         {"device": "oven 1", "because": "device_id"},
         {"device": "ö" * 64, "because": "device_id"},
     ]
+
+
+def test_a_device_of_the_name_of_a_gateway_throws_nobody_out(
+    bus: Bus, gateway: Gateway, settings: LazySettings
+) -> None:
+    named, other = settings.VIPO_GATEWAY, "oven01"
+    at = datetime.now(UTC)
+    for device in (named, other):
+        services.enrol_device(site=SITE, device_id=device, payload=json.dumps({"key": KEY}).encode(), at=at)
+    ends: list[None] = []
+    gateway._client.on_connected(lambda: ends.append(None))  # comes in again
+    clients = {device: bus.client(device, KEY) for device in (named, other)}
+    clients[named].on_connected(lambda: ends.append(None))
+    for device, client in clients.items():
+        client.start()
+        assert client.wait_connected(20), client.refusal
+        client.publish(f"vipo/v1/dev/{device}/up/desc", MIXER_TEXT.replace("paintMixer03", device).encode())
+    wait_for("both descriptions", lambda: [lifecycle(device) for device in (named, other)] == ["pending", "pending"])
+    time.sleep(1.5)  # who is thrown out comes again after a second
+    assert len(ends) == 1, "the device, once"
+    assert gateway._client.connected
+    for client in clients.values():
+        assert client.connected
+        client.stop()
 
 
 def test_a_stranger_joins_by_its_description_and_the_join_key_alone(bus: Bus, gateway: Gateway, tmp_path: Path) -> None:
