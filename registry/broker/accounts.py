@@ -10,7 +10,8 @@ import json
 import logging
 import secrets
 import threading
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Generator, Iterable, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Protocol
@@ -19,7 +20,7 @@ from django.conf import settings
 from django.db import transaction
 from django.utils.module_loading import import_string
 
-from registry.broker.mosquitto_file import find_hearing_all_stops, role_of
+from registry.broker.mosquitto_file import Role, find_hearing_all_stops, role_of
 from registry.errors import RegistryError
 from registry.live.fanout import wait_wake, wake
 from vipo_device.protocol.mqtt_client import MqttClient
@@ -30,7 +31,13 @@ CONTROL = "$CONTROL/dynamic-security/v1"
 BROKER_CHANNEL = "broker"
 ANSWER_LIMIT_S = 10.0
 PAGE = 200
+MOST_BYTES = 12_000
+"""So much is said to the plugin in one message, and its ends; the broker takes packets of 16,384 bytes."""
+MOST_OF_ROLE = 8_000
+"""So much of a role is said in one command."""
 Command = Mapping[str, Any]
+Told = tuple[str, Command, str]
+"""A command's name, its arguments, and the refusal that does no harm."""
 
 
 class BrokerAway(RegistryError):
@@ -107,8 +114,7 @@ class DynamicSecurity:
         role = role_of(account.name, account.site, account.topics)
         name = str(role["rolename"])
         self._tell(
-            ("createRole", role, "already exists"),
-            ("modifyRole", role, ""),
+            [("createRole", {"rolename": name}, "already exists"), *_role_commands(role)],
             ("createClient", {"username": account.name, "roles": [{"rolename": name}]}, "already exists"),
             ("setClientPassword", {"username": account.name, "password": account.key}, ""),
         )
@@ -116,7 +122,7 @@ class DynamicSecurity:
     def allow(self, name: str, site: str, topics: tuple[str, ...]) -> None:
         """See BrokerAccounts."""
         self._tell(
-            ("modifyRole", role_of(name, site, topics), ""),
+            _role_commands(role_of(name, site, topics)),
             # a changed role leaves connections alone: this ends them, so that the device asks for its topics anew
             ("disableClient", {"username": name}, ""),
             ("enableClient", {"username": name}, ""),
@@ -125,6 +131,7 @@ class DynamicSecurity:
     def remove(self, name: str) -> None:
         """See BrokerAccounts."""
         self._tell(
+            [],
             ("deleteClient", {"username": name}, "not found"),
             ("deleteRole", {"rolename": role_of(name)["rolename"]}, "not found"),
         )
@@ -142,36 +149,73 @@ class DynamicSecurity:
         found: list[Any] = []
         while True:
             asked = {"verbose": verbose, "count": PAGE, "offset": len(found)}
-            (answer,) = self._tell((f"list{what.title()}", asked, ""))
+            (answer,) = self._tell([], (f"list{what.title()}", asked, ""))
             data = answer.get("data", {})
             found += data.get(what, [])
             if not data.get(what) or len(found) >= data.get("totalCount", 0):
                 return found
 
-    def _tell(self, *commands: tuple[str, Command, str]) -> Sequence[Mapping[str, Any]]:
-        """Send (command, arguments, harmless refusal) and return the answers in their order."""
-        answers = _ask([{"command": command, **arguments} for command, arguments, _ in commands])
-        for (command, _, harmless), answer in zip(commands, answers, strict=True):
-            error = str(answer.get("error", ""))
-            if error and not (harmless and harmless in error.lower()):
-                raise BrokerAway(f"The broker refused {command}: {error}. Nothing was changed.")
-        return answers
+    def _tell(self, many: Sequence[Told], *together: Told) -> Sequence[Mapping[str, Any]]:
+        """Send `many` commands in as many messages as they need, the last ones `together`; return all answers."""
+        groups = _grouped(many)
+        groups[-1] += together
+        found: list[Mapping[str, Any]] = []
+        with closing(_ask([[_body(told) for told in group] for group in groups])) as heard:
+            for group, answers in zip(groups, heard, strict=True):
+                for (command, _, harmless), answer in zip(group, answers, strict=True):
+                    error = str(answer.get("error", ""))
+                    if error and not (harmless and harmless in error.lower()):
+                        raise BrokerAway(f"The broker refused {command}: {error}. {_outcome(found)}")
+                found += answers
+        return found
 
 
-def _ask(commands: Sequence[Command]) -> Sequence[Mapping[str, Any]]:
-    """Publish commands to the plugin and wait for its answers, one for each.
+def _role_commands(role: Role) -> list[Told]:
+    """Return what makes a role that exists this one; what one command would be too large for is added rule by rule."""
+    name, rules, size = role["rolename"], list(role["acls"]), 0
+    first = []
+    while rules and (size := size + len(json.dumps(rules[0]))) <= MOST_OF_ROLE:
+        first.append(rules.pop(0))
+    added: list[Told] = [("addRoleACL", {"rolename": name, **rule}, "already exists") for rule in rules]
+    return [("modifyRole", {"rolename": name, "acls": first}, ""), *added]
+
+
+def _grouped(commands: Sequence[Told]) -> list[list[Told]]:
+    """Part commands, in their order, so that each part is one message; there is one at least."""
+    groups: list[list[Told]] = [[]]
+    size = 0
+    for told in commands:
+        own = len(json.dumps(_body(told)))
+        if groups[-1] and size + own > MOST_BYTES:
+            groups.append([])
+            size = 0
+        groups[-1].append(told)
+        size += own
+    return groups
+
+
+def _body(told: Told) -> dict[str, Any]:
+    command, arguments, _ = told
+    return {"command": command, **arguments, "correlationData": secrets.token_hex(8)}
+
+
+def _outcome(answers: Sequence[object]) -> str:
+    """Say what a change is like that the broker did not take, after so many answers to what came before."""
+    return "The change is not complete there; try again in a moment." if answers else "Nothing was changed."
+
+
+def _ask(groups: Sequence[Sequence[Command]]) -> Generator[Sequence[Mapping[str, Any]]]:
+    """Publish groups of commands to the plugin, one after the other, and give its answers, one for each command.
 
     Whoever asks at the same time hears these answers, too; the marks tell whose they are.
     """
-    marks = [secrets.token_hex(8) for _ in commands]
-    body = [{**command, "correlationData": mark} for command, mark in zip(commands, marks, strict=True)]
-    heard = threading.Event()
-    answers: dict[str, Mapping[str, Any]] = {}
+    changed = threading.Condition()
+    heard: dict[str, Mapping[str, Any]] = {}
 
     def hear(_topic: str, text: bytes, _retained: bool) -> None:
-        answers.update({str(answer.get("correlationData")): answer for answer in json.loads(text)["responses"]})
-        if answers.keys() >= set(marks):
-            heard.set()
+        with changed:
+            heard.update({str(answer.get("correlationData")): answer for answer in json.loads(text)["responses"]})
+            changed.notify_all()
 
     client = MqttClient.from_settings(settings.VIPO_MQTT, client_id=f"accounts-{secrets.token_hex(6)}")
     client.subscribe(f"{CONTROL}/response", 1, hear)
@@ -179,13 +223,19 @@ def _ask(commands: Sequence[Command]) -> Sequence[Mapping[str, Any]]:
     try:
         if not client.wait_subscribed(ANSWER_LIMIT_S):
             raise BrokerAway("The MQTT broker does not answer, so nothing was changed. Try again in a moment.")
-        client.publish(CONTROL, json.dumps({"commands": body}).encode())
-        if not heard.wait(ANSWER_LIMIT_S):
-            raise BrokerAway(
-                "The MQTT broker does not manage accounts, so nothing was changed. "
-                "Check that it runs with deploy/mosquitto/mosquitto.conf."
-            )
-        return [answers[mark] for mark in marks]
+        for number, group in enumerate(groups):
+            marks = [str(command["correlationData"]) for command in group]
+            client.publish(CONTROL, json.dumps({"commands": group}).encode())
+            with changed:
+                is_heard = changed.wait_for(lambda sought=marks: heard.keys() >= set(sought), ANSWER_LIMIT_S)  # type: ignore[misc]
+            if not is_heard and number:
+                raise BrokerAway(f"The MQTT broker does not answer any more. {_outcome(marks)}")
+            if not is_heard:
+                raise BrokerAway(
+                    "The MQTT broker does not manage accounts, so nothing was changed. "
+                    "Check that it runs with deploy/mosquitto/mosquitto.conf."
+                )
+            yield [heard[mark] for mark in marks]
     finally:
         client.stop()
 

@@ -13,13 +13,16 @@ from execution import services as execution
 from execution.errors import NotPossibleNow
 from execution.gateway.gateway import Gateway
 from registry import services
+from registry.broker.accounts import Account, accounts
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
 from tests.kit.files import MIXER_TEXT
 from tests.kit.mqtt import Ear
 from tests.kit.waiting import wait_for
 from vipo_device.descriptions.reader import read_description, write_description
+from vipo_device.protocol.description import MOST_METHODS
 from vipo_device.protocol.messages import down_topic, up_topic
 from vipo_device.protocol.mqtt_client import MqttClient
+from vipo_device.protocol.topics import MOST_CHARACTERS
 
 pytestmark = pytest.mark.servers
 TOPIC = "plant/mixer01/start"
@@ -67,6 +70,40 @@ def test_a_confirmed_topic_is_heard_by_its_device_alone(bus: Bus) -> None:
     assert not {b"too early", b"a device says nothing there"} & {*heard["mixer01"], *heard["mixer02"]}
     for client in (*clients.values(), server):
         client.stop()
+
+
+@pytest.mark.parametrize("bus", ["mosquitto"], indirect=True)
+def test_a_device_hears_all_of_as_many_and_as_long_topics_as_there_may_be(bus: Bus) -> None:
+    key = "the-key-of-mixer01-00000001"
+    topics = tuple(f"plant/{number:02}/".ljust(MOST_CHARACTERS, "x") for number in range(MOST_METHODS))
+    for _ in range(2):  # the second time it has its role already
+        accounts().put(Account("mixer01", key, topics, SITE))
+    heard: list[str] = []
+    device = bus.client("mixer01", key)
+    for topic in topics:
+        device.subscribe(topic, 1, lambda topic, _payload, _retained: heard.append(topic))
+    device.start()
+
+    def hears() -> list[str]:
+        """Say something on each topic, and return where the device hears it until then."""
+        heard.clear()
+        assert device.wait_subscribed(20)
+        for topic in topics:
+            ear.client.publish(topic, b"")
+        ear.client.publish(down_topic("mixer01", "mark"), b"")
+        wait_for("the mark", lambda: "mark" in heard)
+        return heard[:-1]
+
+    device.subscribe(down_topic("mixer01", "mark"), 1, lambda *_: heard.append("mark"))
+    with Ear(bus.server_port, SERVER_WORD) as ear:
+        assert hears() == list(topics)
+        for allowed in (topics[:1], topics):
+            connections: list[None] = []
+            device.on_connected(lambda made=connections: made.append(None))
+            accounts().allow("mixer01", SITE, allowed)
+            wait_for("the new connection", lambda made=connections: made)
+            assert hears() == list(allowed)
+    device.stop()
 
 
 def test_a_device_that_enrols_again_with_its_key_goes_on_hearing_its_confirmed_topic(bus: Bus) -> None:
