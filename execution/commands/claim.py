@@ -13,7 +13,6 @@ from uuid import UUID
 from django.db import connection, transaction
 
 from execution import database
-from execution.clock import steady_s
 from execution.database import preparing_cursor
 from execution.fault_points import fault_point
 from execution.floor_protocol import again_after_s
@@ -21,6 +20,7 @@ from execution.models import Command, Run
 from execution.traffic.messages import CONTROLS, HALTING_CONTROLS
 from registry import services as registry
 from vipo_device.protocol import messages
+from vipo_device.protocol.clock import steady_s
 
 CLAIM_HOLDS_S = 1.0
 """Who comes later than that to send what was claimed does not: others are given it after `FIRST_RETRY_S`."""
@@ -133,6 +133,15 @@ class OutgoingCommand:
     ttl_s: float
     tries: int
     late_at_s: float
+    told_once: bool = False
+
+    @property
+    def wait_s(self) -> float:
+        """For so long it may still wait for the broker: what others may have by then is given out again, not sent late.
+
+        What is told only once, since its device knows no ids, waits as long as the command may.
+        """
+        return self.ttl_s if self.told_once else max(0.0, self.late_at_s - steady_s())
 
     @property
     def is_late(self) -> bool:
@@ -204,7 +213,8 @@ def _outgoing(facts: registry.DeliveryFacts | None, late_at_s: float, row: _Clai
     own_topic = messages.down_topic(row.device, row.method, "sim" if row.stand_in else "dev")
     command, topic = str(UUID(str(row.id))), legacy_topic or own_topic
     payload = messages.command_payload(command, json.loads(row.arguments), row.ttl_s, row.fence or 0)
-    return OutgoingCommand(command, row.device, topic, payload, row.ttl_s, row.tries, late_at_s)
+    told_once = facts is not None and facts.knows_no_ids
+    return OutgoingCommand(command, row.device, topic, payload, row.ttl_s, row.tries, late_at_s, told_once)
 
 
 def release_commands(*, commands: Iterable[OutgoingCommand]) -> int:

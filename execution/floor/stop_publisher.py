@@ -10,7 +10,7 @@ import socket
 from collections.abc import Mapping
 from typing import Any
 
-from execution.clock import steady_s
+from vipo_device.protocol.clock import steady_s
 from vipo_device.protocol.mqtt_client import MqttClient
 
 FRESH_S = 1.0

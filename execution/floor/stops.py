@@ -20,12 +20,12 @@ from django.db.models import BigIntegerField, F, QuerySet, Value
 from django.db.models.functions import Greatest
 
 from execution import mailbox
-from execution.clock import steady_s
 from execution.floor import stop_publisher
 from execution.machine.messages import PauseAsked
 from execution.models import ArmedProgram, Command, Run, SiteStop, StopFollowed
 from execution.traffic.messages import CallCancelled, StopPressed, StopReset
 from registry import services as registry
+from vipo_device.protocol.clock import steady_s
 from vipo_device.protocol.messages import StopMessage
 
 log = logging.getLogger(__name__)

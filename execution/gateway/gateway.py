@@ -211,7 +211,7 @@ class Gateway:
                 late.append(command)
             else:
                 fault_point("before_publish")
-                self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)
+                self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s, wait_s=command.wait_s)
                 fault_point("after_publish")
                 sent.append(command.id)
         if sent:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import threading
 
-from execution.clock import steady_s
 from execution.floor.stop_publisher import FRESH_S, stop_topic
 from execution.floor.stops import catch_up_stop, list_stops, stop_payload
 from registry import services as registry
+from vipo_device.protocol.clock import steady_s
 from vipo_device.protocol.messages import read_stop
 from vipo_device.protocol.mqtt_client import MqttClient
 

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Iterable
 from datetime import datetime
 
-from execution.clock import steady_s
+from vipo_device.protocol.clock import steady_s
 
 MARK_AFTER_S = 0.1
 

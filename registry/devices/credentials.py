@@ -30,8 +30,9 @@ from registry.errors import RegistryError
 from registry.models import Device, Site, User
 from registry.sites.sites import find_site, get_enrolment_key, has_enrolment_key, replace_enrolment_key
 from vipo_device.protocol.credentials import broker_hash, make_credential, own_key, secret_hash
+from vipo_device.protocol.errors import MqttError
 from vipo_device.protocol.messages import BadMessage, down_topic, is_device_id, parse_ack, up_topic
-from vipo_device.protocol.mqtt_client import MqttClient, MqttError
+from vipo_device.protocol.mqtt_client import MqttClient
 from vipo_device.protocol.topics import OWN_ACCOUNTS
 
 log = logging.getLogger(__name__)

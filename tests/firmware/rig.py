@@ -67,7 +67,7 @@ def running_bus(kind: str, folder: Path) -> Iterator[Any]:
 
 @contextmanager
 def listening(bus: Any) -> Iterator[Ear]:
-    from vipo_device.protocol.mqtt_client import tls_context
+    from vipo_device.protocol.sockets import tls_context
 
     with Ear(bus.port, ACCOUNTS["server"], tls=tls_context(bus.authority) if bus.authority else None) as ear:
         yield ear

@@ -24,7 +24,7 @@ from tests.firmware.rig import (
 from tests.kit.mqtt import Ear
 from tests.kit.servers import run_mosquitto, write_mosquitto_files
 from tests.kit.waiting import wait_for
-from vipo_device.protocol.mqtt_client import tls_context
+from vipo_device.protocol.sockets import tls_context
 
 JOIN_KEY, NEXT_KEY, STRAY_KEY = "j" * 32, "n" * 40, "s" * 40
 ACCOUNTS_FOR_ENROLMENT = {"server": ACCOUNTS["server"], "join:hall": JOIN_KEY}

@@ -23,7 +23,8 @@ from vipo_device.protocol.messages import (
     state_payload,
     up_topic,
 )
-from vipo_device.protocol.mqtt_client import MqttClient, Will, tls_context
+from vipo_device.protocol.mqtt_client import MqttClient, Will
+from vipo_device.protocol.sockets import tls_context
 
 log = logging.getLogger(__name__)
 SERVER_STATUS = "vipo/v1/srv/status"

@@ -20,3 +20,10 @@ class VipoError(Exception):
     def __init__(self, detail: str, facts: Mapping[str, Any] | None = None) -> None:
         super().__init__(detail)
         self.detail, self.facts = detail, facts or {}
+
+
+class MqttError(VipoError):
+    """The MQTT client cannot do what it was asked."""
+
+    code = "mqtt"
+    status = 503

@@ -7,13 +7,13 @@ connection; the client then speaks 3.1.1 for the rest of its life. Callbacks run
 from __future__ import annotations
 
 import logging
-import socket
 import ssl
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
+from math import inf
 from types import SimpleNamespace
 from typing import Any, Literal
 
@@ -24,8 +24,10 @@ from paho.mqtt.properties import Properties
 from paho.mqtt.reasoncodes import ReasonCode
 from paho.mqtt.subscribeoptions import SubscribeOptions
 
-from vipo_device.protocol.errors import VipoError
+from vipo_device.protocol.errors import MqttError
+from vipo_device.protocol.outgoing import NONE, Limits, Outgoing, limits_of
 from vipo_device.protocol.readiness import wait_ready
+from vipo_device.protocol.sockets import drop_unsent, send_at_once, tls_context
 
 # paho waits by select() and takes a socket with a number above 1,023 for a lost connection, again and again.
 paho.__dict__["select"] = SimpleNamespace(select=wait_ready)
@@ -36,7 +38,8 @@ ProtocolVersion = Literal["auto", "5", "3.1.1"]
 Will = tuple[str, bytes, int, bool]
 MessageCallback = Callable[[str, bytes, bool], None]
 
-EARLY_LIMIT = 10_000
+EARLY_LIMIT = 50_000
+"""So many messages wait for a connection, the newest ones; MQTT numbers at most 65,535 that are unconfirmed."""
 OWN_PREFIX = "server:"
 """Before the client ids of VIPO's own processes. Client ids are one table over all of a broker's listeners, and who
 comes with a known one ends the other's connection; a device's is its user name, which has no such beginning."""
@@ -44,13 +47,6 @@ KEEPALIVE_S = 15
 SESSION_EXPIRY_S = 10
 MISSES_TOLD = 3
 """After so many attempts in a row that reach no broker the log says so, once."""
-
-
-class MqttError(VipoError):
-    """The MQTT client cannot do what it was asked."""
-
-    code = "mqtt"
-    status = 503
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +57,7 @@ class Message:
     payload: bytes
     retained: bool
     acknowledge: Callable[[], None]
+    qos: int = 1
 
 
 HandledCallback = Callable[[Message], None]
@@ -72,22 +69,6 @@ class _Subscription:
     qos: int
     plain: MessageCallback | None
     handled: HandledCallback | None
-
-
-def tls_context(authority: str = "") -> ssl.SSLContext:
-    """Return a context that checks the broker's certificate, against the file `authority` if one is named."""
-    try:
-        return ssl.create_default_context(cafile=authority or None)
-    except OSError as error:
-        raise MqttError(
-            f"The certificate authority {authority!r} cannot be read: {error}. Check VIPO_MQTT_CA."
-        ) from None
-
-
-def send_at_once(_client: paho.Client, _data: Any, opened: Any) -> None:
-    """Switch Nagle's algorithm off: a message would wait up to 40 ms for a delayed acknowledgement."""
-    with suppress(OSError):  # a broker behind something that is not TCP has no such wait
-        opened.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
 
 class MqttClient:
@@ -120,7 +101,8 @@ class MqttClient:
         self._subscriptions: list[_Subscription] = []
         self._connected_callbacks: list[Callable[[], None]] = []
         self._refused_callbacks: list[Callable[[], None]] = []
-        self._early: deque[tuple[str, bytes, int, bool, float | None]] = deque(maxlen=EARLY_LIMIT)
+        self._early: deque[Outgoing] = deque(maxlen=EARLY_LIMIT)
+        self._limits: dict[int, Limits] = {}
         self._guard = threading.RLock()
         self._answered = threading.Condition(self._guard)
         self._unanswered: set[int | None] = set()
@@ -187,14 +169,25 @@ class MqttClient:
         self._add(_Subscription(topic, qos, None, callback))
 
     def publish(
-        self, topic: str, payload: bytes, *, qos: int = 1, retain: bool = False, expiry_s: float | None = None
+        self,
+        topic: str,
+        payload: bytes,
+        *,
+        qos: int = 1,
+        retain: bool = False,
+        expiry_s: float | None = None,
+        wait_s: float | None = None,
     ) -> None:
-        """Send a message; QoS 1 is kept and sent after a reconnect. `expiry_s` is only carried by MQTT 5."""
+        """Send a message; QoS 1 is kept and sent after a reconnect, unless `expiry_s` or `wait_s` are over by then.
+
+        With MQTT 5 the broker is told what is left of `expiry_s`, and delivers it no later, either.
+        """
+        message = Outgoing(topic, payload, qos, retain, limits_of(expiry_s, wait_s))
         with self._guard:
-            if not self._settled:
-                self._early.append((topic, payload, qos, retain, expiry_s))
-                return
-            self._send(topic, payload, qos, retain, expiry_s)
+            if self.connected:
+                self._send(message)
+            elif qos > 0 or not self._settled:
+                self._early.append(message)
 
     def change_password(self, password: str) -> None:
         """Come in with another password from the next connection on."""
@@ -240,12 +233,14 @@ class MqttClient:
         if self._will is not None:
             topic, payload, qos, retain = self._will
             client.will_set(topic, payload, qos, retain)
-        client.on_socket_open = send_at_once
+        client.on_socket_open = lambda _client, _data, opened: send_at_once(opened)
+        client.on_socket_close = self._closing
         client.on_connect = self._connected
         client.on_connect_fail = self._missed
         client.on_disconnect = self._disconnected
         client.on_message = self._received
         client.on_subscribe = self._subscribed
+        client.on_publish = self._published
         return client
 
     def _launch(self) -> None:
@@ -268,13 +263,28 @@ class MqttClient:
             self._unanswered.clear()
             for subscription in self._subscriptions:
                 self._ask(subscription)
-            while self._early:
-                self._send(*self._early.popleft())
-        self._online.set()
+            self._send_waiting(client)
+            self._online.set()
         with self._answered:
             self._answered.notify_all()
         for callback in list(self._connected_callbacks):
             callback()
+
+    def _send_waiting(self, client: paho.Client) -> None:
+        """Send what no broker has confirmed yet, unless its time is over; paho would send it again however late."""
+        unconfirmed = [
+            Outgoing(one.topic, bytes(one.payload), one.qos, one.retain, self._limits.get(one.mid, NONE))
+            for one in client.drop_out_messages()
+        ]
+        waiting = deque([*unconfirmed, *self._early], maxlen=EARLY_LIMIT)
+        self._limits.clear()
+        self._early.clear()
+        late = sum(message.limits.is_late for message in waiting)
+        for message in waiting:
+            if not message.limits.is_late:
+                self._send(message)
+        if late:
+            log.warning("%s: %d messages waited too long for the broker; they are not sent.", self._client_id, late)
 
     def _missed(self, _client: paho.Client, _data: Any) -> None:
         self._misses += 1
@@ -304,6 +314,11 @@ class MqttClient:
             return
         log.info("The MQTT connection of %s ended: %s.", self._client_id, reason)
 
+    def _closing(self, _client: paho.Client, _data: Any, closing: Any) -> None:
+        """Let nothing of a lost connection arrive later, beside the next one."""
+        if not self._stopping:
+            drop_unsent(closing)
+
     def _change_version(self, old: paho.Client) -> None:
         """Replace the client by one of the other version; runs on the old one's network thread, which then ends."""
         with self._guard:
@@ -318,10 +333,8 @@ class MqttClient:
         """Hand a message to whoever asked for its topic."""
         hit = next((s for s in self._subscriptions if paho.topic_matches_sub(_bare(s.topic), message.topic)), None)
         if hit is not None and hit.handled is not None:
-            mid, qos = message.mid, message.qos
-            hit.handled(
-                Message(message.topic, bytes(message.payload), message.retain, lambda: _acknowledge(client, mid, qos)),
-            )
+            acknowledge = partial(_acknowledge, client, message.mid, message.qos)
+            hit.handled(Message(message.topic, bytes(message.payload), message.retain, acknowledge, message.qos))
             return
         if hit is not None and hit.plain is not None:
             hit.plain(message.topic, bytes(message.payload), message.retain)
@@ -347,12 +360,22 @@ class MqttClient:
                 self._unanswered.discard(number)
                 self._answered.notify_all()
 
-    def _send(self, topic: str, payload: bytes, qos: int, retain: bool, expiry_s: float | None) -> None:
+    def _send(self, message: Outgoing) -> None:
         properties = None
-        if expiry_s is not None and self._version == "5":
+        if message.limits.ends_s < inf and self._version == "5":
             properties = Properties(PacketTypes.PUBLISH)  # type: ignore[no-untyped-call]  # paho says nothing
-            properties.MessageExpiryInterval = max(1, round(expiry_s))
-        self._paho.publish(topic, payload, qos=qos, retain=retain, properties=properties)
+            properties.MessageExpiryInterval = max(1, round(message.limits.rest_s))
+        sent = self._paho.publish(
+            message.topic, message.payload, qos=message.qos, retain=message.retain, properties=properties
+        )
+        # numbers come again: one that was confirmed before this line is put right by the next message that has it
+        self._limits.pop(sent.mid, None)
+        if message.qos > 0 and message.limits != NONE:
+            self._limits[sent.mid] = message.limits
+
+    def _published(self, _client: paho.Client, _data: Any, number: int, _reason: Any, _properties: Any) -> None:
+        """Forget until when a message might go; paho holds its messages locked, so nothing is waited for here."""
+        self._limits.pop(number, None)
 
     def _drain(self, client: paho.Client) -> None:
         """Wait a moment for queued QoS 1 messages; paho counts a subscriber's own in flight ones with them."""

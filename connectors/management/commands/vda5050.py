@@ -22,7 +22,8 @@ from connectors.vda5050.vehicle_device import Setting
 from vipo_device.kit.shutdown import stop_on_signals
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import is_device_id
-from vipo_device.protocol.mqtt_client import MqttClient, tls_context
+from vipo_device.protocol.mqtt_client import MqttClient
+from vipo_device.protocol.sockets import tls_context
 
 STOP_LIMIT_S = 8
 

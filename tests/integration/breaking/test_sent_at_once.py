@@ -12,7 +12,7 @@ from tests.kit.mqtt import Ear, sends_at_once
 from tests.kit.servers import run_mosquitto
 from tests.kit.waiting import wait_for
 from tests.unit.robot_agent.agent import Link, make_config
-from vipo_device.protocol.mqtt_client import tls_context
+from vipo_device.protocol.sockets import tls_context
 from vipo_site.embedded_broker.server import start_broker
 
 WORD = "secret"

@@ -27,7 +27,8 @@ from tests.kit.servers import free_port
 from tests.kit.sign_in import sign_in
 from tests.kit.waiting import wait_for
 from vipo_device.kit.liveness_file import is_alive
-from vipo_device.protocol.mqtt_client import MqttClient, tls_context
+from vipo_device.protocol.mqtt_client import MqttClient
+from vipo_device.protocol.sockets import tls_context
 
 pytestmark = pytest.mark.servers
 FORGED = {"X-Forwarded-For": "198.51.100.{n}", "X-Real-IP": "198.51.100.{n}", "Forwarded": "for=198.51.100.{n}"}

@@ -25,7 +25,8 @@ from tests.integration.web_of_things.node_wot import (
 from tests.kit.served import WORKER, Served, running_served
 from tests.kit.servers import Redis
 from tests.kit.waiting import PATIENCE_S
-from vipo_device.protocol.mqtt_client import MqttClient, tls_context
+from vipo_device.protocol.mqtt_client import MqttClient
+from vipo_device.protocol.sockets import tls_context
 
 pytestmark = pytest.mark.servers
 SITE = "/api/sites/painting-factory"

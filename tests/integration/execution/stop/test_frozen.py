@@ -16,7 +16,6 @@ import pytest
 from pytest_django import DjangoDbBlocker
 
 from execution import services
-from execution.clock import steady_s
 from execution.floor import stop_publisher
 from execution.models import Command
 from registry.models import Device, Site
@@ -27,6 +26,7 @@ from tests.kit.processes.forked import ForkedPython
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Mosquitto, Redis, run_mosquitto
 from tests.kit.waiting import PATIENCE_S, wait_for
+from vipo_device.protocol.clock import steady_s
 from vipo_site.settings import postgres
 
 pytestmark = pytest.mark.servers

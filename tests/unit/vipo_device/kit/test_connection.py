@@ -47,10 +47,10 @@ class Bench:
 
     def said(self) -> list[tuple[str, Any]]:
         """Return what the device has said since this was last asked: kind and message."""
-        early = self.clients[0][0]._early
-        found = [(topic.rsplit("/", 1)[1], json.loads(payload)) for topic, payload, *_ in early]
-        early.clear()
-        return found
+        client = self.clients[0][0]
+        said = [*client._early, *client._paho.drop_out_messages()]
+        client._early.clear()
+        return [(message.topic.rsplit("/", 1)[1], json.loads(message.payload)) for message in said]
 
 
 def state(**readings: Scalar) -> Any:
