@@ -13,6 +13,9 @@ from vipo_device.protocol.messages import MAX_BYTES
 from vipo_device.protocol.mqtt_client import Message
 
 INBOX_LIMIT = 20_000
+ROOM_FOR_KEPT = 2_000
+"""So many places are for what the broker keeps until it is acknowledged (QoS 1): it has 1,000 of a gateway under way,
+and once more as many after a new connection. What finds no place is not sent again before the next one."""
 MESSAGES_PER_S = 50.0
 BURST = 200.0
 ENROLMENTS_PER_S = 1.0
@@ -98,22 +101,24 @@ class Inbox:
     the newest is to be taken in.
 
     Each turn of the flag is kept. A device that alternates gains nothing by it: what is outdated has its place here,
-    too, and how much of it comes in a second is up to the device's bucket.
+    too, and how much of it comes in a second is up to the device's bucket. What nobody keeps elsewhere (QoS 0) leaves
+    the last `room_for_kept` places free.
     """
 
-    def __init__(self, limit: int = INBOX_LIMIT) -> None:
+    def __init__(self, limit: int = INBOX_LIMIT, room_for_kept: int = ROOM_FOR_KEPT) -> None:
         self._entries: deque[Entry] = deque()
         self._states: dict[tuple[str, bool], Entry] = {}
-        self._limit = limit
+        self._limit, self._room_for_kept = limit, room_for_kept
         self._changed = threading.Condition()
 
     def __len__(self) -> int:
         return len(self._entries)
 
     def put(self, entry: Entry) -> bool:
-        """Add a message; False when the inbox is full."""
+        """Add a message; False when there is no room for it."""
+        room = self._limit if entry.message.qos > 0 else self._limit - self._room_for_kept
         with self._changed:
-            if len(self._entries) >= self._limit:
+            if len(self._entries) >= room:
                 return False
             if entry.kind == "state":
                 older = self._states.get((entry.device, entry.stand_in))

@@ -87,6 +87,15 @@ def test_a_full_inbox_takes_nothing_more() -> None:
     assert [inbox.put(entry("a", "ack")) for _ in range(3)] == [True, True, False]
 
 
+def test_what_nobody_keeps_leaves_room_for_what_the_broker_keeps() -> None:
+    inbox = Inbox(limit=4, room_for_kept=2)
+    unkept = Entry(Message("vipo/v1/dev/a/up/state", b"", False, lambda: None, qos=0), "a", "state")
+    assert [inbox.put(unkept) for _ in range(3)] == [True, True, False]
+    assert [inbox.put(entry("b", "ack")) for _ in range(3)] == [True, True, False]
+    inbox.get_all(0, 3)
+    assert inbox.put(unkept)
+
+
 def test_a_bucket_gives_its_burst_and_then_its_rate() -> None:
     bucket = TokenBucket(rate=8, burst=3, tokens=3, filled_at=100.0)
     assert [bucket.take(100.0) for _ in range(4)] == [True, True, True, False]
