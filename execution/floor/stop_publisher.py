@@ -43,5 +43,5 @@ def publish_stop(site: str, payload: bytes, began_s: float) -> bool:
     """Tell the devices of a site; False where there is no connection now, or it is too late: nothing may wait here."""
     if _client is None or not _client.connected or steady_s() - began_s > FRESH_S:
         return False
-    _client.publish(stop_topic(site), payload, retain=True)
+    _client.publish(stop_topic(site), payload, retain=True, wait_s=FRESH_S)
     return True

@@ -47,7 +47,7 @@ class Stops:
                 continue
             payload = stop_payload(stop)
             if (all_of_them or held != payload) and steady_s() - read_s <= FRESH_S:
-                self._client.publish(stop_topic(stop.site), payload, retain=True)
+                self._client.publish(stop_topic(stop.site), payload, retain=True, wait_s=FRESH_S)
                 self._held[stop.site] = payload
                 registry.count(name="mqtt_messages_out", labels=("stop",))
 

@@ -10,10 +10,12 @@ import paho.mqtt.client as paho
 import pytest
 from paho.mqtt.enums import CallbackAPIVersion, MQTTProtocolVersion
 
+from execution.floor import stop_publisher
 from tests.integration.wire.bus import SERVER_WORD, Bus
 from tests.integration.wire.clients.line import Line
 from tests.kit.mqtt import Ear
 from tests.kit.waiting import wait_for
+from vipo_device.protocol.clock import steady_s
 from vipo_device.protocol.mqtt_client import MqttClient
 
 pytestmark = pytest.mark.servers
@@ -108,3 +110,26 @@ def test_what_the_system_has_not_sent_of_a_lost_connection_is_dropped() -> None:
                     read_all(connection)
         finally:
             speaker.stop()
+
+
+def test_a_stop_that_no_broker_has_confirmed_at_once_is_left_to_the_gateways(bus: Bus, line: Line) -> None:
+    stop_publisher.open_publisher(
+        mqtt={"host": "127.0.0.1", "port": line.port, "username": "server", "password": SERVER_WORD}
+    )
+    client = stop_publisher._client
+    assert client is not None
+    try:
+        assert client.wait_connected(20)
+        with Ear(bus.server_port, SERVER_WORD, "vipo/#") as ear:
+            line.lose()
+            pressed_s = steady_s()
+            assert stop_publisher.publish_stop("hall", b"{}", pressed_s)
+            line.cut()
+            wait_for("the end of its time", lambda: steady_s() - pressed_s > stop_publisher.FRESH_S)
+            line.mend()
+            wait_for("the next line", lambda: client.connected)
+            client.publish(TOPIC, b"mark")
+            ear.wait(lambda heard: heard.payload == b"mark")
+            assert [heard.topic for heard in ear.heard] == [TOPIC]
+    finally:
+        stop_publisher.close_publisher()
