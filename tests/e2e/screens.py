@@ -121,14 +121,46 @@ def steps_in_list(page: Page) -> list[str]:
     """The names of the steps as the list of steps reads them out, without who else is there."""
     page.get_by_role("tab", name="Steps").click()
     rows = page.get_by_role("tree", name="Steps").get_by_role("treeitem")
-    names = [(row.get_attribute("aria-label") or "").replace(THIN_SPACE, " ") for row in rows.all()]
-    return [OTHERS.sub("", name) for name in names]
+    names: list[str] = rows.evaluate_all("(rows) => rows.map((row) => row.getAttribute('aria-label') ?? '')")
+    return [OTHERS.sub("", name.replace(THIN_SPACE, " ")) for name in names]
+
+
+def expect_steps(page: Page, wanted: list[str]) -> None:
+    """Wait until these are in the list of steps: their numbers and places come after them, from the server."""
+    wait_for("the list of steps", lambda: steps_in_list(page) == wanted, story=lambda: "\n".join(steps_in_list(page)))
+
+
+def same_steps(*pages: Page) -> list[str]:
+    """Wait until the list of steps is the same on all of these pages; return it."""
+
+    def shown() -> list[list[str]]:
+        return [steps_in_list(page) for page in pages]
+
+    def same() -> list[str]:
+        first, *others = shown()
+        return first if all(each == first for each in others) else []
+
+    return wait_for("the same list of steps", same, story=lambda: "\n".join(map(str, shown())))
 
 
 def start_run(page: Page) -> None:
     page.get_by_role("banner").get_by_role("button", name="Run", exact=True).click()
     page.get_by_role("dialog").get_by_role("button", name="Run", exact=True).click()
     expect(page).to_have_url(re.compile("/runs/"))
+
+
+def run_of(page: Page) -> str:
+    """The id of the run whose page this is."""
+    found = re.search(r"/runs/([0-9a-f-]+)", page.url)
+    assert found is not None
+    return found[1]
+
+
+def end_run(page: Page, run: str) -> None:
+    """Cancel a run, unless it is over by now."""
+    headers = {"X-CSRFToken": ask(page, "/api/me")["csrf"]}
+    answer = page.request.post(address_of(page, f"/api/runs/{run}/cancel"), data={}, headers=headers)
+    assert answer.ok or answer.status == 409, answer.text()
 
 
 def run_state(page: Page) -> Locator:

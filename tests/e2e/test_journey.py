@@ -6,7 +6,7 @@ import re
 from functools import partial
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, Route, expect
+from playwright.sync_api import Browser, Page, Route, expect
 
 from tests.e2e.conftest import SignIn, listen
 from tests.e2e.screens import (
@@ -24,12 +24,14 @@ from tests.e2e.screens import (
     problems,
     reading,
     run_state,
+    same_steps,
     script_lines,
     start_run,
     steps_in_list,
     the_map,
 )
 from tests.kit.demo import Demo
+from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
 
@@ -149,12 +151,9 @@ def edit_both_at_once(author: Page, admin: Page) -> None:
             page.get_by_role("application").get_by_role("group", name=re.compile(r"^\d, (Wait|Operate)"))
         ).to_have_count(2)
         expect(page.get_by_role("banner").get_by_role("button", name=re.compile("error"))).to_have_count(0)
-    assert steps_in_list(author) == steps_in_list(admin)
-    assert sorted(step[3:] for step in steps_in_list(author)) == [
-        "Operate, Paint · 2 min at Painting Machine",
-        TASK,
-        "Wait, wait 5 s",
-    ]
+    wanted = ["Operate, Paint · 2 min at Painting Machine", TASK, "Wait, wait 5 s"]
+    wait_for("all three", lambda: sorted(step[3:] for step in steps_in_list(author)) == wanted)
+    same_steps(author, admin)
 
 
 def undo_ones_own(author: Page, admin: Page) -> None:
@@ -280,6 +279,10 @@ def test_a_run_pauses_resumes_is_stopped_for_everybody_and_cancelled(sign_in: Si
     author, admin = sign_in("author"), sign_in("admin", "/")
     make_program(author, "To be held")
     draw_task(author)
+    author.get_by_role("toolbar", name="Tools").get_by_role("button", name="Wait").click()
+    click_floor(author, 0.42, 0.26)
+    author.get_by_label("Time", exact=True).fill("3600")  # it is under way however long the presses take
+    expect(chip(author, "2, Wait")).to_be_visible()
     expect(author.get_by_text("Nothing to fix")).to_be_visible()
     start_run(author)
     expect(run_state(author)).to_contain_text("Running")
@@ -293,7 +296,7 @@ def test_a_run_pauses_resumes_is_stopped_for_everybody_and_cancelled(sign_in: Si
         expect(dialog).to_contain_text(re.compile("Ada.* pressed Stop all"))
         expect(page.get_by_role("button", name="Stopped")).to_be_attached()
     expect(run_state(author)).to_contain_text("Paused")
-    hold(admin.get_by_role("button", name="Hold for 2 seconds to reset"))
+    hold(admin, "Hold for 2 seconds to reset")
     for page in (author, admin):
         expect(page.get_by_role("dialog", name="Painting Factory is stopped")).to_have_count(0)
         expect(page.get_by_role("button", name="Stop all")).to_be_visible()
@@ -303,10 +306,15 @@ def test_a_run_pauses_resumes_is_stopped_for_everybody_and_cancelled(sign_in: Si
     expect(run_state(author)).to_contain_text("Cancelled")
 
 
-def hold(button: Locator) -> None:
-    button.click(delay=500)
+def hold(page: Page, name: str) -> None:
+    """Hold a button for a moment, which does nothing, and then until it has acted."""
+    button = page.get_by_role("button", name=name)
+    button.click(delay=200)
     expect(button).to_be_visible()
-    button.click(delay=2300)
+    button.hover()
+    page.mouse.down()
+    expect(button).to_have_count(0, timeout=30_000)
+    page.mouse.up()
 
 
 def test_a_function_is_made_saved_found_by_another_person_and_used(sign_in: SignIn) -> None:

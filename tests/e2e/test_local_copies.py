@@ -41,10 +41,10 @@ KEEPS = "async (path) => (await (await caches.open('vipo-answers')).match(path))
 
 def come_ready(page: Page) -> None:
     """Wait until the service worker can open this program without the server."""
-    wait_for("the service worker", lambda: page.evaluate(WORKS), 30)
+    wait_for("the service worker", lambda: page.evaluate(WORKS))
     program = page.url.rsplit("/", 1)[1]
     for path in ("/api/me", f"/api/programs/{program}", "/api/sites/painting-factory/map/cells"):
-        wait_for(f"the worker to keep {path}", lambda path=path: page.evaluate(KEEPS, path), 30)
+        wait_for(f"the worker to keep {path}", lambda path=path: page.evaluate(KEEPS, path))
 
 
 def draw_move(page: Page, x: float, y: float) -> None:
@@ -223,12 +223,12 @@ def test_a_browser_that_is_slow_to_give_back_its_copy_is_not_told_that_the_serve
     program = tell(page, f"{SITE}/programs", {"name": "From a slow disk"})["id"]
     page.goto(address_of(page, f"/programs/{program}"))
     expect(page.get_by_role("heading", name="Opening the program")).to_be_visible()
-    for _ in range(100):
-        page.wait_for_timeout(300)
-        if len({id(socket) for socket, _ in held}) > 1:
-            break
-    else:
-        pytest.fail("The connection was not made anew for the copy.")
+
+    def is_made_anew() -> bool:
+        page.wait_for_timeout(50)
+        return len({id(socket) for socket, _ in held}) > 1
+
+    wait_for("the connection that is made anew for the copy", is_made_anew)
     slow[0] = False
     sockets = [socket for socket, _ in held]
     for socket, message in held:
@@ -293,8 +293,8 @@ def test_signing_out_asks_and_then_leaves_nothing(chromium: Browser, demo: Demo)
     expect(question).to_contain_text("Left behind: one change")
     question.get_by_role("button", name="Sign out anyway").click()
     page.wait_for_url(f"{demo.url}/sign-in")
-    wait_for("the copies to go", lambda: page.evaluate(DATABASES) == [], 20)
-    assert page.evaluate(KEEPS, "/api/me") is False
+    wait_for("the copies to go", lambda: page.evaluate(DATABASES) == [])
+    wait_for("the answers to go", lambda: page.evaluate(KEEPS, "/api/me") is False)
     page.context.close()
 
 
@@ -304,7 +304,7 @@ def test_the_next_person_at_a_browser_finds_nothing_of_the_one_before(chromium: 
     draw_task(page)
     saved(page)
     come_ready(page)
-    before = page.evaluate(DATABASES)
+    (before,) = page.evaluate(DATABASES)
     page.context.clear_cookies()  # a session that ended by itself
     admin = demo.account("admin")
     page.goto(f"{demo.url}/sign-in")
@@ -314,9 +314,12 @@ def test_the_next_person_at_a_browser_finds_nothing_of_the_one_before(chromium: 
     page.wait_for_url(f"{demo.url}/")
     page.goto(demo.url + path)
     saved(page)
-    after = page.evaluate(DATABASES)
-    assert (len(before), len(after)) == (1, 1)
-    assert before != after
+
+    def is_alone() -> bool:
+        after = page.evaluate(DATABASES)
+        return len(after) == 1 and after != [before]
+
+    wait_for("the own copy alone", is_alone)
     page.context.close()
 
 
@@ -341,5 +344,5 @@ def test_each_of_two_tabs_counts_its_own(sign_in: SignIn, faults: list[str]) -> 
     page.context.set_offline(False)
     saved(page)
     saved(other)
-    wait_for("both tabs' steps", lambda: steps_on_server(page) == 3, 20)
+    wait_for("both tabs' steps", lambda: steps_on_server(page) == 3)
     faults.clear()

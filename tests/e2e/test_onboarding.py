@@ -11,6 +11,7 @@ from tests.e2e.conftest import SignIn
 from tests.e2e.screens import SITE, tell, violations
 from tests.kit.files import MIXER_TEXT
 from tests.kit.mqtt import PlainDevice
+from tests.kit.waiting import wait_for
 
 TEXT = MIXER_TEXT.replace("paintMixer03", "mixer-7")
 LEGACY = "hall/old-mixer/mix"
@@ -26,8 +27,9 @@ def test_a_device_is_added_comes_in_and_is_approved(sign_in: SignIn) -> None:
     expect(dialog.get_by_role("button", name="Make its key")).to_be_disabled()
     dialog.get_by_role("textbox", name="Id").fill("mixer-7")
     page.keyboard.press("Enter")
+    page.evaluate("navigator.clipboard.writeText('')")
     dialog.get_by_role("button", name="Copy").click()
-    setup = json.loads(page.evaluate("navigator.clipboard.readText()"))
+    setup = json.loads(wait_for("what is copied", lambda: page.evaluate("navigator.clipboard.readText()")))
     assert (setup["id"], setup["site"]) == ("mixer-7", "painting-factory")
     expect(dialog.get_by_text("Waiting for mixer-7")).to_be_visible()
     assert violations(page) == []

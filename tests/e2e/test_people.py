@@ -32,6 +32,7 @@ def make_link(page: Page) -> str:
     expect(page.get_by_role("region", name="Invitations by link").get_by_role("row", name="Author")).to_contain_text(
         "0 of 1"
     )
+    expect(shown).to_have_count(0)
     assert link.partition("#")[2] not in page.content()
     return link
 

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import SITE, ask, draw_task, make_program, saved, shoot, tell, violations
+from tests.e2e.screens import SITE, ask, draw_task, end_run, make_program, run_of, saved, shoot, violations
 
 pytestmark = pytest.mark.browser
 RULE_PAGE = "/sites/painting-factory/review"
@@ -114,7 +114,7 @@ def test_one_asks_another_approves_an_edit_voids_it_and_it_runs_once_it_is_appro
     expect(page).to_have_url(re.compile("/runs/"))
     expect(page.get_by_text("Approved by Ada Meyer")).to_be_visible()
     shoot(page, "run-approved")
-    tell(page, f"/api/runs/{page.url.rsplit('/', 1)[1]}/cancel")
+    end_run(page, run_of(page))
 
 
 @pytest.mark.parametrize(("dark", "language"), [(True, "de")])
@@ -141,4 +141,4 @@ def test_an_admin_starts_in_an_emergency_with_a_reason_that_stands_on_the_runs_p
     shoot(page, "run-emergency")
     lines = ask(page, f"{SITE}/audit?kind=runs")
     assert "Der Ofen muss leer werden." in str(lines)
-    tell(page, f"/api/runs/{page.url.rsplit('/', 1)[1]}/cancel")
+    end_run(page, run_of(page))

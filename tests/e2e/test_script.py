@@ -16,11 +16,13 @@ from tests.e2e.screens import (
     make_program,
     open_program,
     open_script,
+    same_steps,
     script_lines,
     steps_in_list,
     the_map,
     violations,
 )
+from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
 CURE = "        self.curing_oven.cure_paint("
@@ -116,8 +118,9 @@ def test_one_types_while_another_draws_and_nothing_is_lost(sign_in: SignIn) -> N
     expect(editor(author)).to_contain_text("self.wait(60")
     author.keyboard.insert_text(")")
     expect(chip(admin, "3, Wait")).to_be_visible()
-    assert steps_in_list(author) == steps_in_list(admin)
-    assert [step[:7] for step in steps_in_list(admin)] == ["1, Pick", "2, Pick", "3, Wait"]
+    wanted = ["1, Pick", "2, Pick", "3, Wait"]
+    wait_for("all three", lambda: [step[:7] for step in steps_in_list(admin)] == wanted)
+    same_steps(author, admin)
 
 
 def test_the_keyboard_gets_out_of_the_script_and_the_step_follows_the_cursor(sign_in: SignIn) -> None:

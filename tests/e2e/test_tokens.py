@@ -29,16 +29,17 @@ def test_a_token_is_made_shown_once_used_and_revoked_by_keyboard(demo: Demo, sig
     token = page.get_by_role("dialog", name="Token for Line display").get_by_label("Token").input_value()
     assert violations(page) == []
     asked = {"Authorization": f"Bearer {token}"}
-    sites = httpx.get(f"{demo.url}/api/sites", headers=asked).json()
+    sites = httpx.get(f"{demo.url}/api/sites", headers=asked, timeout=60).json()
     assert [(site["slug"], site["role"]) for site in sites] == [("painting-factory", "operator")]
     page.get_by_role("button", name="I have it").press("Enter")
     row = page.get_by_role("row", name="Line display")
     expect(row).to_contain_text("Operate")
+    expect(page.get_by_role("dialog")).to_have_count(0)
     assert token.split("_", 2)[2] not in page.content()
     row.get_by_role("button", name="Revoke Line display").press("Enter")
     page.get_by_role("dialog").get_by_role("button", name="Revoke").press("Enter")
     expect(page.get_by_text("No tokens yet")).to_be_visible()
-    assert httpx.get(f"{demo.url}/api/sites", headers=asked).status_code == 401
+    assert httpx.get(f"{demo.url}/api/sites", headers=asked, timeout=60).status_code == 401
 
 
 @pytest.mark.parametrize(("language", "dark"), [("en", False), ("de", True)])

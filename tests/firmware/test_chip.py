@@ -89,7 +89,7 @@ def test_whatever_ends_the_program_the_output_is_off(board: tuple[Chip, Running]
 
 def test_a_machine_without_a_connection_does_not_look_ready(board: tuple[Chip, Running]) -> None:
     chip, mixer = board
-    mixer.tell("mixPaint", "c1", time=2)
+    mixer.tell("mixPaint", "c1", time=6)
     mixer.answer("c1", "RUNNING")
     mixer.bus.kill()
     chip.wait(lambda record: any(text[0] == line("Mixing Complete") for text in texts(record)))
@@ -133,7 +133,7 @@ def test_without_wifi_it_says_so_and_starts_again(micropython: str, tmp_path: Pa
         "import vipo.chip as chip, vipo.wifi as wifi\nwifi.TIMEOUT_S, chip.SHOWN_S = 1, 0\nchip.run()\n"
     )
     with running_chip(micropython, tmp_path, {"VIPO_WIFI": "another"}, main=tmp_path / "fast.py") as chip:
-        assert chip.process.wait(30) == 7
+        assert chip.process.wait(LIMIT_S) == 7
         assert texts(chip.record)[-1] == (line("No Wi-Fi"), line("hall"))
         assert ["join", "hall", "warm paint"] in [entry[1:] for entry in chip.record]
         assert chip.record[-1][1] == "reset"
@@ -152,7 +152,7 @@ lcd.write(1, "}{~ \\\\ \\xe4 \\x00 0-9!  ")
 def test_the_display_is_set_up_however_it_was_left(micropython: str, tmp_path: Path) -> None:
     (tmp_path / "init.py").write_text(INIT)
     with running_chip(micropython, tmp_path, {"VIPO_I2C": "80 39"}, main=tmp_path / "init.py") as chip:
-        assert chip.process.wait(30) == 0, chip.console
+        assert chip.process.wait(LIMIT_S) == 0, chip.console
         record = chip.record
     for bits, half in ((8, None), (4, None), *((4, half) for half in range(16))):
         assert texts(record, LCD, Hd44780(bits, half))[-1] == ("Mixing Started  ", "}{? ? ? ? 0-9!  ")
@@ -178,7 +178,7 @@ def test_a_fault_is_shown_and_the_board_starts_again(micropython: str, tmp_path:
     )
     (tmp_path / "fast.py").write_text("import vipo.chip as chip\nchip.SHOWN_S = 0\nchip.run()\n")
     with running_chip(micropython, tmp_path, {}, main=tmp_path / "fast.py") as chip:
-        assert chip.process.wait(30) == 7
+        assert chip.process.wait(LIMIT_S) == 7
         assert "There is no description file gone.ttl." in chip.console
         assert texts(chip.record)[-1] == (line("Fault"), "There is no desc")
         assert chip.record[-1][1] == "reset"

@@ -203,7 +203,7 @@ def test_a_broker_that_falls_silent_is_left_and_looked_for_again(micropython: st
     def say_nothing_more(packet: Packet) -> bytes | None:
         return b"" if packet.connection == 1 and packet.kind & 0xF0 != CONNECT else well(packet)
 
-    with client_at(micropython, tmp_path, say_nothing_more, keepalive=1) as (broker, process):
+    with client_at(micropython, tmp_path, say_nothing_more, keepalive=4) as (broker, process):
         assert ended(process) == "down: the broker fell silent\nall acknowledged\n"
     assert PINGREQ in {p.kind for p in broker.packets if p.connection == 1}
 
@@ -253,7 +253,7 @@ def test_a_large_message_comes_whole(micropython: str, tmp_path: Path) -> None:
         path.write_text(program.replace('"up"', '"vipo/v1/dev/soak/up/ack"'))
         environment = {"MICROPYPATH": f"{FIRMWARE / 'lib'}:.frozen", "PATH": "/usr/bin:/bin"}
         command = [micropython, "-X", "heapsize=80k", str(path)]
-        done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=LIMIT_S)
         assert done.stdout == "all acknowledged\n", done.stdout + done.stderr
         wait_for("every message", lambda: len(ear.heard) >= 4)
     assert [h.payload for h in ear.heard] == [b"0", b"1", bytes(range(65, 88)) * 400, b"after"]
@@ -270,10 +270,10 @@ def test_seventy_thousand_messages_pass_the_end_of_the_packet_ids(micropython: s
             env={"MICROPYPATH": f"{FIRMWARE / 'lib'}:.frozen", "PATH": "/usr/bin:/bin"},
             capture_output=True,
             text=True,
-            timeout=300,
+            timeout=600,
         )
         assert done.returncode == 0, done.stdout + done.stderr
-        wait_for("every message", lambda: len(ear.heard) >= count, 60)
+        wait_for("every message", lambda: len(ear.heard) >= count)
     assert [int(h.payload) for h in ear.heard] == list(range(count))
     told = json.loads(done.stdout)
     assert (told["connections"], told["last_id"]) == (1, count - WRAP)

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from registry.demo.devices import describe_devices
-from tests.firmware.rig import FIRMWARE, HEAP
+from tests.firmware.rig import FIRMWARE, HEAP, LIMIT_S
 from vipo_device.descriptions.reader import read
 from vipo_device.descriptions.shacl import check_rdf
 from vipo_device.protocol.description import Description
@@ -25,7 +25,7 @@ def rehearse(micropython: str, *trials: tuple[str, dict[str, Any], list[Any]]) -
         env={"MICROPYPATH": f"{FIRMWARE / 'lib'}:.frozen", "PATH": "/usr/bin:/bin"},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=LIMIT_S,
     )
     assert done.returncode == 0, done.stdout + done.stderr
     return [json.loads(line) for line in done.stdout.splitlines()]

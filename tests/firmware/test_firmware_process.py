@@ -6,6 +6,7 @@ import json
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -67,13 +68,14 @@ def test_it_joins_mixes_and_answers(mixer: Running) -> None:
     first = mixer.state(lambda s: True)
     assert (first["done"], first["cmd"], first["props"]) == (True, "", {"jobStatus": 0, "temperature": 22.0})
 
+    told_at = time.monotonic()
     mixer.tell("mixPaint", "c1", time=2)
     mixer.answer("c1", "RUNNING")
     busy = mixer.state(lambda s: 0 < s["props"]["jobStatus"] < 100)
     assert (busy["done"], busy["cmd"]) == (False, "c1")
     done = mixer.answer("c1", "DONE")
     assert mixer.answers("c1") == ["ACCEPTED", "RUNNING", "DONE"]
-    assert 1.8 < done.at - mixer.answer("c1", "RUNNING").at < 10
+    assert 1.8 < done.at - told_at < 60, "two seconds, and what a busy machine adds; at the speed of a hall 120"
     last = mixer.state(lambda s: s["props"]["jobStatus"] == 100)
     assert (last["done"], last["cmd"], last["boot"]) == (True, "", first["boot"])
     assert last["props"]["temperature"] > 22.0
@@ -98,7 +100,7 @@ def test_a_repeated_command_is_answered_again_and_not_executed_again(mixer: Runn
 
 
 def test_what_cannot_be_done_is_rejected_with_the_reason(mixer: Running) -> None:
-    mixer.tell("mixPaint", "c1", time=20)
+    mixer.tell("mixPaint", "c1", time=30)
     mixer.answer("c1", "RUNNING")
     wrong: list[tuple[str, str, dict[str, Any], str]] = [
         ("mixPaint", "r1", {"time": 1}, "busy with c1"),
@@ -145,7 +147,7 @@ def test_what_a_stop_has_overtaken_is_neither_done_nor_answered(mixer: Running) 
 
 
 def test_a_stop_holds_the_work_until_it_is_released(mixer: Running) -> None:
-    mixer.tell("mixPaint", "c1", time=2)
+    mixer.tell("mixPaint", "c1", time=6)
     mixer.state(lambda s: s["props"]["jobStatus"] > 5)
     mixer.ear.say("vipo/v1/site/hall/stop", {"active": True, "by": "Ada", "at": None}, retain=True)
     mixer.tell("dispense", "c2", object="can", value=1)
@@ -184,7 +186,7 @@ def test_without_a_site_the_stop_of_each_holds_and_no_other_site_lifts_it(microp
 
 def test_it_comes_back_after_the_broker_was_killed_and_says_what_was_missed(mixer: Running) -> None:
     boot = mixer.state(lambda s: True)["boot"]
-    mixer.tell("mixPaint", "c1", time=2)
+    mixer.tell("mixPaint", "c1", time=6)
     mixer.answer("c1", "RUNNING")
     mixer.bus.kill()
     mixer.ear.forget()
@@ -251,7 +253,7 @@ def test_a_configuration_that_cannot_be_used_is_said_in_a_sentence(interpreter: 
             [*interpreter, str(ROOT / "firmware" / "unix_main.py"), str(path)],
             capture_output=True,
             text=True,
-            timeout=20,
+            timeout=LIMIT_S,
         )
         assert (done.returncode, done.stdout.strip()) == (2, sentence.format(path=path))
 
@@ -284,6 +286,8 @@ def test_the_demos_mixer_says_of_itself_what_the_site_knows_already(micropython:
         "print(make_identity(c, Panel())[1].decode())"
     )
     env = {"MICROPYPATH": f"{ROOT / 'firmware' / 'lib'}:.frozen"}
-    told = subprocess.run([micropython, "-c", program], env=env, capture_output=True, timeout=60, check=True).stdout
+    told = subprocess.run(
+        [micropython, "-c", program], env=env, capture_output=True, timeout=LIMIT_S, check=True
+    ).stdout
     known = (DEVICES / f"{DEVICE}.ttl").read_bytes()
     assert canonical_hash(read(told, device_id=DEVICE).description) == canonical_hash(read(known).description)

@@ -18,7 +18,7 @@ from tests.kit.files import ROOT, copy_migrated, link_micropython
 from tests.kit.servers import free_port
 from tests.kit.waiting import wait_for
 
-START_LIMIT_S = 120.0
+START_LIMIT_S, STOP_LIMIT_S = 120.0, 60.0
 
 
 @dataclass(frozen=True)
@@ -71,11 +71,11 @@ def stop_process_group(process: subprocess.Popen[bytes]) -> int:
     if process.poll() is None:
         os.killpg(process.pid, signal.SIGINT)
         try:
-            process.wait(20)
+            process.wait(STOP_LIMIT_S)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             process.wait(5)
-            raise AssertionError("The demo did not stop within 20 s of Ctrl-C.") from None
+            raise AssertionError(f"The demo did not stop within {STOP_LIMIT_S:g} s of Ctrl-C.") from None
     return process.returncode
 
 

@@ -25,7 +25,7 @@ import pytest
 
 from registry.broker.mosquitto_file import EVERY_SITE, account_file
 from tests.kit.files import ROOT
-from tests.kit.waiting import wait_for
+from tests.kit.waiting import PATIENCE_S, wait_for
 from vipo_device.protocol.credentials import broker_hash
 
 FIRST_PORT, PORTS_EACH = 16_000, 2_000
@@ -95,7 +95,7 @@ class Postgres:
         stop = [*control, "-m", "immediate", "-w", "stop"]
         subprocess.run(stop, capture_output=True, cwd="/")
         if self.process is not None:
-            self.process.wait(20)
+            self.process.wait(PATIENCE_S)
 
 
 @dataclass
@@ -150,7 +150,7 @@ class Mosquitto:
         """End it properly; what it keeps is written."""
         if self.process is not None and self.process.poll() is None:
             self.process.terminate()
-            self.process.wait(10)
+            self.process.wait(PATIENCE_S)
 
     def _story(self) -> str:
         return (self.folder / "mosquitto.log").read_text()
@@ -245,7 +245,7 @@ def run_redis(folder: Path) -> Iterator[Redis]:
         yield server
     finally:
         server.process.terminate()
-        server.process.wait(10)
+        server.process.wait(PATIENCE_S)
 
 
 @contextmanager

@@ -23,10 +23,10 @@ class PretendRobot:
     def step(self, x: float, y: float, theta: float, dt_s: float) -> bool:
         """Drive towards a goal for a moment; True when it is there."""
         way_m, step_m = hypot(x - self.x, y - self.y), self.limit_m_s * dt_s
+        self.top_m_s = max(self.top_m_s, self.limit_m_s)
         if way_m <= step_m:
             self.x, self.y, self.theta = x, y, theta
             return True
-        self.top_m_s = max(self.top_m_s, self.limit_m_s)
         self.theta = atan2(y - self.y, x - self.x)
         self.x += (x - self.x) * step_m / way_m
         self.y += (y - self.y) * step_m / way_m

@@ -10,7 +10,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
@@ -22,7 +22,7 @@ from registry.floorplan.plan import Grid
 from tests.kit.files import ROOT
 from tests.kit.mqtt import Ear, ServerSide
 from tests.kit.servers import Mosquitto, answers, free_port, must_be_installed, run_mosquitto, wait_ready
-from tests.kit.waiting import PATIENCE_S
+from tests.kit.waiting import PATIENCE_S, wait_for
 from tests.robot_agent.bridge_stand_in import BridgeStandIn
 from tests.robot_agent.pretend_robot import HEIGHT, WIDTH, map_cells
 from vipo_device.descriptions.reader import read_description
@@ -134,7 +134,7 @@ def running(command: list[str], environment: dict[str, str], log: Path) -> Itera
         yield process
     finally:
         process.terminate()
-        process.wait(20)
+        process.wait(PATIENCE_S)
 
 
 @contextmanager
@@ -147,7 +147,7 @@ def joined(ear: Ear, name: str, command: list[str], environment: dict[str, str],
             raise AssertionError(f"{error}\n{log.read_text()}") from error
         yield server
         process.terminate()
-        assert process.wait(20) == 0
+        assert process.wait(PATIENCE_S) == 0
     server.wait_presence("offline")
     assert "Traceback" not in log.read_text()
 
@@ -159,7 +159,7 @@ def test_a_new_device_makes_a_key_of_its_own_and_enrols_with_it(
     environment = {**os.environ, "PYTHONPATH": str(AGENT)}
     command = [sys.executable, "-m", "vipo_agent", config]
     with running(command, environment, tmp_path / "agent.log"):
-        enrolled = ear.wait(lambda h: h.topic == "vipo/v1/join/hall/new", 60)
+        enrolled = ear.wait(lambda h: h.topic == "vipo/v1/join/hall/new")
         assert len(enrolled.json["key"]) == 32
         kept = tmp_path / "state.json"
         assert json.loads(kept.read_text())["key"] == enrolled.json["key"]
@@ -178,7 +178,7 @@ def test_the_robot_describes_itself_and_sends_its_map(server: ServerSide) -> Non
     assert (found.name, found.kind, found.site, found.capacity) == ('TurtleBot "3"', "robot", "hall", 2)
     assert (found.radius_m, found.speed_m_s, found.pose.x, found.pose.y) == (0.18, 0.5, 1.0, 2.0)
     assert [m.name for m in found.methods] == ["move", "pick", "drop"]
-    last = server.ear.wait(lambda h: h.topic == server.up("map") and h.json["part"] == h.json["parts"] - 1, 60).json
+    last = server.ear.wait(lambda h: h.topic == server.up("map") and h.json["part"] == h.json["parts"] - 1).json
     heard = [h for h in server.ear.all("/map") if h.topic == server.up("map") and h.json["map"] == last["map"]]
     assert all(len(h.payload) < 16_000 for h in heard)
     grid = join_parts([read_grid_part(h.payload) for h in heard])
@@ -194,7 +194,7 @@ def test_pieces_of_way_are_driven_and_each_has_its_end(server: ServerSide) -> No
     assert server.acks("a") == server.acks("b") == ["ACCEPTED", "RUNNING", "DONE"]
     server.wait_state(done=True, loc=[3.0, 3.0, 0.0, 1.0])
     server.tell("move", "a", path=[[9.0, 9.0]])
-    server.ear.wait(lambda h: server.acks("a").count("DONE") == 2, 60)
+    server.ear.wait(lambda h: server.acks("a").count("DONE") == 2)
     assert server.states()[-1]["loc"] == [3.0, 3.0, 0.0, 1.0]
     server.tell("move", "back", path=[[1.0, 2.0]], theta=0.0)
     assert server.wait_ack("back")["st"] == "DONE"
@@ -241,21 +241,18 @@ def stop(server: ServerSide, active: bool) -> None:
 
 def drives(server: ServerSide) -> None:
     server.ear.forget()
-    server.ear.wait(lambda h: len({s["loc"][0] for s in server.states()}) > 2, 60)
+    server.ear.wait(lambda h: len({s["loc"][0] for s in server.states()}) > 2)
 
 
 def stands_still(server: ServerSide) -> None:
     """Wait until half a second passes in which no state tells of another place."""
-    still: Callable[[], bool] = lambda: not server.states()  # noqa: E731 - it is read twice
-    late = time.monotonic() + PATIENCE_S
-    while time.monotonic() < late:
+
+    def is_still() -> bool:
         server.ear.forget()
-        try:
-            server.ear.wait(lambda h: h.topic == server.up("state"), 0.5)
-        except AssertionError:
-            assert still()
-            return
-    raise AssertionError("the robot does not stand still")
+        time.sleep(0.5)
+        return not server.states()
+
+    wait_for("a robot that stands still", is_still)
 
 
 def test_goods_are_counted_and_the_load_is_shown(server: ServerSide) -> None:

@@ -1,5 +1,4 @@
 /** Light, dark or as the system: the choice is kept in this browser (public/theme.js reads it before the first paint). */
-import { useSyncExternalStore } from "react";
 import { create } from "zustand";
 
 export type ThemeChoice = "light" | "dark" | "system";
@@ -12,7 +11,12 @@ function keptChoice(): ThemeChoice {
   return kept === "light" || kept === "dark" ? kept : "system";
 }
 
-const useChoice = create<{ choice: ThemeChoice }>(() => ({ choice: keptChoice() }));
+const useChoice = create<{ choice: ThemeChoice; systemDark: boolean }>(() => ({
+  choice: keptChoice(),
+  systemDark: system.matches,
+}));
+// It is asked here alone: Chromium tells of no change when somebody has asked before it has drawn the page anew.
+system.addEventListener("change", () => useChoice.setState({ systemDark: system.matches }));
 
 export function chooseTheme(choice: ThemeChoice): void {
   localStorage.setItem(KEPT_AS, choice);
@@ -25,13 +29,6 @@ export function useThemeChoice(): ThemeChoice {
 
 /** The theme that is seen now. */
 export function useTheme(): "light" | "dark" {
-  const choice = useThemeChoice();
-  const systemDark = useSyncExternalStore(
-    (changed) => {
-      system.addEventListener("change", changed);
-      return () => system.removeEventListener("change", changed);
-    },
-    () => system.matches,
-  );
+  const { choice, systemDark } = useChoice();
   return choice === "dark" || (choice === "system" && systemDark) ? "dark" : "light";
 }

@@ -116,11 +116,11 @@ fetch(address, { headers: { "accept-encoding": "br" } }).then(async (answer) => 
 
 def test_whoever_asks_gets_a_script_as_they_can_read_it(demo: Demo) -> None:
     """Python's and Node's own clients, and one that reads nothing compressed."""
-    page = httpx.get(demo.url, timeout=20).text
+    page = httpx.get(demo.url, timeout=60).text
     address = demo.url.rstrip("/") + re.findall(r'src="(/assets/[^"]+\.js)"', page)[0]
 
     def get(accepted: str, **headers: str) -> httpx.Response:
-        return httpx.get(address, headers={"Accept-Encoding": accepted, **headers}, timeout=20)
+        return httpx.get(address, headers={"Accept-Encoding": accepted, **headers}, timeout=60)
 
     plain = get("identity")
     assert (plain.status_code, plain.headers.get("content-encoding")) == (200, None)

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import chip, machine, make_program, saved, steps_in_list, violations
+from tests.e2e.screens import chip, expect_steps, machine, make_program, saved, violations
 
 pytestmark = pytest.mark.browser
 COUNT = """clicks = 0; entries = 0
@@ -34,11 +34,12 @@ def test_fetch_paint_and_move_on_take_five_clicks_and_one_entry(sign_in: SignIn)
     assert page.evaluate("[clicks, entries]") == [5, 1]
     expect(page.get_by_text("Nothing to fix")).to_be_visible()
     assert violations(page) == []
-    assert steps_in_list(page) == [
+    drawn = [
         "1, Pick-and-Drop, 1 \u00d7 box from Item Inventory to Painting Machine",
         "2, Operate, Paint · 2 min at Painting Machine",
         "3, Pick-and-Drop, 1 \u00d7 box from Painting Machine to Curing Oven",
     ]
+    expect_steps(page, drawn)
     for _ in range(3):
         page.keyboard.press("Control+z")
     expect(page.get_by_role("treeitem")).to_have_count(1)

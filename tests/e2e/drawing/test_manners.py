@@ -20,6 +20,7 @@ from tests.e2e.screens import (
     violations,
     write_program,
 )
+from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
 
@@ -211,8 +212,9 @@ def test_steps_are_copied_as_script_and_unknown_devices_are_asked_for(sign_in: S
     write_program(page, "Copied", TWO_STEPS)
     chip(page, "1, Operate").click()
     saved(page)
+    page.evaluate("navigator.clipboard.writeText('')")
     page.keyboard.press("Control+c")
-    copied: str = page.evaluate("navigator.clipboard.readText()")
+    copied = wait_for("what is copied", lambda: str(page.evaluate("navigator.clipboard.readText()")))
     assert copied.splitlines() == [line for line in TWO_STEPS.splitlines() if "wait" not in line]
     page.keyboard.press("Control+v")
     expect(chip(page, "2, Operate")).to_be_visible()

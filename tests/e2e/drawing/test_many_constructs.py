@@ -70,7 +70,7 @@ def test_many_constructs_are_painted_and_each_is_an_element_once_it_is_wanted(si
     page.mouse.move(at[0] + 60, at[1] + 40)
     page.mouse.move(at[0] + 90, at[1] + 60)
     page.mouse.up()
-    wait_for("the step's new place", lambda: ask(page, document)["steps"]["s599"]["pos"] != uppermost["pos"], 40.0)
+    wait_for("the step's new place", lambda: ask(page, document)["steps"]["s599"]["pos"] != uppermost["pos"])
     leave(page)
     page.keyboard.press("Escape")
     expect(steps(page)).to_have_count(0)

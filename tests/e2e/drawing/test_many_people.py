@@ -8,8 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import ask, make_program, opened, saved, steps_in_list
-from tests.kit.waiting import wait_for
+from tests.e2e.screens import ask, expect_steps, make_program, opened, same_steps, saved
 
 pytestmark = pytest.mark.browser
 PEOPLE = 6
@@ -50,11 +49,10 @@ def test_six_people_draw_one_program_and_all_see_the_same(sign_in: SignIn, fault
         saved(page)
         page.keyboard.press("Escape")  # rows say who has a step selected, of others alone
         page.keyboard.press("Escape")
-    wait_for("the same list in all browsers", lambda: len({tuple(steps_in_list(page)) for page in pages}) == 1)
-    shown = steps_in_list(first)
+    shown = same_steps(*pages)
     stored = ask(first, f"/api{re.sub('^/sites/[^/]+', '', path)}/document")["steps"]
     assert len(stored) == wanted
     faults[:] = [each for each in faults if "ERR_INTERNET_DISCONNECTED" not in each]
     pages[0].reload()
     opened(pages[0])
-    assert steps_in_list(pages[0]) == shown
+    expect_steps(pages[0], shown)

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import make_program, saved, steps_in_list, violations
+from tests.e2e.screens import expect_steps, make_program, saved, violations
 from tests.kit.files import ROOT
 
 pytestmark = pytest.mark.browser
@@ -106,7 +106,7 @@ def test_the_painting_program_is_drawn_by_keyboard_undone_and_reloaded(sign_in: 
     draw_one_after_the_other(page)
     draw_a_parallel_before_all(page)
     move_the_first_steps_into_it(page)
-    assert steps_in_list(page) == DRAWN
+    expect_steps(page, DRAWN)
     page.get_by_role("treeitem").last.focus()
     place_the_last_step(page)
     undo_and_redo_all(page)
@@ -116,7 +116,7 @@ def test_the_painting_program_is_drawn_by_keyboard_undone_and_reloaded(sign_in: 
     assert violations(page) == []
     page.get_by_role("tab", name="Steps").click()
     expect(page.get_by_role("treeitem")).to_have_count(len(DRAWN))
-    assert steps_in_list(page) == DRAWN
+    expect_steps(page, DRAWN)
     expect(page.get_by_role("banner").get_by_role("button", name="Run", exact=True)).to_be_enabled()
     golden(page, "painting-outline")
     page.get_by_role("treeitem").first.focus()
@@ -197,7 +197,7 @@ def undo_and_redo_all(page: Page) -> None:
     expect(page.get_by_role("heading", name="Start with one task")).to_be_visible()
     for _ in range(undone):
         keys(page, "Control+Shift+z")
-    assert steps_in_list(page) == DRAWN
+    expect_steps(page, DRAWN)
 
 
 def test_branches_are_drawn_by_keyboard_undone_and_reloaded(sign_in: SignIn) -> None:
@@ -223,16 +223,16 @@ def test_branches_are_drawn_by_keyboard_undone_and_reloaded(sign_in: SignIn) -> 
     keys(page, "b")
     next_goes(page, "inside Try 3")
     operate(page, "painting", "2")
-    assert steps_in_list(page) == FLOW
+    expect_steps(page, FLOW)
     saved(page)
     page.reload()
-    assert steps_in_list(page) == FLOW
+    expect_steps(page, FLOW)
     golden(page, "branches-outline")
     page.get_by_role("treeitem").first.focus()
     keys(page, "Enter", "Delete")
     expect(page.get_by_role("treeitem")).to_have_count(5)
     keys(page, "Control+z")
-    assert steps_in_list(page) == FLOW
+    expect_steps(page, FLOW)
 
 
 def next_goes(page: Page, where: str) -> None:

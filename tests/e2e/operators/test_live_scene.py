@@ -9,7 +9,8 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import ask, draw_task, make_program, saved, the_map, violations
+from tests.e2e.screens import SITE, ask, draw_task, make_program, run_of, saved, start_run, tell, the_map, violations
+from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
 
@@ -24,9 +25,10 @@ def test_a_run_is_watched_in_3d_by_two_and_the_map_is_one_press_away(sign_in: Si
     draw_task(page)
     expect(page.get_by_text("Nothing to fix")).to_be_visible()
     saved(page)
-    page.get_by_role("banner").get_by_role("button", name="Run", exact=True).click()
-    page.get_by_role("dialog", name="Run this program").get_by_role("button", name="Run", exact=True).click()
-    expect(page).to_have_url(re.compile("/runs/"))
+    start_run(page)
+    run = run_of(page)
+    wait_for("the robot with the box", lambda: any(each["carrying"] for each in ask(page, f"{SITE}/devices")))
+    tell(page, f"/api/runs/{run}/pause")  # it keeps the box until both have seen it
     page.set_viewport_size({"width": 1100, "height": 700})  # without a graphics card each pixel in 3D takes its time
     page.get_by_role("radio", name="3D").press("Space")
     expect(page).to_have_url(re.compile("view=3d$"))
@@ -35,10 +37,9 @@ def test_a_run_is_watched_in_3d_by_two_and_the_map_is_one_press_away(sign_in: Si
     expect(scene(watcher)).to_be_visible()
     expect(watcher.get_by_text("Curing Oven").first).to_be_visible()
     assert violations(watcher) == []
-    run = re.search(r"/runs/([0-9a-f-]+)", page.url)
-    assert run is not None
+    tell(page, f"/api/runs/{run}/resume")
     expect(page.get_by_role("banner").get_by_text("Finished")).to_be_visible(timeout=180_000)
-    assert ask(page, f"/api/runs/{run[1]}")["status"] == "finished"
+    assert ask(page, f"/api/runs/{run}")["status"] == "finished"
     expect(scene(page)).not_to_have_accessible_name(re.compile("Carrying 1 box"))
     page.get_by_role("radio", name="From the robot").press("Space")
     page.get_by_role("combobox", name="Robot", exact=True).select_option(label="TurtleBot 2")

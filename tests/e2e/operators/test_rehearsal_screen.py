@@ -76,7 +76,7 @@ def test_conditions_are_chosen_kept_and_told_and_what_was_rehearsed_is_run(sign_
     run.get_by_role("button", name="Run", exact=True).click()
     expect(page).to_have_url(re.compile("/runs/"))
     number = page.url.rsplit("/", 1)[1]
-    ended = wait_for("the run's end", lambda: ask(page, f"/api/runs/{number}")["status"] == "finished", 60.0)
+    ended = wait_for("the run's end", lambda: ask(page, f"/api/runs/{number}")["status"] == "finished")
     assert ended
 
 
@@ -84,7 +84,7 @@ def rehearse_order(page: Page) -> tuple[str, str]:
     """Rehearse the demo's program, in which robots wait for each other; return its path and the rehearsal."""
     program = program_named(page, "Paint order")
     rehearsal = str(tell(page, f"/api/programs/{program}/rehearsals", {"driver": "kinematic"})["id"])
-    wait_for("the rehearsal", lambda: ask(page, f"/api/rehearsals/{rehearsal}")["status"] == "done", 90.0)
+    wait_for("the rehearsal", lambda: ask(page, f"/api/rehearsals/{rehearsal}")["status"] == "done")
     return f"/programs/{program}/simulate/{rehearsal}", rehearsal
 
 

@@ -13,12 +13,12 @@ from tests.e2e.screens import (
     address_of,
     ask,
     draw_task,
+    end_run,
     make_program,
     run_state,
     saved,
     shoot,
     start_run,
-    tell,
     violations,
 )
 from tests.kit.waiting import wait_for
@@ -35,7 +35,7 @@ def switch(page: Page, robot: str, *, simulated: bool) -> None:
     address = address_of(page, f"{SITE}/devices/{robot}/stand-in")
     send = page.request.put if simulated else page.request.delete
     headers = {"X-CSRFToken": ask(page, "/api/me")["csrf"]}
-    wait_for("the end of what it does", lambda: send(address, headers=headers).ok, 60.0, every_s=0.3)
+    wait_for("the end of what it does", lambda: send(address, headers=headers).ok, every_s=0.3)
     wait_for(robot, lambda: ask(page, f"{SITE}/devices/{robot}")["status"] != "offline")
 
 
@@ -43,7 +43,7 @@ def end_others(page: Page) -> None:
     """End what tests before this one have begun, and wait until no robot does anything for it any more."""
     for state in ("running", "paused"):
         for run in ask(page, f"{SITE}/runs?state={state}"):
-            tell(page, f"/api/runs/{run['id']}/cancel")
+            end_run(page, run["id"])
     calm_since = time.monotonic()
 
     def are_calm() -> bool:
@@ -53,7 +53,7 @@ def end_others(page: Page) -> None:
             calm_since = time.monotonic()
         return time.monotonic() - calm_since > CALM_S
 
-    wait_for("robots that rest", are_calm, 90.0, every_s=0.5)
+    wait_for("robots that rest", are_calm, every_s=0.5)
 
 
 def test_a_robot_is_simulated_in_a_run(sign_in: SignIn, faults: list[str]) -> None:

@@ -58,9 +58,9 @@ def run_program(author: Page) -> str:
     write_program(author, "There and on", SCRIPT)
     saved(author)
     program = author.url.rsplit("/", 1)[1]
-    wait_for("the steps", lambda: ask(author, f"/api/programs/{program}/compiled")["order"], 60)
+    wait_for("the steps", lambda: ask(author, f"/api/programs/{program}/compiled")["order"])
     run = str(tell(author, f"/api/programs/{program}/runs")["id"])
-    wait_for("the end of the run", lambda: ask(author, f"/api/runs/{run}")["status"] == "finished", 120)
+    wait_for("the end of the run", lambda: ask(author, f"/api/runs/{run}")["status"] == "finished")
     return run
 
 
@@ -71,7 +71,7 @@ def test_heat_and_waiting_of_a_run_are_seen_and_the_layers_stay_as_chosen(demo: 
         add_wait(demo, run_program(author), zone)
         # what is told may be a minute old, if somebody has asked before
         told = f"{SITE}/floor-use?days=7&utc_offset_min={admin.evaluate('0 - new Date().getTimezoneOffset()')}"
-        wait_for("the wait", lambda: any(each["waits"] for each in ask(admin, told)["zones"]), 120)
+        wait_for("the wait", lambda: any(each["waits"] for each in ask(admin, told)["zones"]))
         found = ask(admin, told)
         most = max(drives for *_, drives in found["heat"])
         assert found["runs"] >= 1

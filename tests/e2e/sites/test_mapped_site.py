@@ -174,7 +174,7 @@ def draw_and_run(page: Page) -> None:
         runs = ask(page, f"/api/sites/{SITE}/runs")
         return str(runs[0]["status"]) if runs else ""
 
-    wait_for("the end of the run", lambda: last_run() in {"finished", "failed", "cancelled"}, 120)
+    wait_for("the end of the run", lambda: last_run() in {"finished", "failed", "cancelled"})
     assert last_run() == "finished"
     places = {each["name"]: each for each in ask(page, f"/api/sites/{SITE}/map")["places"]}
     robot = next(each for each in ask(page, f"/api/sites/{SITE}/devices") if each["id"] == ROBOT)

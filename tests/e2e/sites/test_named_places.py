@@ -8,7 +8,18 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn, make_member
-from tests.e2e.screens import SITE, address_of, ask, run_state, saved, start_run, tell, violations, write_program
+from tests.e2e.screens import (
+    SITE,
+    address_of,
+    ask,
+    run_of,
+    run_state,
+    saved,
+    start_run,
+    tell,
+    violations,
+    write_program,
+)
 from tests.kit.demo import Demo
 from tests.kit.waiting import wait_for
 
@@ -16,6 +27,7 @@ pytestmark = pytest.mark.browser
 MAP = "/sites/painting-factory/map"
 SCRIPT = """class Task(object):
     def new_task(self):
+        self.wait(10)
         self.robot.move(self.stool.location)
 
     def run(self, ctx):
@@ -123,7 +135,7 @@ def test_a_run_under_way_goes_to_a_place_that_is_removed_and_the_question_before
     write_program(author, "To the stool", SCRIPT)
     saved(author)
     start_run(author)
-    author.get_by_role("button", name="Pause", exact=True).click()
+    tell(author, f"/api/runs/{run_of(author)}/pause")  # before it sets out, however long the page takes
     expect(run_state(author)).to_contain_text("Paused")
     admin.get_by_role("button", name="Edit places").click()
     admin.get_by_role("button", name="Stool Point").click()

@@ -41,9 +41,9 @@ def test_what_a_zone_costs_is_known_once_it_was_rehearsed(demo: Demo, sign_in: S
         write_program(author, "Two through the crossing", SCRIPT)
         saved(author)
         program = author.url.rsplit("/", 1)[1]
-        wait_for("the steps", lambda: ask(author, f"/api/programs/{program}/compiled")["order"], 60)
+        wait_for("the steps", lambda: ask(author, f"/api/programs/{program}/compiled")["order"])
         begun = tell(author, f"/api/programs/{program}/rehearsals", {"driver": "kinematic"})
-        wait_for("the rehearsal", lambda: ask(author, f"/api/rehearsals/{begun['id']}")["status"] == "done", 90)
+        wait_for("the rehearsal", lambda: ask(author, f"/api/rehearsals/{begun['id']}")["status"] == "done")
         admin.reload()
         expect(listed.get_by_text("Waiting in front of it")).to_be_visible()
         expect(listed.get_by_text("somebody waited in 1")).to_be_visible()

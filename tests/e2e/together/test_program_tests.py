@@ -86,7 +86,6 @@ def test_a_test_is_written_mended_and_carried_out_by_keyboard(sign_in: SignIn, f
     last = wait_for(
         "tests of a version that was named",
         lambda: (last := ask(page, f"/api/programs/{program}/tests")["last"])["by_itself"] and last,
-        60.0,
     )
     assert (last["number"], last["passed"], last["total"]) == (1, 1, 1)
     expect(page.get_by_text("1 of 1 test passes")).to_be_visible()
@@ -210,7 +209,7 @@ def missed(page: Page) -> str:
     assert put.status == 204, put.text()
     tell(page, f"{path}/tests", {"text": "name: It ends\nthen:\n- ends: well\n"})
     tell(page, f"{path}/test-runs", {"changes": True})
-    wait_for("what came of the changes", lambda: ask(page, f"{path}/tests")["changes"], 60.0)
+    wait_for("what came of the changes", lambda: ask(page, f"{path}/tests")["changes"])
     return f"{base}/programs/{program}"
 
 

@@ -73,6 +73,7 @@ def test_a_statement_that_hangs_and_a_lock_that_is_never_given_are_ended(databas
         holder.execute(PREPARE)
         holder.commit()
         holder.execute(TAKE)
+        limits["VIPO_DATABASE_STATEMENT_S"] = "30"
         _, errors = ask(database_url, tmp_path, TAKE, **limits).communicate("")
         assert "canceling statement due to lock timeout" in errors
 

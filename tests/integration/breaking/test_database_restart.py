@@ -38,6 +38,7 @@ pytestmark = pytest.mark.servers
 SITE, WORD = "painting-factory", "the server's word"
 NAMES = tuple(f"mixer{number:02}" for number in range(1, 6))
 FLOOD, FLOOD_KB = 4000, 8
+AWAY = "The database does not answer"
 
 
 @dataclass
@@ -197,7 +198,7 @@ def test_what_is_said_while_the_database_is_away_is_kept_in_order_and_commands_g
         plant.answer(open_ones)
         plant.say_states(20)
         plant.flood()
-        wait_for("the outage in the log", lambda: plant.log_lines("The database does not answer") == 1)
+        wait_for("the outage in the log", lambda: plant.log_lines(AWAY) >= 1)
         wait_for("the flood at the broker", lambda: not plant.ear.client._paho._out_messages)
         assert plant.memory_mb() - before_mb < FLOOD * FLOOD_KB / 1024 / 2
     plant.wait_kept("Second")
@@ -207,20 +208,22 @@ def test_what_is_said_while_the_database_is_away_is_kept_in_order_and_commands_g
         events = DeviceEvent.objects.filter(device=name, kind="described").order_by("pk")
         changes = [change for changes in events.values_list("changes", flat=True) for change in changes]
         assert [c["after"] for c in changes if c["before"] in (f'"{name}"', '"First"')] == ['"First"', '"Second"']
-    assert plant.log_lines("The database does not answer") == 1
-    assert plant.log_lines("The database answers again") == 1
+    # One thread's question from before may fail after another's was answered: that is told as a second time.
+    wait_for("the end of it in the log", lambda: plant.log_lines("The database answers again") == plant.log_lines(AWAY))
+    assert 1 <= plant.log_lines(AWAY) <= 2
     assert plant.log_lines("Traceback") == 0
 
 
 def test_nothing_was_acknowledged_to_the_broker_before_it_was_kept(plant: Plant) -> None:
     open_ones = {name: add_command(name, due_in_s=0) for name in NAMES}
     wait_heard(plant, open_ones)
+    before = plant.log_lines(AWAY)
     with ExitStack() as stack:
         with plant.without_database():
             plant.answer(open_ones)
             plant.describe("Third")
             plant.say_states(20)
-            wait_for("the outage in the log", lambda: plant.log_lines("The database does not answer") >= 2)
+            wait_for("the outage in the log", lambda: plant.log_lines(AWAY) > before)
             stack.enter_context(plant.frozen_gateway())
             plant.start_gateway()
         plant.wait_greeting()
@@ -235,6 +238,7 @@ def test_a_connection_that_is_cut_is_made_anew(plant: Plant) -> None:
     connection.close()
     with psycopg.connect(plant.postgres.url, autocommit=True) as other:
         others = "FROM pg_stat_activity WHERE datname = 'vipo' AND pid <> pg_backend_pid()"
+        others += " AND backend_type = 'client backend'"
 
         def are_all_there() -> bool:
             return len(other.execute(f"SELECT pid {others}").fetchall()) == 4

@@ -48,7 +48,7 @@ def test_a_run_survives_ctrl_c_and_kill_9_and_does_each_thing_once(tmp_path: Pat
         demo.process.wait()
         assert children.keys() == {"twin", "firmware"}
         names = ", ".join(f"{name} (process {pid})" for name, pid in children.items())
-        wait_for(f"end of {names}", lambda: not any(map(is_alive, children.values())), 60)
+        wait_for(f"end of {names}", lambda: not any(map(is_alive, children.values())))
     assert complaints(demo.log.read_text()) == []
 
     with running_demo(state, speed=10) as demo:
@@ -63,7 +63,7 @@ def test_a_run_survives_ctrl_c_and_kill_9_and_does_each_thing_once(tmp_path: Pat
         assert [m for m in done if m in ("pick", "drop")] == ["pick", "drop"]
         assert len({c["device"] for c in commands if c["method"] == "move"}) == 1
         robot = next(c["device"] for c in commands if c["method"] == "pick")
-        wait_for("stock", lambda: third.reading("itemInventory01", "stock") == boxes - 1, 10)
+        wait_for("stock", lambda: third.reading("itemInventory01", "stock") == boxes - 1)
         assert third.device(robot)["carrying"] == {}
         third.close()
     assert held_by("paintMachine01", state) == {"box": 1}

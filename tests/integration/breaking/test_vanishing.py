@@ -15,7 +15,7 @@ def test_a_machine_that_is_killed_comes_back_and_does_not_begin_its_work_anew(fa
     factory.wait_command(run, "mixPaint", "running")
     killed = factory.children()["firmware"]
     os.kill(killed, signal.SIGKILL)
-    wait_for("a new firmware", lambda: factory.children().get("firmware") not in (None, killed), 20)
+    wait_for("a new firmware", lambda: factory.children().get("firmware") not in (None, killed))
     assert "the power was cut while it was under way" in factory.wait_run(run, "failed")["reason"]
     assert [c["status"] for c in factory.commands(run)] == ["failed"]
 

@@ -13,6 +13,7 @@ from types import MappingProxyType
 from tests.kit.files import ROOT
 from tests.kit.processes.forked import ForkedPython
 from tests.kit.servers import Mosquitto
+from tests.kit.waiting import PATIENCE_S
 
 NOTHING: Mapping[str, str] = MappingProxyType({})
 
@@ -49,9 +50,9 @@ class ConnectorProcess:
     def kill(self) -> None:
         assert self._process is not None
         self._process.kill()
-        self._process.wait(10)
+        self._process.wait(PATIENCE_S)
 
     def stop(self) -> int:
         assert self._process is not None
         self._process.terminate()
-        return self._process.wait(20)
+        return self._process.wait(PATIENCE_S)

@@ -203,8 +203,9 @@ def drips(handler: Handler) -> None:
 )
 def test_an_agent_that_misbehaves_costs_little(agent: ScriptedAgent, misbehave: Misbehaviour, told: str) -> None:
     agent.misbehave = misbehave
+    limit_s = 1.0 if misbehave is drips else asking.LIMIT_S
     with pytest.raises((AgentAway, BadDocument)) as refused:
-        Agent(read_address(f"http://127.0.0.1:{agent.port}"), limit_s=1.0).ask("probe")
+        Agent(read_address(f"http://127.0.0.1:{agent.port}"), limit_s=limit_s).ask("probe")
     assert told in str(refused.value)
 
 

@@ -149,7 +149,7 @@ async def drain(socket: ClientConnection) -> None:
 
 async def code_after(web: Web, program: str, frame: Frame) -> int:
     """Send a frame as the first; return the code of the close, or 0 if the room still answers afterwards."""
-    async with join(web, "author", program) as socket, asyncio.timeout(30):
+    async with join(web, "author", program) as socket, asyncio.timeout(NEVER_LATER_S):
         try:
             await socket.send(frame)
             await socket.send(yjs_protocol.encode_step_1(b"\x00"))
@@ -165,6 +165,9 @@ async def test_a_hostile_first_frame_ends_its_own_connection_alone(web: Web) -> 
     odd: dict[str, int] = {}
     found: dict[str, int] = {}
     async with beside(web, program) as people:
+        for _ in range(10):
+            await people.draw()
+        calm_s = people.took_s[-10:]
         before = resident_mib(web)
         for name, frame in FRAMES.items():
             found[name] = await code_after(web, program, frame)
@@ -174,8 +177,9 @@ async def test_a_hostile_first_frame_ends_its_own_connection_alone(web: Web) -> 
     assert odd == {}
     assert {code for name, code in found.items() if name.startswith("step 2: ")} == {4400}
     assert (found["ten MiB and one"], found["text"], found["type 99"]) == (4413, 4400, 4400)
-    late = [took for took in people.took_s if took > HEARD_WITHIN_S]
-    assert len(late) <= len(people.took_s) / 20, people.took_s
+    took_s = people.took_s[-len(FRAMES) - 1 :]
+    late = [each for each in took_s if each > max(HEARD_WITHIN_S, 5 * max(calm_s))]
+    assert len(late) <= len(took_s) / 20, (calm_s, took_s)
     assert resident_mib(web) - before < MOST_KEPT_MIB
     story = web.story()
     assert LOGGED.findall(story) == [], story[-6000:]

@@ -17,6 +17,7 @@ from editor.documents.yjs_encoding import encode_integer
 from editor.programs.compiled_patch import apply_patch
 from editor.rooms import yjs_protocol
 from tests.kit.drawn.frames import read_frame, read_update
+from tests.kit.waiting import PATIENCE_S
 from tests.kit.web import Web
 
 
@@ -27,7 +28,7 @@ def join(web: Web, person: str | None = "author", program: str | None = None) ->
 async def code_of_close(socket: ClientConnection) -> int | None:
     """Read until the server closes; tell its code."""
     try:
-        async with asyncio.timeout(10):
+        async with asyncio.timeout(PATIENCE_S):
             while True:
                 await socket.recv()
     except ConnectionClosed as closed:
@@ -35,7 +36,7 @@ async def code_of_close(socket: ClientConnection) -> int | None:
 
 
 async def read_until(socket: ClientConnection, kind: bytes) -> bytes:
-    async with asyncio.timeout(10):
+    async with asyncio.timeout(PATIENCE_S):
         while True:
             frame = await socket.recv()
             assert isinstance(frame, bytes)
@@ -149,7 +150,7 @@ async def test_a_connection_that_goes_on_after_its_close_is_cut(web: Web) -> Non
     assert b" 101 " in await reader.readline()
     masked = b"\x82\x82" + bytes(4) + b"\x63\x00"
     with suppress(ConnectionError):
-        async with asyncio.timeout(8):
+        async with asyncio.timeout(30):  # a ping without an answer would end it after 50 s
             while not reader.at_eof():
                 writer.write(masked)
                 await writer.drain()

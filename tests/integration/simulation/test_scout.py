@@ -23,7 +23,7 @@ from simulation.twin_memory import TwinMemory, read_memory, write_memory
 from tests.kit.floors.halls import bare_hall
 from tests.kit.mqtt import Ear, Heard
 from tests.kit.servers import Mosquitto, run_mosquitto
-from tests.kit.waiting import wait_for
+from tests.kit.waiting import PATIENCE_S, wait_for
 from vipo_device.descriptions.reader import read_description
 from vipo_device.protocol.description import Pose
 from vipo_device.protocol.messages import parse_state
@@ -55,7 +55,7 @@ def running(
         yield
     finally:
         stopping.set()
-        thread.join(10)
+        thread.join(PATIENCE_S)
         assert not thread.is_alive()
 
 
@@ -70,9 +70,7 @@ def connecting(bus: Mosquitto):  # type: ignore[no-untyped-def]
 
 
 def answered(ear: Ear, command: str, status: str) -> Heard:
-    return ear.wait(
-        lambda h: h.topic.endswith("/ack") and h.json["id"] == command and h.json["st"] == status, timeout_s=60
-    )
+    return ear.wait(lambda h: h.topic.endswith("/ack") and h.json["id"] == command and h.json["st"] == status)
 
 
 def maps(ear: Ear) -> list[Grid]:
@@ -150,7 +148,7 @@ def test_killed_under_way_it_stands_where_it_stood_and_does_nothing_twice(tmp_pa
     """What it kept at one moment is all that a killed process leaves behind."""
     kept, left = tmp_path / "twin" / "scout.json", tmp_path / "left.json"
     with run_mosquitto(tmp_path, ACCOUNTS) as bus, Ear(bus.port, "secret") as ear:
-        with running(bus, ear, kept, speed=3):
+        with running(bus, ear, kept, speed=1):
             ear.tell(SCOUT, "move", "first", path=[[2.0, 1.0]])
             answered(ear, "first", "DONE")
             ear.tell(SCOUT, "move", "second", path=[[3.5, 1.0], [3.5, 3.0]])

@@ -24,6 +24,7 @@ from simulation.world import Obstacle
 from tests.kit.files import ROOT
 from tests.kit.mqtt import Ear, Heard
 from tests.kit.servers import Mosquitto, run_mosquitto
+from tests.kit.waiting import PATIENCE_S, wait_for
 from vipo_device.descriptions.reader import read_description
 from vipo_device.protocol.description import Pose
 from vipo_device.protocol.messages import parse_presence, parse_state
@@ -72,7 +73,7 @@ def running_twin(bus: Mosquitto, memory: Path, **changes: object) -> Iterator[No
         yield
     finally:
         stopping.set()
-        thread.join(10)
+        thread.join(PATIENCE_S)
         assert not thread.is_alive()
 
 
@@ -109,7 +110,7 @@ def test_devices_introduce_themselves_with_their_own_bytes(bus: Mosquitto, ear: 
 
 def test_a_robot_sends_the_map_of_what_its_laser_sees(bus: Mosquitto, ear: Ear, tmp_path: Path) -> None:
     with running_twin(bus, tmp_path / "memory.json"):
-        sent = ear.wait(lambda h: h.topic == up("robot01", "map"), 30)
+        sent = ear.wait(lambda h: h.topic == up("robot01", "map"))
     grid = join_parts([read_grid_part(sent.payload)])
     assert (grid.width, grid.height, sent.retained) == (FACTS.grid.width, FACTS.grid.height, False)
     robot = next(d.description.pose for d in FACTS.devices if d.description.id == "robot01")
@@ -170,13 +171,17 @@ def test_what_it_cannot_do_is_rejected_with_a_reason(bus: Mosquitto, ear: Ear, t
 def test_the_sites_stop_holds_everything_until_it_is_reset(bus: Mosquitto, ear: Ear, tmp_path: Path) -> None:
     with running_twin(bus, tmp_path / "memory.json", speed=5):
         ear.wait(lambda h: h.topic == up("robot01", "state"))
-        ear.tell("robot01", "move", "go", path=[[15.78, -10.4], [15.78, -8.0]])
+        ear.tell("robot01", "move", "go", path=[[15.78, -10.4], [15.78, -8.0], [2.3, -8.0]])
         ear.wait(lambda h: is_ack(h, "go", "RUNNING"))
         ear.say(STOP, {"active": True, "by": "Ann", "at": None}, retain=True)
-        time.sleep(1.0)
-        ear.forget()
-        time.sleep(0.7)
-        assert not ear.all("robot01/up/state"), "the robot still moves"
+
+        def stands_still() -> bool:
+            ear.forget()
+            time.sleep(0.7)
+            return not ear.all("robot01/up/state")
+
+        wait_for("a robot that stands still", stands_still)
+        assert not ear.all("robot01/up/ack"), "it stands on its way"
         ear.say(STOP, {"active": False, "by": "", "at": None}, retain=True)
         wait_done(ear, "go")
 
@@ -293,7 +298,7 @@ def test_a_robot_stops_before_what_people_put_down_and_says_so_also_while_the_da
         ear.wait(lambda h: h.topic == up("robot01", "state"))
         x, y = parse_state(ear.wait(lambda h: h.topic == up("robot01", "state")).payload).pose.x, -10.4
         ear.tell("robot01", "move", "go", path=[[x, y], [17.3, y], [17.3, -7.0]])
-        failed = ear.wait(lambda h: is_ack(h, "go", "FAILED"), 60)
+        failed = ear.wait(lambda h: is_ack(h, "go", "FAILED"))
     assert failed.json["why"] == (
         "TurtleBot 1 cannot go on: something that is not on the map is in its way at (17.3, -8.6)."
     )
@@ -316,11 +321,11 @@ def test_the_process_with_physics_leaves_in_time(bus: Mosquitto, ear: Ear, tmp_p
         command = [*manage, "twin", "--site", "painting-factory", "--speed", "4", "--except", "paintMixer02"]
         process = subprocess.Popen(command, env=environment, stderr=log)
     try:
-        ear.wait(lambda h: h.topic == up("robot02", "state"), 60)
+        ear.wait(lambda h: h.topic == up("robot02", "state"))
         ear.tell("robot02", "move", "go", path=[[17.3, -10.4]])
         wait_done(ear, "go")
         process.send_signal(signal.SIGTERM)
-        assert process.wait(60) == 0
+        assert process.wait(PATIENCE_S) == 0
     finally:
         process.kill()
     offline = ear.wait(lambda h: h.topic == up("robot02", "presence") and not parse_presence(h.payload).online)

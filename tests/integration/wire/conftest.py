@@ -55,7 +55,7 @@ def gateway(bus: Bus, settings: LazySettings) -> Iterator[Gateway]:
     thread = threading.Thread(target=made.run_forever, args=(stopping,))
     thread.start()
     with Ear(bus.server_port, SERVER_WORD, "vipo/v1/srv/status") as ear:
-        ear.wait(lambda heard: True, 20)
+        ear.wait(lambda heard: True)
     yield made
     stopping.set()
     thread.join(20)

@@ -100,7 +100,7 @@ def test_a_stranger_joins_by_its_description_and_the_join_key_alone(bus: Bus, ga
     assert not bus.lets_in("new01", KEY)
 
     decide(services.revoke_credential, "new01")
-    wait_for("the end of the connection", lambda: not device.connected, 10)
+    wait_for("the end of the connection", lambda: not device.connected)
     wait_for("the refusal", lambda: device.refusal)
     assert not bus.lets_in("new01", decided.credential)
     device.stop()
@@ -121,7 +121,7 @@ def test_a_retired_device_is_thrown_out_and_others_stay(bus: Bus, gateway: Gatew
         wait_for("the newcomer", lambda n=name: lifecycle(n) == "pending")
         decide(services.approve_device, name)
     decide(services.retire_device, "mixer01")
-    wait_for("the end of the connection", lambda: not clients["mixer01"].connected, 10)
+    wait_for("the end of the connection", lambda: not clients["mixer01"].connected)
     wait_for("the refusal", lambda: clients["mixer01"].refusal)
     assert clients["mixer02"].connected
     for client in clients.values():

@@ -44,7 +44,7 @@ async function draw(me, name, everyMs) {
 }
 
 const until = async (what, check) => {
-  const end = Date.now() + 60000;
+  const end = Date.now() + 120_000;
   while (!check()) {
     if (Date.now() > end) throw new Error(`gave up waiting: ${what} ${unsaved()}`);
     await new Promise((done) => setTimeout(done, 10));

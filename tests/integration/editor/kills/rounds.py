@@ -24,7 +24,7 @@ from tests.kit.waiting import PATIENCE_S
 from tests.kit.web import Web
 
 AT_ONCE = 5
-ALIKE_WITHIN_S = 20.0
+ALIKE_WITHIN_S = 60.0
 EMPTIED = 0.3
 """How often Redis loses what it has shortly before the end: all of it, what the rooms told, or all but the last."""
 ENDS = ("killed", "killed", "killed", "told to end", "frozen")

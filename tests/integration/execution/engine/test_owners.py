@@ -15,7 +15,8 @@ from django.db import connection
 from bench.hall import SITE, fill_hall
 from execution.engine import drive
 from execution.fault_points import DIES_WITH, OWNER_POINTS
-from execution.frozen_sessions import end_frozen_sessions
+from execution.frozen_sessions import OWNER_SILENT_S, end_frozen_sessions
+from execution.job_lease import LEASE_S
 from execution.mailbox import DRIVE_SITE
 from execution.models import Command, DeadLetter, InboxEvent, SiteLease
 from registry.maps.places import PlaceChange, add_place, change_place
@@ -24,7 +25,7 @@ from tests.kit.databases import on_database
 from tests.kit.files import ROOT
 from tests.kit.processes.forked import ForkedPython
 from tests.kit.served import WORKER, served_without_broker
-from tests.kit.waiting import wait_for
+from tests.kit.waiting import PATIENCE_S, wait_for
 from vipo_site.settings import postgres
 
 pytestmark = [pytest.mark.servers, pytest.mark.django_db(transaction=True)]
@@ -80,12 +81,13 @@ def test_a_frozen_owner_is_replaced_and_what_it_decides_when_it_thaws_changes_no
     answer_open(run)
     began = time.monotonic()
     wait_for("another owner", lambda: drive.advance_site(SITE), every_s=0.1)
-    assert time.monotonic() - began < 12, "a lease of 5 s, a session of 3 s, and what a busy machine adds"
+    assert LEASE_S + OWNER_SILENT_S <= 8
+    assert time.monotonic() - began < 40, "a lease, a session's silence, and what a busy machine adds"
     wait_told(run, 2)
     fences = [command.fence for command in told(run)]
     assert fences == sorted(set(fences))
     frozen.send_signal(signal.SIGCONT)
-    assert frozen.communicate(timeout=30)[0] == b"False\n"
+    assert frozen.communicate(timeout=PATIENCE_S)[0] == b"False\n"
     for _ in range(2):
         answer_open(run)
         assert drive.advance_site(SITE)
@@ -111,7 +113,7 @@ def test_an_owner_that_was_frozen_until_its_session_was_ended_sets_nothing_aside
     wait_for("the frozen transaction", lambda: is_frozen(frozen) and "idle in transaction" in sessions())
     wait_for("the end of its session", lambda: end() or "idle in transaction" not in sessions())
     frozen.send_signal(signal.SIGCONT)
-    assert frozen.communicate(timeout=60)[0] == b"False\n"
+    assert frozen.communicate(timeout=PATIENCE_S)[0] == b"False\n"
     expire()
     assert drive.advance_site(SITE)
     assert [command.step for command in told(run)] == ["s0", "s1"]

@@ -34,7 +34,9 @@ class Dashboard:
 
 
 @contextmanager
-def dashboard(bus: Bus, name: str, key: str, *filters: str, will: str = "") -> Iterator[Dashboard]:
+def dashboard(
+    bus: Bus, name: str, key: str, *filters: str, will: str = "", keep_alive_s: int = 60
+) -> Iterator[Dashboard]:
     """Come in under a client id of one's own choice, as such programs do, and ask for filters."""
     made = Dashboard()
 
@@ -58,7 +60,7 @@ def dashboard(bus: Bus, name: str, key: str, *filters: str, will: str = "") -> I
         made.client.will_set(will, b"boo", 1, retain=True)
     made.client.on_connect, made.client.on_disconnect = connected, disconnected
     made.client.on_subscribe, made.client.on_message = subscribed, hear
-    made.client.connect("127.0.0.1", bus.device_port)
+    made.client.connect("127.0.0.1", bus.device_port, keep_alive_s)
     made.client.loop_start()
     try:
         wait_for("an answer", lambda: made.is_in or made.refused)
