@@ -69,6 +69,9 @@ def dashboard(
     finally:
         made.client.disconnect()
         made.client.loop_stop()
+        # what it calls knows it: without these it goes with its sockets at once, not at some collection
+        made.client.on_connect = made.client.on_disconnect = None
+        made.client.on_subscribe = made.client.on_message = None
 
 
 def make_person(email: str, site: str = SITE) -> User:
