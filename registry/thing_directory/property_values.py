@@ -168,8 +168,12 @@ def _hears(observer: Observer) -> Callable[[str, Message], bool]:
     def is_wanted(slug: str, message: Message) -> bool:
         if message["type"] in RIGHTS:
             return True
+        if slug != observer.site:
+            return False
+        if message["type"] == "device_removed":
+            return bool(message["id"] == observer.device_id)
         told = message.get("device")
-        return slug == observer.site and isinstance(told, Mapping) and told.get("id") == observer.device_id
+        return isinstance(told, Mapping) and told.get("id") == observer.device_id
 
     return is_wanted
 

@@ -193,7 +193,7 @@ async def test_a_stream_tells_what_is_and_each_change_that_fits_until_the_token_
 
 @pytest.mark.usefixtures("no_heartbeat")
 async def test_a_stream_ends_with_its_thing(mixer: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(event_stream, "HEARTBEAT_S", 1.0)  # so often it looks by itself
+    monkeypatch.setattr(event_stream, "HEARTBEAT_S", 600.0)  # so seldom it looks by itself
     _, text = await sync_to_async(token)("read")
     async with aclosing(await stream("heat", text)) as events:
         assert [await heard(events), await heard(events)] == ["retry: 2000\n\n", 40]
