@@ -3,7 +3,7 @@ import { Button } from "@mantine/core";
 import { Cpu, Download } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import { Link, useParams } from "react-router-dom";
+import { useParams } from "react-router-dom";
 import { useAsHeld } from "@/live/held";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
@@ -23,6 +23,7 @@ import { RetiredDevices } from "./RetiredDevices";
 import styles from "./devices.module.css";
 import { filterDevices, NO_FILTER } from "./filter";
 import { MapStrip } from "./MapStrip";
+import { NoSuch } from "../NoSuch";
 import { NothingFound } from "../NothingFound";
 import pages from "../pages.module.css";
 import { TableSkeleton } from "../TableSkeleton";
@@ -77,16 +78,6 @@ function Actions({ site }: { site: Site }) {
   );
 }
 
-/** An address that leads to a device which is not here, or not any more. */
-function NoSuchDevice({ slug, id }: { slug: string; id: string }) {
-  const { t } = useTranslation();
-  return (
-    <p role="alert" className={styles.noSuch}>
-      {t("pages.devices.noSuch", { id })} <Link to={`/sites/${slug}/devices`}>{t("pages.devices.toList")}</Link>
-    </p>
-  );
-}
-
 export function DevicesPage() {
   const { t } = useTranslation();
   const { slug = "", id } = useParams();
@@ -112,7 +103,13 @@ export function DevicesPage() {
         <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), devices.refetch()])} />
       ) : null}
       {!problem && (site.isPending || devices.isPending) ? <TableSkeleton rows={10} /> : null}
-      {id && devices.data && !chosen ? <NoSuchDevice slug={slug} id={id} /> : null}
+      {id && devices.data && !chosen ? (
+        <NoSuch
+          words={t("pages.devices.noSuch", { id })}
+          list={`/sites/${slug}/devices`}
+          toList={t("pages.devices.toList")}
+        />
+      ) : null}
       {site.data && told ? <Registry site={site.data} devices={told} chosen={chosen?.id} /> : null}
     </PageShell>
   );

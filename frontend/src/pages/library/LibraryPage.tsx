@@ -15,6 +15,7 @@ import { Panel } from "@/design/Panel";
 import { FunctionCard } from "./FunctionCard";
 import { FunctionDetail } from "./FunctionDetail";
 import styles from "./library.module.css";
+import { NoSuch } from "../NoSuch";
 import { NothingFound } from "../NothingFound";
 import pages from "../pages.module.css";
 import { TableSkeleton } from "../TableSkeleton";
@@ -48,11 +49,7 @@ interface BeyondProps {
 function NoFunction({ slug, error, again }: BeyondProps) {
   const { t } = useTranslation();
   if (!(error instanceof ApiProblem && error.status === 404)) return <LoadProblem error={error} again={again} />;
-  return (
-    <p role="alert" className={styles.noSuch}>
-      {t("library.noSuch")} <Link to={`/sites/${slug}/library`}>{t("library.toList")}</Link>
-    </p>
-  );
+  return <NoSuch words={t("library.noSuch")} list={`/sites/${slug}/library`} toList={t("library.toList")} />;
 }
 
 export function LibraryPage() {
