@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Collection, Iterable, Mapping
 from contextlib import suppress
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 from uuid import UUID
@@ -111,10 +112,20 @@ def get_compiled(*, program_id: UUID | str) -> dict[str, object]:
 
 
 def _check(program_id: str, document: Mapping[str, Any]) -> Compilation:
-    around = read_around(program_id)
-    compilation = compile_program(document, around.surroundings, revision=new_revision())
-    store_summary(program_id, compilation.summary, around.fingerprint)
+    around, revision = read_around(program_id), new_revision()
+    compilation = compile_program(document, around.surroundings, revision=revision)
+    if store_summary(program_id, compilation.summary, around.fingerprint):
+        transaction.on_commit(lambda: tell_checked(program_id=program_id, revision=revision))
     return compilation
+
+
+def tell_checked(*, program_id: UUID | str, revision: int) -> None:
+    """Tell a site what its lists are to show of a program from now on; of one that is gone, nothing."""
+    with suppress(NoSuchProgram):
+        view = get_program(program_id=program_id)
+        shown = {key: value for key, value in asdict(view).items() if key not in {"id", "site", "name"}}
+        shown["edited_at"] = view.edited_at.isoformat(timespec="milliseconds")
+        publish(view.site, {"type": "checked", "program": str(view.id), "revision": revision, "shown": shown})
 
 
 def find_program(program_id: UUID | str) -> Program:

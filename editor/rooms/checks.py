@@ -17,11 +17,11 @@ from editor.compiling.failures import failed_form
 from editor.compiling.job_delta import Wanted
 from editor.errors import NoSuchProgram
 from editor.programs.checking import Around, new_revision, read_around, store_failure, store_summary
+from editor.programs.programs import tell_checked
 from editor.programs.summary import Summary
 from editor.rooms.compiled_form import encode_check
 from editor.rooms.room import Room
 from editor.rooms.threads import in_database
-from registry import services as registry
 
 log = logging.getLogger(__name__)
 STORE_EVERY_S = 0.1
@@ -149,7 +149,7 @@ class Checks:
         (checked, self._checked), now = (self._checked, None), self.room.form.revision
         if checked is not None and (now is None or now <= checked.revision):
             try:
-                await in_database(_store)(self.room.program, self.room.site, checked)
+                await in_database(_store)(self.room.program, checked)
             except DatabaseError as error:
                 log.warning("What lists show of program %s was not stored: %s", self.room.program, error)
                 self._checked = self._checked or checked
@@ -195,13 +195,11 @@ def _read_unless_same(program_id: str, last: Around | None) -> Around:
     return last if last is not None and last == around else around
 
 
-def _store(program_id: str, site: str, checked: _Checked) -> None:
+def _store(program_id: str, checked: _Checked) -> None:
     """Store what lists show, and tell the site if they show something else."""
     if checked.summary is None:
-        is_news, counts = store_failure(program_id, checked.against), (1, 0)
+        is_news = store_failure(program_id, checked.against)
     else:
         is_news = store_summary(program_id, checked.summary, checked.against)
-        counts = checked.summary.errors, checked.summary.warnings
     if is_news:
-        told = {"program": program_id, "revision": checked.revision, "errors": counts[0], "warnings": counts[1]}
-        registry.publish(site, {"type": "checked", **told})
+        tell_checked(program_id=program_id, revision=checked.revision)

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import type { Question, Device, RunEvent, RunStatus, RunSummary, RunTimeline } from "@/api/types";
+import type { Question, Device, Program, RunEvent, RunStatus, RunSummary, RunTimeline } from "@/api/types";
 import {
   applyChanges,
   applyChecked,
@@ -111,16 +111,26 @@ test("a question takes its place by its time and is replaced when it is answered
   ]);
 });
 
-test("a check changes the counts of its program in the list and nothing else", () => {
-  const programs = [
-    { id: "a", name: "Paint", errors: 0, warnings: 2 },
-    { id: "b", name: "Carry", errors: 0, warnings: 0 },
+test("a check changes what the list shows of its program and nothing else", () => {
+  const before = { kinds: [], devices: [], places: [], edited_at: "2026-01-01T10:00", edited_by: null };
+  const programs: Program[] = [
+    { ...before, id: "a", site: "hall", name: "Paint", errors: 0, warnings: 2 },
+    { ...before, id: "b", site: "hall", name: "Carry", errors: 0, warnings: 0 },
   ];
-  expect(applyChecked(programs, { program: "a", revision: 7, errors: 3, warnings: 1 })).toEqual([
-    { id: "a", name: "Paint", errors: 3, warnings: 1 },
+  const edited_by = { id: 3, name: "Otto Brandt", initials: "OB" };
+  const told = {
+    kinds: ["ask" as const],
+    devices: ["oven"],
+    places: ["dock"],
+    edited_at: "2026-01-01T11:00",
+    edited_by,
+  };
+  const shown = { ...told, errors: 3, warnings: 1 };
+  expect(applyChecked(programs, { program: "a", revision: 7, shown })).toEqual([
+    { id: "a", site: "hall", name: "Paint", ...shown },
     programs[1],
   ]);
-  expect(applyChecked(programs, { program: "gone", revision: 7, errors: 3, warnings: 1 })).toEqual(programs);
+  expect(applyChecked(programs, { program: "gone", revision: 7, shown })).toEqual(programs);
 });
 
 test("how far a rehearsal is never jumps back, except where it is begun anew", () => {

@@ -5,6 +5,7 @@ import type {
   ArmedProgram,
   Device,
   Point,
+  Program,
   Question,
   RehearsalCourse,
   RehearsalStatus,
@@ -94,17 +95,13 @@ export function applyRehearsal<R extends Omit<RehearsalNews, "id">>(rehearsal: R
 export interface CheckedProgram {
   program: string;
   revision: number;
-  errors: number;
-  warnings: number;
+  shown: Pick<Program, "kinds" | "devices" | "places" | "edited_at" | "edited_by" | "errors" | "warnings">;
 }
 
-/** The list of programs with the counts of one that was checked. */
-export function applyChecked<P extends { id: string; errors: number; warnings: number }>(
-  programs: readonly P[],
-  checked: CheckedProgram,
-): P[] {
-  const { program, errors, warnings } = checked;
-  return programs.map((each) => (each.id === program ? { ...each, errors, warnings } : each));
+/** The list of programs with what it is to show of one that was checked. */
+export function applyChecked(programs: readonly Program[], checked: CheckedProgram): Program[] {
+  const { program, shown } = checked;
+  return programs.map((each) => (each.id === program ? { ...each, ...shown } : each));
 }
 
 /** Changes that people must see at once; the rest (poses, readings) may be gathered. */

@@ -6,6 +6,7 @@ import asyncio
 import json
 import os
 import signal
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +29,7 @@ def children_of(pid: int) -> list[int]:
     return found
 
 
-async def test_the_site_hears_a_small_notice_of_other_counts_and_not_the_form(web: Web) -> None:
+async def test_the_site_hears_what_lists_show_of_a_program_and_not_the_form(web: Web) -> None:
     program = web.new_program()
     url = f"ws://127.0.0.1:{web.port}/ws/site/hall"
     async with connect(url, additional_headers=web.headers("viewer")) as site, looking(web, program) as ada:
@@ -39,7 +40,12 @@ async def test_the_site_hears_a_small_notice_of_other_counts_and_not_the_form(we
             while (told.get("type"), told.get("program")) != ("checked", program):
                 told = json.loads(await site.recv())
     revision = told.pop("revision")
-    assert told == {"type": "checked", "program": program, "errors": 0, "warnings": 0}
+    with web.client("viewer") as viewer:
+        listed = next(each for each in viewer.get("/sites/hall/programs").json() if each["id"] == program)
+    shown = {key: value for key, value in listed.items() if key not in {"id", "site", "name"}}
+    assert shown["kinds"]
+    assert datetime.fromisoformat(told["shown"].pop("edited_at")) == datetime.fromisoformat(shown.pop("edited_at"))
+    assert told == {"type": "checked", "program": program, "shown": shown}
     assert revision == ada.form["revision"]
 
 
