@@ -108,7 +108,7 @@ def _bindings(document: Mapping[str, Any], here: Surroundings, there: Surroundin
             joined = (tuple(sorted({*getattr(known, k), *getattr(need, k)})) for k in Need.__slots__[3:])
             by_device[need.device] = Need(need.of, known.name, need.device, *joined)
     devices = [_of_device(need, here, there) for need in by_device.values()]
-    return (*devices, *(_of_place(place, here, there) for place in find_places(document)))
+    return (*devices, *(_of_place(place, here, there) for place in find_places(document, here.devices)))
 
 
 def _of_device(need: Need, here: Surroundings, there: Surroundings) -> Binding:

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 from editor.language.document.outline import mapping
-from editor.language.signatures.needs import find_needs
+from editor.language.signatures.needs import default_of, find_needs
 
 Chosen = Mapping[str, str | None]
 """What stands for each device and place of before, by its id; None: nothing does."""
@@ -36,7 +36,7 @@ def bind_document(
     methods = {need.device: need.methods for need in find_needs(document, {}) if need.of == "robot"}
     roles = {name: _role(mapping(role), chosen, methods) for name, role in mapping(document.get("roles")).items()}
     steps = {name: _step(mapping(step), chosen) for name, step in mapping(document.get("steps")).items()}
-    bound = {**_filled_fields(document, chosen, ("functions", "parameters")), "roles": roles, "steps": steps}
+    bound = {**_bound_parameters(document, chosen), "roles": roles, "steps": steps}
     moved = _shifts(document, chosen, before, after)
     for name, step in steps.items():
         if step.get("pos") is not None:
@@ -45,8 +45,31 @@ def bind_document(
     return {**document, **bound, "zones": {}, "start_pos": None if start is None else _moved(start, moved[""])}
 
 
-def _filled_fields(document: Mapping[str, Any], chosen: Chosen, roots: tuple[str, ...]) -> dict[str, Any]:
-    return {root: _filled(mapping(document.get(root)), chosen) for root in roots}
+def _bound_parameters(document: Mapping[str, Any], chosen: Chosen) -> dict[str, Any]:
+    """Return the functions and the program's parameters, with defaults of the other site or none."""
+    functions = _filled_members(document.get("functions"), chosen)
+    for function in functions.values():
+        listed = mapping(function).get("parameters")
+        if isinstance(listed, list):
+            function["parameters"] = [_parameter(each, chosen) for each in listed]
+    parameters = _filled_members(document.get("parameters"), chosen)
+    return {"functions": functions, "parameters": {name: _parameter(each, chosen) for name, each in parameters.items()}}
+
+
+def _filled_members(members: Any, chosen: Chosen) -> dict[str, Any]:
+    """Return what people have named as they like, each for itself: a parameter called “zone” is no zone."""
+    filled = {name: _filled(each, chosen) for name, each in mapping(members).items()}
+    return {name: each for name, each in filled.items() if each is not HOLE}
+
+
+def _parameter(parameter: Any, chosen: Chosen) -> Any:
+    """Return a parameter whose default, if it is a device or place, is who was chosen; without one where nobody was."""
+    default = default_of(mapping(parameter), "device", "place")
+    if default not in chosen:
+        return parameter
+    other = chosen[default]
+    rest = {key: value for key, value in parameter.items() if key != "default"}
+    return rest if other is None else {**rest, "default": other}
 
 
 def _role(role: Mapping[str, Any], chosen: Chosen, methods: Mapping[str, tuple[str, ...]]) -> dict[str, Any]:

@@ -16,6 +16,7 @@ Key = tuple[Kind, str, str]
 """A device's or role's id with nothing; the function's id and the parameter's name."""
 Wants = dict[str, dict[str, None]]
 DEFAULT_ROLE: Final = "robot"
+_ALSO_CALLED: Final = {"location": "place"}
 _PLACES_OF: Final = {"source": "gives", "target": "takes"}
 
 
@@ -23,14 +24,19 @@ def find_needs(body: Json, devices: Mapping[str, DeviceFacts], main: str = "") -
     """Return what {steps, functions, roles} need, by whom it is of and name: steps are in no order of their own.
 
     `main` is the function whose parameters are open; those of others are followed to what they are called with. Of
-    devices that are not known here it is told by their steps whether they are robots.
+    devices that are not known here it is told by their steps whether they are robots. Without `main` it is a program's
+    body, and devices that defaults of parameters name are needed, too.
     """
     return tuple(sorted(_Needs(body).needs(devices, main), key=lambda need: (need.of, need.name, need.device)))
 
 
-def find_places(body: Json) -> tuple[str, ...]:
-    """Return the ids of the named places that {steps, functions, roles} name."""
-    found: dict[str, None] = {}
+def find_places(body: Json, devices: Mapping[str, DeviceFacts]) -> tuple[str, ...]:
+    """Return the ids of the named places that {steps, functions, roles, parameters} name.
+
+    What a place's default names is one unless it is one of the devices.
+    """
+    named = (default for _, each in list_parameters(body) if (default := default_of(each, "place")))
+    found = dict.fromkeys(default for default in named if default not in devices)
     left: list[object] = [mapping(step).get("params") for step in mapping(body.get("steps")).values()]
     left += [mapping(body.get(root)) for root in ("functions", "parameters", "roles")]
     while left:
@@ -44,10 +50,26 @@ def find_places(body: Json) -> tuple[str, ...]:
     return tuple(sorted(found))
 
 
+def list_parameters(body: Json) -> Iterator[tuple[str, Json]]:
+    """Yield all parameters, each with the function that has it; the program's own with nothing."""
+    for name, item in mapping(body.get("parameters")).items():
+        yield "", {**mapping(item), "name": _text(mapping(item).get("name")) or name}
+    for function, item in mapping(body.get("functions")).items():
+        listed = mapping(item).get("parameters")
+        for each in listed if isinstance(listed, list | tuple) else ():
+            yield function, mapping(each)
+
+
+def default_of(parameter: Json, *types: str) -> str:
+    """Return the id that a parameter of one of these types has by default: there it is a text; empty where none is."""
+    kind = _text(parameter.get("type"))
+    return _text(parameter.get("default")) if _ALSO_CALLED.get(kind, kind) in types else ""
+
+
 class _Needs:
     def __init__(self, body: Json) -> None:
         self._steps, self._functions = mapping(body.get("steps")), mapping(body.get("functions"))
-        self._roles = mapping(body.get("roles"))
+        self._roles, self._parameters = mapping(body.get("roles")), list(list_parameters(body))
         self._wants: dict[Key, Wants] = {}
         self._robots: set[str] = set()
         self._given: list[tuple[Key, Key]] = []
@@ -56,6 +78,8 @@ class _Needs:
     def needs(self, devices: Mapping[str, DeviceFacts], main: str) -> Iterator[Need]:
         for name, step in self._steps.items():
             self._look_at(mapping(step), self._owner_of(name))
+        if not main:
+            self._look_at_defaults(devices)
         self._follow_calls()
         for key, wants in self._wants.items():
             methods, *others = (tuple(sorted(wants.get(kind, ()))) for kind in ABILITIES)
@@ -116,6 +140,13 @@ class _Needs:
         self._want(("role", role, ""), "methods", ["pick", "drop"] if kind == "pick_and_drop" else method)
         device = _text(mapping(self._roles.get(role)).get("device"))
         self._robots.update([device] if device else [])
+
+    def _look_at_defaults(self, devices: Mapping[str, DeviceFacts]) -> None:
+        for owner, each in self._parameters:
+            device = default_of(each, "device") or default_of(each, "place")
+            if device and (device in devices or default_of(each, "device")):
+                self._want(("device", device, ""), "methods", [])
+                self._given.append((("param", owner, _text(each.get("name"))), ("device", device, "")))
 
     def _look_inside(self, value: object, owner: str) -> None:
         """Look for devices and readings wherever they stand in a step's values."""

@@ -144,6 +144,32 @@ def test_what_was_chosen_holds_and_null_leaves_a_hole(hall: str) -> None:
     assert drawn["roles"]["carrier"] == {"name": "Carrier", "can": ["move"]}
 
 
+def test_devices_and_places_that_are_defaults_of_parameters_are_bound_as_well(hall: str) -> None:
+    parameters = {
+        "Mixer": {"type": "device", "default": "mixer1"},
+        "Oven": {"type": "device", "default": "oven1"},
+        "Dock": {"type": "place", "default": "dockA"},
+        "Shelf": {"type": "place", "default": "mixer1"},
+    }
+    mix = step("operate", device={"param": "Mixer"}, method="mix", args={})
+    cure = step("operate", order="2V", device={"param": "Oven"}, method="cure", args={})
+    drawn = document({"mix": mix, "cure": cure}, parameters=parameters)
+    program = str(editor.create_program(site="hall", name="Order", document=drawn).id)
+    look = post_json(signed_in("both"), f"/api/programs/{program}/promotion/look", {"site": "shed"}).json()
+    assert {each["id"]: (each["kind"], each["proposed"]) for each in look["bindings"]} == {
+        "mixer1": ("device", "stirrer7"),
+        "oven1": ("device", None),
+        "dockA": ("place", None),
+    }
+    made = promote(program).json()
+    assert editor.get_document(program_id=made["id"])["parameters"] == {
+        "Mixer": {"type": "device", "default": "stirrer7"},
+        "Oven": {"type": "device"},
+        "Dock": {"type": "place"},
+        "Shelf": {"type": "place", "default": "stirrer7"},
+    }
+
+
 @pytest.mark.parametrize(
     ("body", "status"),
     [

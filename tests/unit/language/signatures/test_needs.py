@@ -9,6 +9,7 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
+from editor.language.signatures.binding import bind_document
 from editor.language.signatures.fit import are_met, demands_of, find_lacks, find_matches
 from editor.language.signatures.needs import find_needs, find_places
 from editor.language.signatures.signature import signature_of
@@ -16,7 +17,7 @@ from editor.language.site.signature import Need, Port
 from editor.language.site.surroundings import DeviceFacts
 from tests.kit.demo_site import factory
 from tests.kit.files import ROOT
-from tests.kit.programs import step
+from tests.kit.programs import document, step
 
 DEVICES = factory().devices
 BODY = ("f", "body")
@@ -89,8 +90,8 @@ def test_odd_definitions_have_a_signature() -> None:
 
 
 def test_a_site_that_can_all_lacks_nothing_and_another_what_nobody_there_can() -> None:
-    document = json.loads((ROOT / "examples" / "paint-order.json").read_text())["document"]
-    needs = find_needs(document, DEVICES)
+    drawn = json.loads((ROOT / "examples" / "paint-order.json").read_text())["document"]
+    needs = find_needs(drawn, DEVICES)
     assert find_lacks(needs, DEVICES) == ()
     robots_that_drop = {
         name: replace(facts, description=replace(facts.description, methods=facts.description.methods[:1]))
@@ -142,4 +143,53 @@ def test_the_named_device_comes_first_then_who_can_as_much_and_is_called_alike()
 def test_places_are_found_in_steps_functions_and_parameters() -> None:
     body = definition({"go": step("move", BODY, to={"place": "dock1"})}, {"name": "p", "default": {"place": "yard"}})
     body["functions"] = {"f": body["function"]}
-    assert find_places(body) == ("dock1", "yard")
+    assert find_places(body, {}) == ("dock1", "yard")
+
+
+def with_defaults() -> dict[str, Any]:
+    """Return a program whose parameters, and those of its function, name devices and places by default."""
+    oven = {"type": "device", "default": "curingOven01"}
+    parameters = {
+        "oven": oven,
+        "dock": {"name": "Dock", "type": "location", "default": "dockA"},
+        "shelf": {"type": "place", "default": "itemInventory01"},
+        "what": {"type": "text", "default": "dockA"},
+    }
+    steps = {
+        "cure": step("operate", device={"param": "oven"}, method="curePaint", args={}),
+        "mix": step("operate", BODY, device={"param": "mixer"}, method="mixPaint", args={}),
+    }
+    function = {"name": "f", "parameters": [{"name": "mixer", "type": "device", "default": "paintMixer02"}, 7, "x"]}
+    return document(steps, functions={"f": function}, parameters=parameters)
+
+
+def test_devices_and_places_that_are_defaults_are_needed_with_what_is_wanted_of_their_parameters() -> None:
+    drawn = with_defaults()
+    assert find_needs(drawn, DEVICES) == (
+        Need("machine", "Curing Oven", "curingOven01", methods=("curePaint",)),
+        Need("machine", "Item Inventory", "itemInventory01"),
+        Need("machine", "Paint Mixer B", "paintMixer02", methods=("mixPaint",)),
+    )
+    assert find_places(drawn, DEVICES) == ("dockA",)
+
+
+def test_what_a_function_of_the_library_has_by_default_is_not_needed_of_a_site() -> None:
+    body = definition({}, {"name": "oven", "type": "device", "default": "curingOven01"})
+    assert needs_of(body) == ()
+
+
+def test_defaults_are_bound_to_who_was_chosen_and_left_out_where_nobody_was() -> None:
+    chosen = {"curingOven01": "oven7", "dockA": None, "itemInventory01": "shelf7", "paintMixer02": None}
+    made = bind_document(with_defaults(), chosen, {}, {})
+    assert made["parameters"] == {
+        "oven": {"type": "device", "default": "oven7"},
+        "dock": {"name": "Dock", "type": "location"},
+        "shelf": {"type": "place", "default": "shelf7"},
+        "what": {"type": "text", "default": "dockA"},
+    }
+    assert made["functions"]["f"]["parameters"] == [{"name": "mixer", "type": "device"}, 7, "x"]
+
+
+def test_a_parameter_may_be_called_as_a_value_begins() -> None:
+    parameters = {"zone": {"type": "text", "default": "wet"}}
+    assert bind_document(document({}, parameters=parameters), {}, {}, {})["parameters"] == parameters
