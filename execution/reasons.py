@@ -66,6 +66,8 @@ SENTENCES: Mapping[str, str] = {
     "by_hand": "{device} does {method} only by hand, while no run is open.",
     "offline": "{device} is offline.",
     "undone": "The step was not done.",
+    "unsaid": "The program failed here and does not say why.",
+    "no_map": "This site has no map yet. Upload one, or take one from a robot.",
     "no_place": "That is not a place: give a device, a place or a point [x, y].",
     "list_for_value": "A list stands where one value is needed.",
     "nested": "An expression is nested too deeply.",
