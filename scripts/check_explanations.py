@@ -100,6 +100,7 @@ _VALUES: Final = {
     "limit_not_positive": "With no time at all the limit strikes before the first step has done anything.",
     "quantity_not_positive": "Nobody can carry none, or half an object.",
     "quantity_above_capacity": "The largest robot that can take the role holds fewer.",
+    "no_answer_fits": "The lowest number that an Ask takes is above the highest.",
     "times_not_whole": "A Repeat counts whole rounds.",
     "unknown_unit": "The unit is none of the list, so values in it cannot be converted.",
     "unknown_zone": "A value asks for a zone that was removed, or whose corners are not at least three.",

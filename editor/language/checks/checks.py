@@ -281,6 +281,9 @@ def _ask(context: Context, node: n.Ask) -> None:
         check_value(context, node, node.question, "question", TEXT, "The question")
     if node.answer.type == "choice" and len(node.answer.options) < 2:
         context.report(node, "missing_options", "answer")
+    least, most = node.answer.minimum, node.answer.maximum
+    if least is not None and most is not None and least > most:
+        context.report(node, "no_answer_fits", "answer", {"least": least, "most": most})
     if node.timeout_s is not None:
         check_value(context, node, node.timeout_s, "timeout", SECONDS, "The time limit")
         _check_time(context, node, node.timeout_s, "timeout", "The time limit")

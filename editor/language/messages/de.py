@@ -109,6 +109,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     ),
     "quantity_not_positive": "Die Menge muss eine ganze Zahl über 0 sein.",
     "quantity_above_capacity": "{robot} trägt {range} auf einmal. Geben Sie weniger ein, oder fahren Sie zweimal.",
+    "no_answer_fits": "Keine Zahl ist mindestens {least} und höchstens {most}. Ändern Sie die Grenzen.",
     "carrying_too_much": "{robot} trägt hier schon {carried} und fasst höchstens {capacity}.",
     "may_carry_too_much": "{robot} trägt hier vielleicht schon zu viel. Höchstens {capacity} passen.",
     "drops_nothing": "{robot} trägt hier {carried} {object} und kann nicht {quantity} abgeben.",

@@ -115,6 +115,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "limit_not_positive": ("error", "A time limit must be longer than 0 s. Enter how long the steps in it may take."),
     "quantity_not_positive": ("error", "The quantity must be a whole number above 0."),
     "quantity_above_capacity": ("error", "{robot} carries {range} at a time. Enter less, or go twice."),
+    "no_answer_fits": ("error", "No number is both at least {least} and at most {most}. Change the limits."),
     "carrying_too_much": ("error", "{robot} already carries {carried} here and holds {capacity} at most."),
     "may_carry_too_much": ("warning", "{robot} may already carry too much here. It holds {capacity} at most."),
     "drops_nothing": ("error", "{robot} carries {carried} {object} here and cannot drop {quantity}."),
