@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
+from bisect import bisect_left
 from collections import OrderedDict
 from collections.abc import Iterable
-from datetime import datetime
+from datetime import datetime, timedelta
 from uuid import UUID
 
 from django.utils import timezone
@@ -45,9 +46,23 @@ def site_facts(
         facts |= position_facts((p.id, p.pose.x, p.pose.y) for p in there)
         facts |= position_facts((place.id, place.x, place.y) for place in registry.list_places(site=site))
     if needs.clock:
-        local = timezone.localtime(now)
-        facts |= clock_fact(local.hour * 3600 + local.minute * 60 + local.second)
+        facts |= clock_fact(_second_of_day(now))
     return facts
+
+
+def _second_of_day(now: datetime) -> int:
+    """Return the time of day; in the hour that clocks repeat, the last second before they were put back.
+
+    So it never goes back within a day, and what was once true of it does not become true again.
+    """
+    local = timezone.localtime(now)
+    if local.fold:
+        hidden = local.replace(fold=0).utcoffset() or timedelta()
+        repeated = int((hidden - (local.utcoffset() or timedelta())).total_seconds())
+        seconds = range(1, repeated + 1)
+        left = bisect_left(seconds, 1, key=lambda later: not timezone.localtime(now + timedelta(seconds=later)).fold)
+        local = local.replace(fold=0, tzinfo=None) + timedelta(seconds=left)
+    return local.hour * 3600 + local.minute * 60 + local.second
 
 
 def things_named(messages: Iterable[ToRun]) -> frozenset[str]:

@@ -1,5 +1,6 @@
 """Programs that start by themselves."""
 
+from dataclasses import replace
 from datetime import UTC, datetime
 from uuid import uuid4
 
@@ -8,10 +9,12 @@ import pytest
 from editor import services as editor
 from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant, Operation, Reading
-from editor.language.plan.instructions import End, EventEnd, EventEntry, Instruction, Plan, Wait
+from editor.language.plan.instructions import Branch, End, EventEnd, EventEntry, Instruction, Plan, Wait
 from execution import database, services
+from execution.machine.needs import clock_fact, needs_of
 from execution.models import ArmedProgram, Command, Run, RunEvent
 from execution.runs import triggers
+from execution.runs.facts import site_facts
 from registry import services as registry
 from tests.kit.programs import TASK, heat_oven
 from tests.kit.sign_in import join_and_sign_in, post_json
@@ -63,6 +66,44 @@ def test_a_run_starts_at_the_events_body_when_the_condition_becomes_true(factory
     assert (set(run.steps), run.program) == ({"e", "cool"}, armed.program)
     first = RunEvent.objects.filter(run=run).first()
     assert (first.code, first.text) == ("started_itself", "Run 1 started by itself; Ada has armed the program.")
+
+
+@pytest.mark.parametrize(
+    ("day", "times", "started"),
+    [
+        ("2026-10-24T", ["22:00", "23:59:59"], 0),
+        ("2026-10-25T", ["00:20", "00:30", "00:59:59", "01:00", "01:20", "01:30", "01:59:59.5", "02:00", "03:00"], 1),
+        ("2026-03-29T", ["00:30", "00:59:59", "01:00", "01:30"], 1),
+    ],
+)
+def test_half_past_two_comes_once_in_the_nights_when_clocks_are_changed(factory, settings, day, times, started):
+    """In UTC: in Berlin it is 2:30 at 00:30 and, by clocks that were put back, at 01:30; in spring it is then 3:00."""
+    settings.TIME_ZONE = "Europe/Berlin"
+    late = Operation(">=", (Operation("now", ()), Constant(2 * 3600 + 30 * 60)))
+    arm(replace(PLAN, reads=(), events=(EventEntry("e", 2, late, "run"),)))
+    seen = 0
+    for time in times:
+        seen += services.start_armed(now=datetime.fromisoformat(f"{day}{time}+00:00"))
+        Run.objects.update(status="finished", ended_at=datetime.now(UTC))
+    assert seen == started
+
+
+@pytest.mark.parametrize(
+    ("at", "clock"),
+    [
+        ("00:59:59", "02:59:59"),
+        ("01:00:00", "02:59:59"),
+        ("01:17:30.25", "02:59:59"),
+        ("01:59:59.999", "02:59:59"),
+        ("02:00:00", "03:00:00"),
+    ],
+)
+def test_the_time_of_day_stands_still_while_clocks_repeat_an_hour(db, settings, at, clock):
+    settings.TIME_ZONE = "Europe/Berlin"
+    needs = needs_of(Plan((Instruction(Branch(Operation("now", ()), 1)), Instruction(End()))))
+    facts = site_facts(needs, SITE, datetime.fromisoformat(f"2026-10-25T{at}+00:00"))
+    hours, minutes, seconds = map(int, clock.split(":"))
+    assert facts == clock_fact(hours * 3600 + minutes * 60 + seconds)
 
 
 def test_what_is_true_already_starts_nothing_and_while_a_run_is_under_way_none_is_added(factory):
