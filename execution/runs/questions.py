@@ -98,9 +98,9 @@ def _fit_number(answer: Mapping[str, Any], value: Any) -> Scalar:
         raise AnswerNotFitting("Answer with a number.")
     lowest, highest = answer["minimum"], answer["maximum"]
     if lowest is not None and value < lowest:
-        raise AnswerNotFitting(f"The number must be at least {lowest:g}.")
+        raise AnswerNotFitting(f"The number must be at least {in_short(lowest)}.")
     if highest is not None and value > highest:
-        raise AnswerNotFitting(f"The number must be at most {highest:g}.")
+        raise AnswerNotFitting(f"The number must be at most {in_short(highest)}.")
     return value
 
 
@@ -108,7 +108,7 @@ def in_short(value: object) -> str:
     """Return an answer as people read it."""
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return f"{value:g}" if isinstance(value, int | float) else str(value)
+    return f"{value:.15g}" if isinstance(value, int | float) else str(value)
 
 
 def ask(run: Run, action: AskPeople, now: datetime) -> None:

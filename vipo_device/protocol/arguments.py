@@ -87,9 +87,9 @@ def _must(spec: ParameterSpec, value: object, misfit: Misfit) -> str:
     """Return what a device says of a value that does not fit."""
     match misfit:
         case "low":
-            return f"must be at least {spec.minimum:g}, not {value:g}"
+            return f"must be at least {spec.minimum:.15g}, not {value:.15g}"
         case "high":
-            return f"must be at most {spec.maximum:g}, not {value:g}"
+            return f"must be at most {spec.maximum:.15g}, not {value:.15g}"
         case "boolean":
             return "must be true or false"
         case "option":
@@ -127,16 +127,16 @@ def _mend(spec: ParameterSpec, value: Any, known: Mapping[str, Collection[str]])
             return "give true or false."
         case "option":
             return f"choose one of {', '.join(spec.options)}."
-    return f"give a number {_range(spec)}, not {value:g}."
+    return f"give a number {_range(spec)}, not {value:.15g}."
 
 
 def _range(spec: ParameterSpec) -> str:
     unit = f" {spec.unit}" if spec.unit else ""
     if spec.minimum is not None and spec.maximum is not None:
-        return f"from {spec.minimum:g} to {spec.maximum:g}{unit}"
+        return f"from {spec.minimum:.15g} to {spec.maximum:.15g}{unit}"
     if spec.minimum is not None:
-        return f"of at least {spec.minimum:g}{unit}"
-    return f"of at most {spec.maximum:g}{unit}"
+        return f"of at least {spec.minimum:.15g}{unit}"
+    return f"of at most {spec.maximum:.15g}{unit}"
 
 
 def _is_line(value: object) -> bool:

@@ -68,6 +68,8 @@ def test_of_many_who_answer_exactly_one_is_first_and_the_run_hears_one_answer(fa
         (AnswerSpec("number"), True, "Answer with a number."),
         (AnswerSpec("number", minimum=2), 1.5, "The number must be at least 2."),
         (AnswerSpec("number", maximum=2), 3, "The number must be at most 2."),
+        (AnswerSpec("number", minimum=-1234567.5), -1234568, "The number must be at least -1234567.5."),
+        (AnswerSpec("number", maximum=1234567), 1234568, "The number must be at most 1234567."),
         (AnswerSpec("choice", options=("red", "blue")), "green", "Choose one of: red, blue."),
         (AnswerSpec("text"), "x" * 501, "Answer with a text of at most 500 characters."),
         (AnswerSpec("text"), None, "Answer with a text of at most 500 characters."),
@@ -97,6 +99,13 @@ def test_a_second_answer_hears_who_was_first(factory):
     assert (reply.status_code, reply.json()["detail"]) == (409, "Ada has answered already: yes.")
     assert Question.objects.get(id=question).value is True
     assert send(join_and_sign_in("admin", SITE), uuid4(), True).status_code == 404
+
+
+def test_a_second_answer_hears_the_first_with_all_its_digits(factory):
+    _, question = open_question(factory, AnswerSpec("number"))
+    services.answer_question(question_id=question, value=1234567.25, by="Ada")
+    reply = send(join_and_sign_in("operator", SITE), question, 7)
+    assert (reply.status_code, reply.json()["detail"]) == (409, "Ada has answered already: 1234567.25.")
 
 
 def test_a_question_that_nobody_answers_in_time_is_withdrawn_and_the_step_times_out(factory):

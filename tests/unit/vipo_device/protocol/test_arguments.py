@@ -40,6 +40,11 @@ BOOTH = Description("booth", "Booth", "machine", "booth", Pose(0, 0), Size(1, 1,
         ),
         ({"time": 31}, "paint: time must be at most 30, not 31.", "time: give a number from 1 to 30 MIN, not 31."),
         (
+            {"time": 1234567.5},
+            "paint: time must be at most 30, not 1234567.5.",
+            "time: give a number from 1 to 30 MIN, not 1234567.5.",
+        ),
+        (
             {"time": 2, "least": 0},
             "paint: least must be at least 1, not 0.",
             "least: give a number of at least 1, not 0.",
