@@ -10,7 +10,7 @@ from typing import Any
 from uuid import UUID
 
 from django.conf import settings
-from django.db import IntegrityError, transaction
+from django.db import IntegrityError, InterfaceError, OperationalError, transaction
 
 from execution import database
 from execution.engine import lease as leases
@@ -172,13 +172,43 @@ def _insert_rows(batch: database.Batch, turn: Turn, lease: Lease, *, is_floor: b
     written: list[RunWork | ByHand] = [*changed, *turn.by_hand.values()]
     _mark_simulated(turn, written)
     insert_all(batch, RunEvent, (line for work in written for line in work.lines))
+    _insert_inputs(batch, changed, turn.now)
+
+
+def _insert_inputs(batch: database.Batch, changed: Sequence[RunWork], now: datetime) -> None:
     inputs = (
-        RunInput(run_id=work.row.id, seq=work.row.inputs_kept, at=turn.now, taken=work.inputs)
+        RunInput(run_id=work.row.id, seq=work.row.inputs_kept, at=now, taken=work.inputs)
         for work in changed
         if work.inputs
     )
     insert_all(batch, RunInput, inputs)
-    insert_all(batch, Timer, _timers(changed, turn.now))
+    insert_all(batch, Timer, _timers(changed, now))
+
+
+def refused_runs(turn: Turn) -> Iterator[tuple[RunWork, Exception]]:
+    """Yield the runs of which the database does not take what this turn has made of them alone, and why; keeps nothing.
+
+    The turn is one that could not be written, and is given up.
+    """
+    for work in _changed(turn):
+        try:
+            with transaction.atomic():
+                _write_alone(work, turn.now)
+                transaction.set_rollback(True)
+        except (OperationalError, InterfaceError):
+            raise
+        except Exception as error:  # noqa: BLE001 - whatever it is, it is this run's own
+            yield work, error
+
+
+def _write_alone(work: RunWork, now: datetime) -> None:
+    """Write what one run has come to, but for what its floor is told."""
+    with database.sent_together() as batch:
+        _write_states(batch, [work], now)
+        insert_all(batch, RunEvent, work.lines)
+        _insert_inputs(batch, [work], now)
+    for action in work.asked:
+        _ask(work.row, action, now)
 
 
 def _mark_simulated(turn: Turn, written: Sequence[RunWork | ByHand]) -> None:
@@ -267,7 +297,7 @@ def _tell(turn: Turn) -> None:
     written: list[RunWork | ByHand] = [*_changed(turn), *turn.by_hand.values()]
     for work in written:
         messages += shown(work.row, work.lines)
-    messages += [_dead_notice(each.run, each.error) for each in turn.dead]
+    messages += [dead_notice(each.run, each.error) for each in turn.dead]
     wakes = ("gateway",) if turn.floor is not None and turn.floor.commands else ()
     registry.publish_all([(slug, message) for message in messages], wakes)
 
@@ -278,7 +308,8 @@ def _show_traffic(turn: Turn) -> None:
         publish_traffic(turn.site.slug, turn.site.layout, turn.floor.state)
 
 
-def _dead_notice(run: str, error: str) -> dict[str, Any]:
+def dead_notice(run: str, error: str) -> dict[str, Any]:
+    """Return what people who watch the site are told when something was set aside."""
     text = f"Something could not be taken in and was set aside for an admin: {error}"
     return {
         "type": "notice", "run": run or None, "text": text, "level": "warning", "code": "set_aside",

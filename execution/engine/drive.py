@@ -21,7 +21,7 @@ from execution.engine.inbox import MOST_AT_ONCE, read_news
 from execution.engine.lease import Lease, LeaseLost
 from execution.engine.lease_renewal import renewal
 from execution.engine.memory import SiteMemory, read_site
-from execution.engine.poison import set_row_aside
+from execution.engine.poison import set_row_aside, set_run_aside
 from execution.engine.turn import Turn
 from execution.fault_points import fault_point
 from execution.frozen_sessions import OWNER_SILENT_S
@@ -210,11 +210,13 @@ def _turn(slug: str, lease: Lease, *, look: bool) -> bool:
 
 
 def _take_apart(slug: str, turn: Turn, lease: Lease, error: Exception) -> bool:
-    """Find out, one message at a time, which one the database does not take; that one is set aside."""
+    """Find out what the database does not take: what a run does of itself, or else which message, one at a time."""
     log.error("A turn of %s could not be written.", slug, exc_info=error)
     _forget(slug)
     if isinstance(error, DatabaseError):
         connection.close_if_unusable_or_obsolete()
+    if set_run_aside(turn, lease):
+        return True
     if len(turn.rows) > 1:
         _memory(slug, lease).most_at_once = 1
         return True

@@ -1,18 +1,20 @@
 """What raises is set aside with its error; its run is paused with the reason, and the others go on."""
 
 import logging
+from dataclasses import replace
 
 import pytest
 from django.db import connection
 
-from bench.hall import SITE, fill_hall
+from bench.hall import HOT, OVEN, SITE, fill_hall
 from editor.language.expressions.nodes import Constant
-from editor.language.plan.instructions import AnswerSpec, AskPerson, End, Instruction, Plan
-from execution import services
+from editor.language.plan.instructions import AnswerSpec, AskPerson, End, Instruction, Plan, WaitUntil
+from execution import database, services
 from execution.engine import drive
 from execution.errors import NotFound, NotPossibleNow
 from execution.models import DeadLetter, FloorState, InboxEvent, Question, Run, Timer
 from registry import services as registry
+from registry.models import Device
 from tests.integration.execution.engine.hall import WAITS, answer_open, heating, row, start, told
 from vipo_device.kit.log_ids import bound_ids
 
@@ -242,6 +244,75 @@ def test_a_run_is_paused_before_it_hears_what_waits_behind_a_message_that_the_da
     said = row(run)
     assert (said.status, said.state["status"], len(told(run))) == ("paused", "paused", 1)
     assert [thread["at"] for thread in said.state["threads"]] == [0]
+
+
+def hard_step():
+    """Return an id of a step that the database does not take as that of a line."""
+    return "s" * 73 if connection.vendor == "postgresql" else "\ud800"
+
+
+def renamed(plan, old, new):
+    """Return a plan in which one step has another id."""
+    return replace(plan, instructions=tuple(replace(i, step=new) if i.step == old else i for i in plan.instructions))
+
+
+def test_a_run_whose_beginning_the_database_does_not_take_is_paused_and_what_others_are_told_is_taken_in(monkeypatch):
+    heard = []
+    good = [start(heating(2)), start(heating(2, "machine003"))]
+    drive.advance_site(SITE)
+    monkeypatch.setattr(registry, "publish_all", lambda messages, wakes=(): heard.extend(each for _, each in messages))
+    bad = start(renamed(heating(1, "machine004"), "s0", hard_step()))
+    late = start(heating(1, "machine005"))
+    assert [answer_open(run) for run in good] == [True, True]
+    drive.advance_site(SITE)
+    assert [(row(run).status, len(told(run))) for run in good] == [("running", 2), ("running", 2)]
+    assert (row(late).status, len(told(late))) == ("running", 1)
+    assert (row(bad).status, row(bad).started_at, row(bad).state, told(bad)) == ("paused", None, None, [])
+    (letter,) = services.list_dead_letters(site=SITE)
+    assert (str(letter.run), letter.event) == (bad, {"type": "start"})
+    assert letter.error.startswith(("StringDataRightTruncation", "UnicodeEncodeError"))
+    assert letter.error in row(bad).reason
+    assert [each["run"] for each in heard if each.get("code") == "set_aside"] == [bad]
+    assert services.get_run(run_id=bad).run.cause["code"] == "set_aside"
+
+
+def test_a_run_whose_beginning_the_database_does_not_take_can_be_resumed_for_nothing_and_cancelled():
+    bad, good = start(renamed(heating(1), "s0", hard_step())), start(heating(2, "machine003"))
+    drive.advance_site(SITE)
+    services.resume_run(run_id=bad, by="Ada")
+    answer_open(good)
+    drive.advance_site(SITE)
+    assert (row(bad).status, len(told(good))) == ("paused", 2)
+    first = services.list_dead_letters(site=SITE)[-1]
+    services.retry_dead_letter(letter_id=first.id, by="Ada")
+    drive.advance_site(SITE)
+    assert (row(bad).status, row(bad).started_at) == ("paused", None)
+    letters = services.list_dead_letters(site=SITE)
+    assert [(letter.event, letter.state) for letter in letters] == [
+        ({"type": "start"}, "open"), ({"type": "start"}, "open"), ({"type": "start"}, "retried"),
+    ]  # fmt: skip
+    assert InboxEvent.objects.filter(taken_at=None).count() == 0
+    services.cancel_run(run_id=bad, by="Ada")
+    drive.advance_site(SITE)
+    assert (row(bad).status, row(bad).started_at) == ("cancelled", None)
+    assert finish(good, 1) == "finished"
+
+
+def test_a_run_that_goes_on_by_itself_to_what_the_database_does_not_take_is_paused_and_no_other():
+    wait = Instruction(WaitUntil(HOT, None), "wait", 1)
+    bad = start(Plan((wait, *renamed(heating(1), "s0", hard_step()).instructions), reads=((OVEN, "temperature"),)))
+    good = start(heating(2, "machine003"))
+    drive.advance_site(SITE)
+    assert row(bad).status == "running"
+    Device.objects.filter(id=OVEN).update(properties={"temperature": 90}, last_seen_at=database.now())
+    answer_open(good)
+    drive.advance_site(SITE)
+    drive.advance_site(SITE)
+    assert (row(good).status, len(told(good))) == ("running", 2)
+    assert (row(bad).status, row(bad).state["status"], told(bad)) == ("paused", "paused", [])
+    (letter,) = services.list_dead_letters(site=SITE)
+    assert (str(letter.run), letter.event) == (bad, {"type": "step"})
+    assert finish(good, 1) == "finished"
 
 
 def test_what_was_set_aside_is_dropped_and_its_run_stays_as_it_is():
