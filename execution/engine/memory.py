@@ -7,6 +7,7 @@ import logging
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from datetime import datetime
 from hashlib import sha256
 from typing import Any
 from uuid import UUID
@@ -20,6 +21,7 @@ from execution.engine.inbox import MOST_AT_ONCE
 from execution.floor.fold import FloorWork
 from execution.floor.layouts import look_at_site, places_from_json
 from execution.machine import machine
+from execution.machine.at_once import EndsAtOnce
 from execution.machine.floor_task import TaskOrder
 from execution.machine.needs import Needs, needs_of
 from execution.models import FloorState, Run
@@ -53,7 +55,8 @@ class SiteMemory:
 
     `floor` is None where the floor's state cannot be read; `floor_error` says why. `simulated` are the devices whose
     stand-ins are told. `wakes_at` (monotonic seconds) is when something is to be looked at again that was held back.
-    `has_more` says that the last turn has left something.
+    `has_more` says that the last turn has left something. `resting` says by run and number of the task until when an
+    end is not told that came at once too often (`at_once`).
     """
 
     slug: str
@@ -70,6 +73,8 @@ class SiteMemory:
     wakes_at: float | None = None
     has_more: bool = False
     floor_written_at: float = 0.0
+    at_once: EndsAtOnce = field(default_factory=EndsAtOnce)
+    resting: dict[str, dict[int, datetime]] = field(default_factory=dict)
     _plans: dict[str, _Known] = field(default_factory=dict)
     _layout: Layout | None = None
     _kept: tuple[Layout, dict[str, Any], Layout] | None = None
@@ -158,6 +163,8 @@ class SiteMemory:
         self.runs.pop(run, None)
         self.broken.pop(run, None)
         self._plans.pop(run, None)
+        self.resting.pop(run, None)
+        self.at_once.forget(run)
 
     def mend_run(self, run: str) -> bool:
         """Read a run anew that could not be read; tell whether that worked."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from django.db import DatabaseError, InterfaceError
@@ -22,6 +22,7 @@ from execution.engine.dead_letter_capture import (
     without_tasks_of_one,
     words_of,
 )
+from execution.engine.holding import Mail, held_for
 from execution.engine.inbox import News, Row
 from execution.engine.memory import SiteMemory
 from execution.floor.fold import FloorWork, news_of, step_floor
@@ -44,7 +45,6 @@ from execution.runs.before_start import is_admitted, may_begin
 from execution.runs.facts import facts_of, things_named
 from execution.runs.fold import CannotTakeIn, Facts, RunWork, fold
 from execution.runs.journal import Journal
-from execution.runs.reading_grace import AT_MOST, is_early
 from execution.traffic import messages as m
 from execution.traffic.floor_state import FloorState
 from registry import services as registry
@@ -53,15 +53,6 @@ from vipo_device.kit.log_ids import bind_ids
 log = logging.getLogger(__name__)
 MOST_ROUNDS = 20
 """So often run and floor hear each other within a turn; who has more to say says it in the next, behind all others."""
-
-
-@dataclass(frozen=True, slots=True)
-class Mail:
-    """A message that is on its way within a turn; `row` is where it was kept, 0 where it never was."""
-
-    message: Any
-    since: Any
-    row: int = 0
 
 
 class Turn:
@@ -81,6 +72,7 @@ class Turn:
         self._for_runs: dict[str, list[Mail]] = {}
         self._for_floor: list[ToFloor] = []
         self._facts_read: set[str] = set()
+        self._asked: set[tuple[str, int]] = set()
         self._devices: tuple[registry.PositionView, ...] | None = None
         self._started = [str(run) for run in news.runs]
         for row in news.rows:
@@ -184,20 +176,18 @@ class Turn:
             return [pause_for(words_of(error))]
 
     def _hold_back(self, work: RunWork, mails: Sequence[Mail]) -> list[ToRun]:
-        """Return what is taken in now: not the ends of tasks whose device is just about to speak."""
+        """Return what is taken in now: not the ends of tasks whose device is just about to speak, or that rest."""
         now = []
         for mail in mails:
-            message = mail.message
-            is_end = isinstance(message, TaskEnded) and not message.kind and bool(work.needs.properties)
-            order = self.site.order_of(work, message.task) if isinstance(message, TaskEnded) and is_end else None
-            if is_end and is_early(work.row, work.needs, message, order, mail.since, self.now):
-                self.site.wakes_at = time.monotonic() + AT_MOST.total_seconds()
+            if held := held_for(self.site, work, mail, self._asked, self.now):
+                wakes_at = time.monotonic() + held.total_seconds()
+                self.site.wakes_at = min(self.site.wakes_at or wakes_at, wakes_at)
                 if mail.row:
                     self.taken.remove(mail.row)
                 else:
-                    self.kept.append((run_target(work.id), message))
+                    self.kept.append((run_target(work.id), mail.message))
             else:
-                now.append(message)
+                now.append(mail.message)
         return now
 
     def _step_run(self, work: RunWork, messages: list[ToRun]) -> None:
@@ -225,6 +215,7 @@ class Turn:
                         return
         self.runs[work.id] = new
         self._for_floor += told
+        self._asked |= {(work.id, message.task) for message in told if isinstance(message, m.TaskAsked)}
         if self._begins(new):  # by what it was told; whether its approvals suffice is asked before that
             self._for_runs.setdefault(work.id, [])
 

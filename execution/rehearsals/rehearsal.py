@@ -16,7 +16,9 @@ from editor.language.site.surroundings import PlaceFacts, ZoneFacts
 from execution.floor_protocol import AskingRun, to_floor, to_machine, to_run
 from execution.machine import machine
 from execution.machine import messages as r
+from execution.machine.at_once import EndsAtOnce
 from execution.machine.needs import Facts, clock_fact, needs_of, position_facts
+from execution.machine.turn import YIELD_S
 from execution.rehearsals.open_commands import OpenCommands
 from execution.rehearsals.progress import Progress, has_known_end
 from execution.rehearsals.recorder import Recorder
@@ -119,6 +121,10 @@ class _Rehearsal:
         self.replies: list[tuple[float, r.Answered]] = []
         self.admissions: dict[str, tuple[float, m.RobotLetIn]] = {}
         """By robot: when somebody lets it into a zone, who would be asked in a run."""
+        self.asked: set[int] = set()
+        """The tasks that were asked for at this moment; what ends of them at once too often rests."""
+        self.at_once = EndsAtOnce()
+        self.resting: list[tuple[float, r.Event]] = []
         self.floor = floor.start(layout, NAMESPACE)
         self.run_events: list[r.Event] = []
         self.floor_events: list[m.Event] = []
@@ -168,6 +174,7 @@ class _Rehearsal:
         if self.world.time_s - self.looked_at >= LOOK_ROUND_S - 1e-9:
             self.looked_at = self.world.time_s
             happened.append(self._look_round())
+        happened.append(self._end_rests())
         happened += [self._reply() for due_s, _ in list(self.replies) if due_s <= self.world.time_s + 1e-9]
         happened += [self._let_in(robot) for robot, (due_s, _) in list(self.admissions.items()) if due_s <= now]
         while self.timers and self.timers[0][0] <= self.world.time_s + 1e-9:
@@ -232,6 +239,7 @@ class _Rehearsal:
 
     def _settle(self) -> None:
         """Hand events to and fro between the run and the floor until both are content."""
+        self.asked.clear()
         self._step_floor()
         while self.run_events and self.finished is None:
             events, self.run_events = self.run_events, []
@@ -253,8 +261,23 @@ class _Rehearsal:
                 self.commands.send(action)
             told = to_run(action)
             event = to_machine(told[1]) if told else None
-            if event is not None:
+            if event is not None and not self._rests(event):
                 self.run_events.append(event)
+
+    def _rests(self, event: r.Event) -> bool:
+        """Put off the end of a task that has ended at once, once too often, as in a run."""
+        is_end = isinstance(event, r.TaskDone | r.TaskFailed) and event.task in self.asked
+        if not is_end or not self.at_once.is_too_often(RUN, self.world.time_s):
+            return False
+        self.resting.append((self.world.time_s + YIELD_S, event))
+        return True
+
+    def _end_rests(self) -> bool:
+        """Tell the run what has rested long enough."""
+        due = [event for due_s, event in self.resting if due_s <= self.world.time_s + 1e-9]
+        self.resting = self.resting[len(due) :]
+        self.run_events += due
+        return bool(due)
 
     def _reports(self) -> list[m.Event]:
         """Return what robots and doors report, where some are chosen by it or pass a door."""
@@ -271,6 +294,7 @@ class _Rehearsal:
             match action:
                 case r.Ask() | r.Cancel():
                     self.floor_events.append(to_floor(self.asking, action))
+                    self.asked |= {action.task} if isinstance(action, r.Ask) else set()
                 case r.SetTimer(timer=timer, seconds=seconds):
                     heapq.heappush(self.timers, (now + seconds, timer))
                 case r.CancelTimer(timer=timer):

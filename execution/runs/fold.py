@@ -24,6 +24,7 @@ from vipo_device.protocol.description import Scalar
 
 Facts = Mapping[tuple[str, str], Scalar]
 REASON_CHARACTERS = 500
+GOING_ON = frozenset({"running", "paused"})
 
 
 class CannotTakeIn(Exception):
@@ -200,7 +201,7 @@ def _close(fold: _Fold) -> None:
     """Say in the run's row what its machine has come to."""
     run, state = fold.work.row, fold.work.state
     assert state is not None
-    watches = state.status in {"running", "paused"} and _watches(fold.work.plan, state)
+    watches = state.status in GOING_ON and _watches(fold.work.plan, state)
     said = (state.status, state.reason[:REASON_CHARACTERS], watches)
     if said != (run.status, run.reason, run.watches):
         run.status, run.reason, run.watches = said
@@ -234,6 +235,7 @@ def _tell(fold: _Fold, event: r.Event) -> None:
 def _do(fold: _Fold, actions: tuple[r.Action, ...]) -> None:
     """Note what the machine wants done."""
     work, journal = fold.work, fold.journal
+    is_last = work.state is not None and (work.state.ending is not None or work.state.status not in GOING_ON)
     for action in actions:
         match action:
             case r.Ask(task=task, order=order):
@@ -253,7 +255,7 @@ def _do(fold: _Fold, actions: tuple[r.Action, ...]) -> None:
                 journal.say("run", describe(status, reason), code=status)
                 fold.told.append(to_floor(fold.asking, action))
             case r.StepEntered() | r.StepLeft() | r.StepFailed():
-                journal.mark(action)
+                journal.mark(action, is_last=is_last)
             case _:
                 assert_never(action)
 

@@ -28,6 +28,8 @@ from execution.views import event_to_json, run_to_json, view_event, view_run
 from registry import services as registry
 
 TOLD_AT_LEAST = 100
+AT_ONCE_S = 2.0
+"""What fails sooner may fail again and again; it is told to its run a second later at most (`machine.at_once`)."""
 WHAT_BECAME = {r.StepEntered: "begun", r.StepLeft: "done", r.StepFailed: "not_done"}
 ANSWERS = {"DONE": "is done", "FAILED": "failed", "REJECTED": "refused", "CANCELED": "was called off"}
 ENDS = {
@@ -75,8 +77,11 @@ class Journal:
         self.seq += 1
         self._rows.append(row)
 
-    def mark(self, action: r.StepEntered | r.StepLeft | r.StepFailed) -> None:
-        """Mark a step as the machine says."""
+    def mark(self, action: r.StepEntered | r.StepLeft | r.StepFailed, *, is_last: bool = False) -> None:
+        """Mark a step as the machine says; a failure that ends the run (`is_last`) is always written down.
+
+        Another is left out only in a long loop, where it comes at once, without anything that others have read of.
+        """
         registry.count(name="run_steps", labels=(WHAT_BECAME[type(action)],))
         match action:
             case r.StepEntered(step=step):
@@ -90,13 +95,22 @@ class Journal:
                 if self._is_told(step):
                     self.say("step", "The step is done.", step=step, code="step_done")
             case r.StepFailed(step=step, kind=kind, why=why):
+                has_lasted = self._has_lasted(step)
                 self._end(step, "skipped" if kind == "cancelled" else "failed")
-                self.say("step", why or "The step was not done.", step=step, code=f"step_{kind}")
+                if is_last or has_lasted or self._is_told(step):
+                    self.say("step", why or "The step was not done.", step=step, code=f"step_{kind}")
 
     def _is_told(self, step: str) -> bool:
-        """Tell whether a step's beginning is written down: of one in a long loop only every hundredth."""
-        count = self.steps[step]["count"]
+        """Tell whether it is written that a step begins, is done or fails at once: in long loops each hundredth."""
+        count = self.steps[step].get("count", 1)
         return bool(count <= TOLD_AT_LEAST or count % TOLD_AT_LEAST == 0)
+
+    def _has_lasted(self, step: str) -> bool:
+        """Tell whether there is more of a step than that it failed: it has waited, or taken longer than `AT_ONCE_S`."""
+        mark = self.steps.get(step)
+        if mark is None or mark.get("wait") is not None:
+            return True
+        return (self.now - datetime.fromisoformat(mark["started_at"])).total_seconds() > AT_ONCE_S
 
     def _end(self, step: str, status: str) -> None:
         mark = self.steps.setdefault(step, {"started_at": self.now.isoformat(), "robot": None, "count": 1})

@@ -1,6 +1,7 @@
 """One owner for a site: what a turn writes, and that nobody writes beside it."""
 
 import re
+from dataclasses import replace
 from datetime import timedelta
 
 import pytest
@@ -9,8 +10,8 @@ from django.test.utils import CaptureQueriesContext
 
 from bench.hall import OVEN, SITE, fill_hall
 from editor.language import plan_from_json
-from editor.language.expressions.nodes import Constant
-from editor.language.plan.instructions import Instruction, Jump, Notify, Plan
+from editor.language.expressions.nodes import Constant, PlaceRef
+from editor.language.plan.instructions import Instruction, Jump, Move, Notify, Plan, RoleBinding, TryBegin, TryEnd
 from execution import database, services
 from execution.engine import drive, lease
 from execution.engine.commit import commit
@@ -20,7 +21,9 @@ from execution.engine.lease import LeaseLost
 from execution.engine.memory import read_site
 from execution.engine.turn import Turn
 from execution.machine import machine
+from execution.machine.messages import StepFailed
 from execution.models import Command, FloorState, InboxEvent, Run, RunEvent, RunInput, SiteLease, Timer
+from execution.runs.journal import Journal
 from registry import services as registry
 from tests.integration.execution.engine.hall import WAITS, answer, answer_open, heating, row, start, told
 
@@ -40,9 +43,10 @@ def expire():
     SiteLease.objects.update(expires_at="2026-01-01T00:00:00Z")
 
 
-def worked_out(held, memory):
-    """Return a turn that is decided and not yet written."""
+def worked_out(held, memory, later=timedelta(0)):
+    """Return a turn that is decided and not yet written, by a clock that has gone on by so much."""
     news = read_news(held.site, SITE, memory.last_number)
+    news = replace(news, now=news.now + later)
     memory.add_started(news.runs)
     turn = Turn(memory, news, look=False)
     turn.work_out()
@@ -204,3 +208,63 @@ def test_a_real_runs_history_replays_to_the_same_state_byte_for_byte():
     assert (len(asked), decisions) == (3, replay(history))
     assert type(decisions[-1].actions[-1]).__name__ == "Finished"
     assert OVEN in json.dumps(whole.plan)
+
+
+def trying_again():
+    """Return a program that drives to a place that there is not, again and again."""
+    robot = RoleBinding("robot", "robot001", ("move",))
+    body = (TryBegin(3), Move("robot", PlaceRef(place="nowhere")), TryEnd(), Jump(0))
+    steps = ("", "m", "", "")
+    return Plan(tuple(map(Instruction, body, steps, range(1, 5))), {"robot": robot})
+
+
+def asked_so_far(run):
+    """Return how many tasks a run has asked for; the tasks alone take numbers."""
+    return row(run).state["next_id"] - 1
+
+
+def test_a_run_that_tries_again_what_fails_at_once_asks_at_most_so_often_in_a_second():
+    run, other = start(trying_again()), start(heating(1))
+    held = lease.take(site_id())
+    for look in (True, True, False, False, False):
+        drive._turn(SITE, held, look=look)
+    memory = drive._memories[SITE]
+    assert (asked_so_far(run), memory.has_more, memory.wakes_at is not None) == (16, False, True)
+    assert drive._turn(SITE, held, look=False) is False
+    answer_open(other)
+    drive._turn(SITE, held, look=False)
+    assert (row(other).status, asked_so_far(run)) == ("finished", 16)
+    for seconds in range(1, 10):
+        for _ in range(3):
+            turn = worked_out(held, memory, timedelta(seconds=seconds * 1.01))
+            commit(turn, held)
+        assert (asked_so_far(run), turn.has_more) == (16 + 16 * seconds, False)
+    failed = RunEvent.objects.filter(run=run, code="step_blocked", step="m")
+    assert row(run).steps["m"]["count"] == 160
+    assert failed.count() == 100  # of so many only every hundredth is written down
+    services.cancel_run(run_id=run, by="Ada")
+    turn = worked_out(held, memory, timedelta(seconds=11))
+    commit(turn, held)
+    assert (row(run).status, memory.resting, InboxEvent.objects.filter(taken_at=None).count()) == ("cancelled", {}, 0)
+    assert failed.model.objects.filter(run=run, step="m").last().code == "step_cancelled"
+
+
+def test_the_failure_that_ends_a_run_is_written_down_however_often_its_step_was_carried_out():
+    run = start(heating(1))
+    drive.advance_site(SITE)
+    steps = row(run).steps
+    Run.objects.filter(id=run).update(steps={"s0": {**steps["s0"], "count": 150}})
+    drive.forget_all()
+    answer(told(run)[0], "FAILED")
+    drive.advance_site(SITE)
+    codes = [event.code for event in RunEvent.objects.filter(run=run).order_by("seq")]
+    assert codes == ["started", "step_entered", "command", "answer", "step_failed", "failed"]
+
+
+@pytest.mark.parametrize(("seconds", "wait", "told"), [(1, None, 0), (3, None, 1), (0, "It waits for a robot.", 1)])
+def test_of_the_failures_in_a_long_loop_only_those_are_left_out_that_come_at_once(seconds, wait, told):
+    now = database.now()
+    mark = {"count": 150, "started_at": (now - timedelta(seconds=seconds)).isoformat(), "wait": wait, "robot": None}
+    journal = Journal(Run(steps={"m": mark}, roles={}, next_seq=7), now, {})
+    journal.mark(StepFailed("m", "blocked", "There is no way."))
+    assert len(journal.close()) == told

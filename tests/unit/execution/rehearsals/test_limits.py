@@ -1,7 +1,12 @@
 """Time limits in a rehearsal: by its own clock, robots stop and machines let go of what took too long."""
 
+import pytest
+
 from editor.language import Surroundings, compile_document
+from editor.language.expressions.nodes import PlaceRef
+from editor.language.plan.instructions import Instruction, Jump, Move, Plan, RoleBinding, TryBegin, TryEnd
 from editor.language.site.surroundings import DeviceFacts
+from execution.machine import messages as r
 from execution.rehearsals.rehearsal import Conditions, rehearse
 from simulation.world import Scene
 from tests.kit import demo_floor
@@ -74,3 +79,31 @@ def test_what_is_done_in_time_is_not_touched():
     result = rehearsed({"l": step("limit", duration=3600), "m": step("move", LIMIT, role="robot", to=OVEN)})
     assert result["ok"], result["errors"]
     assert {status for status, _ in spans(result).values()} == {"done"}
+
+
+class Counting:
+    """Counts what a rehearsal's run does, and ends one that would never end."""
+
+    def __init__(self):
+        self.asked = 0
+
+    def carried(self, thread, at, to):
+        pass
+
+    def did(self, action):
+        self.asked += isinstance(action, r.Ask)
+        assert self.asked < 10_000
+
+    def ended(self, stocks):
+        pass
+
+
+@pytest.mark.parametrize("place", ["nowhere", "curingOven01"])
+def test_a_program_that_asks_again_for_what_ends_at_once_rests_so_that_time_goes_on(place):
+    loop = (TryBegin(3), Move("robot", PlaceRef(device=place)), TryEnd(), Jump(0))
+    plan = Plan(tuple(map(Instruction, loop, ("", "m", "", ""))), {"robot": RoleBinding("robot", can=("move",))})
+    scene, seen = Scene(demo_floor.grid(), demo_floor.devices(), seed=1), Counting()
+    result = rehearse(plan, scene, conditions=Conditions("kinematic", limit_s=120, observer=seen))
+    assert [error["message"] for error in result["errors"]][-1].startswith("The program was stopped after 0.033 h")
+    arrived_s = 0 if place == "nowhere" else 60
+    assert 15 * (120 - arrived_s) / 2 < seen.asked <= 16 * 122
