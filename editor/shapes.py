@@ -10,6 +10,7 @@ from ninja import Field, Schema
 from typing_extensions import TypeAliasType
 
 from editor.language.constructs.table import CONSTRUCTS
+from editor.language.document.outline import LONGEST_ID
 from registry.requests import Asked, Flag, Line, Repaired, Unchecked
 
 Position = tuple[float, float]
@@ -154,7 +155,7 @@ class DocumentShape(Schema):
 
     format: Literal[2]
     start_pos: Position | None = None
-    steps: dict[str, StepShape]
+    steps: dict[Annotated[str, Field(max_length=LONGEST_ID)], StepShape]
     functions: dict[str, FunctionShape]
     roles: dict[str, RoleShape]
     parameters: dict[str, ParameterDefinition]

@@ -43,6 +43,7 @@ _UNKNOWN: Final = {
     "unknown_role": "The step's robot was deleted from the program; it is read as the robot that every program has.",
     "unknown_kind": "A newer version of VIPO, or another program, has drawn this step.",
     "odd_shape": "Another program wrote a function, role, parameter or zone into the document that has not its shape.",
+    "long_id": "Another program drew this step under an id that no line of a run has room for.",
     "odd_position": "Another program wrote something else than two numbers in metres.",
     "newer_format": "The document was written by a newer version; nothing in it is changed.",
 }

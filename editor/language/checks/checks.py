@@ -42,7 +42,7 @@ from editor.language.checks.values import (
     range_in,
 )
 from editor.language.document.catches import KINDS_OF
-from editor.language.document.outline import PROGRAM, Outline
+from editor.language.document.outline import LONGEST_ID, PROGRAM, Outline
 from editor.language.expressions import nodes as e
 from editor.language.expressions.constant_values import constant_value
 from editor.language.expressions.nodes import Expression
@@ -361,8 +361,15 @@ def _check_left_over(context: Context, reading: ReadDocument) -> None:
         context.found.append((Problem("empty_program"), 0))
     for step in outline.drafts:
         context.found.append((_left_over(outline, step), 0))
+    for step in outline.kinds:
+        if len(step) > LONGEST_ID:
+            context.found.append((_long_id(step), 0))
     for step in outline.unknown:
         context.found.append((Problem("unknown_kind", step, "kind", fix=Fix("delete_step", step, "delete", None)), 0))
+
+
+def _long_id(step: str) -> Problem:
+    return Problem("long_id", step, "id", {"most": LONGEST_ID}, Fix("delete_step", step, "delete", None))
 
 
 def _left_over(outline: Outline, step: str) -> Problem:

@@ -23,6 +23,8 @@ BRANCHES: Mapping[str, tuple[str, ...]] = {
 """The kinds of steps and their branches; a Parallel names its own, a Try has the catches that it says."""
 DEEPEST_STEP = 30
 MOST_BRANCHES = 26
+LONGEST_ID = 64
+"""A step whose id is longer, in characters, cannot be carried out: no line of a run has room for it."""
 
 _LISTS: Final = (list, tuple)
 Place = tuple[str, str, str]

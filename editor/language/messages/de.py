@@ -43,6 +43,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "unknown_role": "Dieses Programm hat keinen Roboter mit dem Namen {role}. Wählen Sie einen anderen.",
     "unknown_kind": "Diese Art von Schritt kennt diese Version von VIPO nicht. Löschen Sie ihn.",
     "odd_shape": "{part} hat nicht die nötige Form und fehlt beim Lesen. Geben Sie es neu ein oder entfernen Sie es.",
+    "long_id": "Die Id dieses Schritts hat mehr als {most} Zeichen. Kopieren Sie ihn und löschen Sie diesen.",
     "odd_position": "Der Start hat keine lesbare Position. Ziehen Sie ihn dorthin, wo er hingehört.",
     "newer_format": "Dieses Programm stammt aus einem neueren VIPO. Aktualisieren Sie dieses, um es auszuführen.",
     # it cannot ever work

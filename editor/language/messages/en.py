@@ -44,6 +44,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "unknown_role": ("error", "This program has no robot called {role}. Choose another."),
     "unknown_kind": ("error", "This step is of a kind that this version of VIPO does not know. Delete it."),
     "odd_shape": ("error", "{part} has not its shape, so it is read without that. Enter it anew, or take it out."),
+    "long_id": ("error", "The id of this step has more than {most} characters. Copy the step and delete this one."),
     "odd_position": ("warning", "The start has no position that can be read. Move it to where it belongs."),
     "newer_format": ("error", "This program was made with a newer VIPO. Update this one to run it."),
     # it cannot ever work

@@ -91,3 +91,22 @@ def test_a_document_is_mended_by_writing_what_was_read_without_the_odd_part(clie
     written = client.put(at, mended, "application/json", headers={"If-Match": read.headers["ETag"]})
     assert written.status_code == 204
     assert client.get(at).json()["roles"] == {}
+
+
+def test_a_step_whose_id_no_line_of_a_run_has_room_for_is_refused_and_an_error_where_somebody_drew_it(
+    client: Client,
+) -> None:
+    wait = {"kind": "wait", "place": ["program", "body", "V"], "pos": [1, 1], "params": {"duration": 5}}
+    program = program_with({"steps": {"s" * 65: wait}})
+    at = f"/api/programs/{program}"
+    found = client.get(f"{at}/compiled").json()["diagnostics"]
+    assert [(each["code"], each["severity"], each["step"]) for each in found] == [("long_id", "error", "s" * 65)]
+    read = client.get(f"{at}/document")
+    answers = []
+    for length in (65, 64):
+        body = {**read.json(), "steps": {"s" * length: wait}}
+        body["functions"], body["roles"], body["parameters"], body["zones"] = {}, {}, {}, {}
+        tag = {"If-Match": read.headers["ETag"]}
+        answers.append(client.put(f"{at}/document", body, "application/json", headers=tag))
+    assert [each.status_code for each in answers] == [422, 204]
+    assert "at most 64 characters" in answers[0].json()["detail"]
