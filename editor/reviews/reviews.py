@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import cached_property
+from itertools import islice
 from typing import Any, Literal, NamedTuple
 from uuid import UUID
 
 from django.db import transaction
-from django.db.models import Max, QuerySet, Subquery
+from django.db.models import Max, OuterRef, QuerySet, Subquery
 from django.db.models.functions import Coalesce
 
 from editor.documents.store import get_document
@@ -21,7 +23,7 @@ from editor.programs.programs import get_program
 from editor.programs.versions import find_version, pin_version
 from editor.reviews.gate import content_digest
 from editor.reviews.rules import Rule, get_rule, hold_rule
-from editor.reviews.standing import Standing, list_approved_digests, read_standing, reviewers_of
+from editor.reviews.standing import Standing, list_approved_digests, read_standing, read_standings, reviewers_of
 from registry import services as registry
 from vipo_device.protocol.texts import find_unfit, normal
 
@@ -29,7 +31,9 @@ Verdict = Literal["approved", "changes", "withdrawn"]
 WhyNot = Literal["", "role", "own"]
 MOST_NOTE = 500
 MOST_SHOWN = 20
-"""Of so many programs, those that a review was asked for last, a person is told whether it waits for them."""
+"""So many programs whose review waits for them a person is told of, those asked for last."""
+MOST_LOOKED_AT, AT_ONCE = 500, 50
+"""Of so many programs, those that a review was asked for last, it is looked at, in so many at once."""
 MOST_WORDS = 100
 """So often a person may ask and say something about one content; to withdraw is always possible."""
 
@@ -76,19 +80,29 @@ def list_asked(*, site: str, user: Any) -> list[AskedReview]:
     if user.pk not in reviewers_of(site, rule):
         return []
     asked = ReviewEntry.objects.filter(program__site__slug=site, kind=ReviewEntry.Kind.ASKED)
-    newest = asked.values("program_id").annotate(newest=Max("pk")).order_by("-newest")[:MOST_SHOWN]
-    rows = ReviewEntry.objects.filter(pk__in=[row["newest"] for row in newest]).select_related("program")
-    lines = ((row, _Line(row.program_id, site, rule, row.number)) for row in rows.order_by("-pk"))
-    return [_asked(row, line) for row, line in lines if _waits_for(row, line, user)]
+    newest = asked.values("program_id").annotate(newest=Max("pk")).order_by("-newest")[:MOST_LOOKED_AT]
+    waiting = _waiting(site, rule, user, [row["newest"] for row in newest])
+    return [_asked(row, line) for row, line in islice(waiting, MOST_SHOWN)]
 
 
-def _waits_for(row: ReviewEntry, line: _Line, user: Any) -> bool:
-    rule = line.rule
-    standing = read_standing(site=line.site, program_id=row.program_id, digest=row.digest, rule=rule)
-    enough = len(standing.approved) >= max(1, rule.approvals)
-    if enough or standing.objecting or any(word.person == user.pk for word in standing.approved):
-        return False
-    return not line.why_not(user)
+def _waiting(site: str, rule: Rule, user: Any, newest: list[int]) -> Iterator[tuple[ReviewEntry, _Line]]:
+    """Go through what of these waits for a person, the newest first, and read no more of it than is taken."""
+    pinned = Version.objects.filter(program_id=OuterRef("program_id"), number=OuterRef("number"))
+    for start in range(0, len(newest), AT_ONCE):
+        rows = ReviewEntry.objects.filter(pk__in=newest[start : start + AT_ONCE]).select_related("program")
+        asked = list(rows.annotate(pinned_by=Subquery(pinned.values("author")[:1])).order_by("-pk"))
+        standings = read_standings(site=site, digests={row.program_id: row.digest for row in asked}, rule=rule)
+        for row in asked:
+            line = _Line(row.program_id, site, rule, row.number)
+            is_open = row.pinned_by != user.pk and _is_open(standings[row.program_id], user)
+            if is_open and user.pk not in line.makers():
+                yield row, line
+
+
+def _is_open(standing: Standing, user: Any) -> bool:
+    """Tell whether a content is still to be reviewed by somebody who may: also where the site demands nothing."""
+    enough = len(standing.approved) >= max(1, standing.needed)
+    return not (enough or standing.objecting or any(word.person == user.pk for word in standing.approved))
 
 
 def _asked(row: ReviewEntry, line: _Line) -> AskedReview:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from uuid import UUID
@@ -49,6 +49,17 @@ def read_standing(*, site: str, program_id: UUID | str, digest: str, rule: Rule)
     """Return how this content of a program stands under a rule, as the members of the site are now."""
     rows = list(ReviewEntry.objects.filter(program_id=program_id, digest=digest).order_by("pk"))
     return _stand(rows, reviewers_of(site, rule), rule)
+
+
+def read_standings(*, site: str, digests: Mapping[UUID, str], rule: Rule) -> dict[UUID, Standing]:
+    """Return how a content of each of these programs stands, as `read_standing` does, in as many statements."""
+    by_program: dict[UUID, list[ReviewEntry]] = {program: [] for program in digests}
+    said = ReviewEntry.objects.filter(program_id__in=list(digests), digest__in=set(digests.values()))
+    for row in said.order_by("pk"):
+        if row.digest == digests[row.program_id]:
+            by_program[row.program_id].append(row)
+    reviewers = reviewers_of(site, rule)
+    return {program: _stand(rows, reviewers, rule) for program, rows in by_program.items()}
 
 
 def reviewers_of(site: str, rule: Rule) -> frozenset[int]:

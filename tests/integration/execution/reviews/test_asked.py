@@ -6,9 +6,10 @@ from typing import Any
 
 import pytest
 
+from editor.models import Program, ReviewEntry, Version
 from tests.integration.execution.reviews.conftest import Team
 from tests.kit.programs import SITE
-from tests.kit.sign_in import signed_in
+from tests.kit.sign_in import find_person, signed_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -81,3 +82,44 @@ def test_where_nothing_is_demanded_one_approval_is_what_it_waits_for(team: Team)
     assert len(waiting("bob")) == 1
     team.say("bob", "approved")
     assert waiting("root") == []
+
+
+def copies(team: Team, count: int, said: str = "") -> list[str]:
+    """Make as many programs that Ann has asked to review, of which Bob has said this; return them, newest first."""
+    version = team.pin("ann")
+    digest = Version.objects.get(program_id=team.program, number=version).digest
+    first = Program.objects.get(id=team.program)
+    programs = Program.objects.bulk_create(
+        Program(site=first.site, name=f"Copy {n} {said}", edited_at=first.edited_at) for n in range(count)
+    )
+    ann, bob = find_person("ann"), find_person("bob")
+    Version.objects.bulk_create(
+        Version(program=each, number=1, digest=digest, author=ann, content=b"") for each in programs
+    )
+    for each in programs:
+        for kind, person in [("asked", ann), *([(said, bob)] if said else [])]:
+            ReviewEntry.objects.create(
+                program=each, number=1, digest=digest, kind=kind, person=person, name=person.display_name
+            )
+    return [str(each.id) for each in programs][::-1]
+
+
+def test_what_waits_longest_is_shown_behind_however_many_that_wait_no_more(team: Team) -> None:
+    team.demand(1)
+    ask(team)
+    copies(team, 30, "approved")
+    copies(team, 30, "changes")
+    assert [each["program"] for each in waiting("root")] == [str(team.program)]
+    newest = copies(team, 25)
+    assert [each["program"] for each in waiting("root")] == newest[:20]
+    assert waiting("ann") == []
+
+
+def test_who_has_asked_for_many_reviews_is_told_in_few_statements_that_none_waits_for_them(
+    team: Team, django_assert_max_num_queries: Any
+) -> None:
+    team.demand(1)
+    copies(team, 100)
+    copies(team, 100, "approved")
+    with django_assert_max_num_queries(40):
+        assert waiting("ann") == []
