@@ -10,25 +10,38 @@ from django.http import HttpRequest, HttpResponse
 from ninja import Query, Router
 
 from editor.services import NoSuchProgram
-from execution.errors import NotFound
+from execution.errors import ExecutionError, NotFound
 from execution.runs import history
 from execution.runs.programs import site_of_program
 from execution.runs.runs import NO_SUCH_RUN, site_of_run
 from execution.runs.shapes import MOST_VERSIONS, EventsAsked, TimelineShape, VersionRunsShape, VersionsAsked
 from execution.shapes import RunEventShape
 from execution.views import event_to_json
-from registry.requests import link_to_next
+from registry import services as registry
+from registry.requests import link_to_next, signed_in
 from registry.services import NotAMember, require
 
 router = Router(tags=["execution"])
+PATIENCE_S = 5.0
+timeline_slots = registry.Slots(in_all=4, of_site=4, of_person=2, most_waiting=4)
+"""Journals that are gone through at once; one of a run that goes on for months has millions of lines."""
 
 
-def _require_run(request: HttpRequest, run: UUID) -> None:
-    """Let members through; to strangers a run does not exist."""
+class TooManyTimelines(ExecutionError):
+    """This process goes through as many journals as it may, in all or for this person."""
+
+    code = "too_many_timelines"
+    status = 429
+
+
+def _require_run(request: HttpRequest, run: UUID) -> str:
+    """Let members through, and return the run's site; to strangers a run does not exist."""
+    site = site_of_run(run_id=run)
     try:
-        require(request.user, site_of_run(run_id=run), "viewer", "read")
+        require(request.user, site, "viewer", "read")
     except NotAMember as error:
         raise NotFound(NO_SUCH_RUN) from error
+    return site
 
 
 @router.get("/runs/{uuid:run}/events", response=list[RunEventShape])
@@ -50,8 +63,11 @@ def list_events(
 @router.get("/runs/{uuid:run}/timeline", response=TimelineShape)
 def show_timeline(request: HttpRequest, run: UUID) -> dict[str, Any]:
     """Return who worked when on which step of a run; where it took too long for that, short bars as one."""
-    _require_run(request, run)
-    found = history.show_timeline(run_id=run)
+    site = _require_run(request, run)
+    refusal = TooManyTimelines("Other runs' timelines are being read, by you or others. Try again in a moment.")
+    claim = registry.Claim(signed_in(request).pk, site)
+    with timeline_slots.held(claim, refusal, patience_s=PATIENCE_S):
+        found = history.show_timeline(run_id=run)
     bars, steps, drives = found.timeline.bars, found.timeline.steps, found.timeline.drives
     shown = {"bars": [asdict(bar) for bar in bars], "steps": steps, "drives": drives}
     return {"seq": found.seq, "simulated": found.simulated, **shown}

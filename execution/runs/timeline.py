@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, field, replace
 from typing import Any, Final, Literal
 
@@ -19,6 +19,8 @@ MOST_BARS = 2000
 """More bars than these nobody can tell from each other on a screen."""
 CELLS = 1000
 """Bars that are joined because they are too many lie within so small a part of the whole time, or twice that, …"""
+KEPT = 4
+"""So many times as many bars are kept while a journal is read, however long it is; then those that are over join."""
 JOIN_S = 3.0
 """Pieces of one way follow each other closely; a pause shorter than this does not part a bar."""
 FAILED: Final = frozenset({"FAILED", "REJECTED"})
@@ -73,10 +75,13 @@ def read_timeline(lines: Iterable[TimelineLine], robots: Mapping[str, str], most
     `robots` names the robot of each step that a robot carries out.
     """
     reader = _Reader(robots)
-    last_s = 0.0
+    last_s, too_many = 0.0, KEPT * most
     for line in lines:
         reader.take(line)
         last_s = max(last_s, line.t_s)
+        if len(reader.bars) >= too_many:
+            reader.join(last_s, KEPT // 2 * most)
+            too_many = max(KEPT * most, 2 * len(reader.bars))
     return Timeline(tuple(_fitted(reader.bars, last_s, most)), tuple(reader.steps), reader.drives)
 
 
@@ -105,6 +110,11 @@ class _Reader:
     drives: dict[str, str] = field(default_factory=dict)
     _open: dict[tuple[str, str, Kind], Bar] = field(default_factory=dict)
     _last: dict[str, Bar] = field(default_factory=dict)
+
+    def join(self, last_s: float, most: int) -> None:
+        """Join bars until there are so many, but none of which anything may still be told."""
+        kept = {id(bar) for bar in (*self._open.values(), *self._last.values())}
+        self.bars = _fitted(self.bars, last_s, most, kept)
 
     def take(self, line: TimelineLine) -> None:
         who = line.robot or line.device
@@ -187,25 +197,31 @@ def _goes_on(bar: Bar, step: str, kind: Kind, at_s: float) -> bool:
     return is_same and bar.ended_s is not None and at_s - bar.ended_s < JOIN_S
 
 
-def _fitted(bars: list[Bar], last_s: float, most: int) -> list[Bar]:
-    """Return bars of which too many are joined where they lie closest, until they fit or each device has one or two."""
+def _fitted(bars: list[Bar], last_s: float, most: int, kept: Set[int] = frozenset()) -> list[Bar]:
+    """Return bars of which too many are joined where they lie closest, until they fit or each device has one or two.
+
+    Those whose identities are `kept` stay the same objects.
+    """
     whole_s = last_s or 1.0
     cell_s = whole_s / CELLS
     while len(bars) > most and cell_s <= 2 * whole_s:
-        bars = _joined(bars, cell_s)
+        bars = _joined(bars, cell_s, kept)
         cell_s *= 2
     return bars
 
 
-def _joined(bars: Iterable[Bar], cell_s: float) -> list[Bar]:
+def _joined(bars: Iterable[Bar], cell_s: float, kept: Set[int]) -> list[Bar]:
     """Return the bars with those as one that are over, of one device and kind, and lie together within `cell_s`."""
     found: list[Bar] = []
     last: dict[tuple[str, Kind], int] = {}
     for bar in bars:
         key = (bar.device, bar.kind)
-        place = last.get(key)
+        place = None if id(bar) in kept else last.get(key)
         joined = None if place is None else _as_one(found[place], bar, cell_s)
-        if place is None or joined is None:
+        if id(bar) in kept:
+            last.pop(key, None)
+            found.append(bar)
+        elif place is None or joined is None:
             last[key] = len(found)
             found.append(bar)
         else:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import random
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
@@ -91,6 +93,27 @@ def test_there_are_never_too_many_bars_also_where_a_clock_was_put_back(end_s: fl
     assert len(read_timeline(at_once, {}, most=4).bars) <= 4
     begun = [TimelineLine(0, "command", "command", f"s{number}", "oven", "") for number in range(9)]
     assert len(read_timeline(begun, {}, most=4).bars) == 9, "what goes on is joined with nothing"
+
+
+def test_however_long_a_journal_is_not_more_bars_are_kept_while_it_is_read_than_four_times_those_that_are_shown() -> (
+    None
+):
+    most, seen, total = 50, 0, 20_000
+
+    def lines() -> Iterator[TimelineLine]:
+        nonlocal seen
+        yield TimelineLine(0, "command", "command", "long", "mixer", "")
+        for number in range(total):
+            if number % 500 == 0:
+                seen = max(seen, sum(isinstance(each, Bar) for each in gc.get_objects()))
+            yield from work(f"d{number % 3}", f"s{number % 7}", number * 2, 1, "FAILED" if number == 777 else "DONE")
+        yield TimelineLine(total * 2, "answer", "answer", "long", "mixer", "", "DONE")
+
+    bars = read_timeline(lines(), {}, most=most).bars
+    assert (len(bars) <= most, sum(bar.count for bar in bars), seen <= 4 * most + 10) == (True, total + 1, True)
+    assert [(bar.started_s, bar.ended_s, bar.count) for bar in bars if bar.device == "mixer"] == [(0, total * 2, 1)]
+    assert [bar.step for bar in bars if bar.failed] == ["s0"]
+    assert all(_is_in_one(line, bars) for line in [*work("d0", "s0", 0, 1), *work("d1", "s0", total * 2 - 2, 1)])
 
 
 def _is_in_one(line: TimelineLine, bars: tuple[Bar, ...]) -> bool:

@@ -10,7 +10,9 @@ from django.test.utils import CaptureQueriesContext
 
 from execution.errors import HistoryUnreadable, NotFound
 from execution.models import Archive, Run, RunEvent
+from execution.runs import routes
 from execution.runs.history import list_newest_events, show_timeline
+from registry import services as registry
 from tests.integration.execution.retention.histories import NOW, archive, make_run
 from tests.kit.sign_in import signed_in
 
@@ -118,3 +120,22 @@ def test_what_does_not_fit_is_refused_by_name(query: str) -> None:
     answer = get(f"{run.pk}/events?{query}")
     assert answer.status_code == 422
     assert [field["field"].split(".")[-1] for field in answer.json()["fields"]] == [query.split("=")[0]]
+
+
+def test_so_many_timelines_are_read_at_once_and_who_wants_one_more_is_told_to_wait(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    run, client = make_run(1, 1, events=0, document=DOCUMENT), signed_in("viewer")
+    monkeypatch.setattr(routes, "PATIENCE_S", 0.01)
+    others = [registry.Claim(-person) for person in (1, 2, 3)]
+    assert all(routes.timeline_slots.take(other) for other in others)
+    assert client.get(f"/api/runs/{run.pk}/timeline").status_code == 200
+    others.append(registry.Claim(-4))
+    assert routes.timeline_slots.take(others[-1])
+    try:
+        answer = client.get(f"/api/runs/{run.pk}/timeline")
+        assert (answer.status_code, answer.json()["code"]) == (429, "too_many_timelines")
+    finally:
+        for other in others:
+            routes.timeline_slots.give_back(other)
+    assert client.get(f"/api/runs/{run.pk}/timeline").status_code == 200
