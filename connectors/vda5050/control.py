@@ -98,7 +98,7 @@ class VehicleControl:
         pose = self.vehicle.frame.to_site(self.located.pose) if self.located else None
         head = self._tasks.head
         command = head.command if head else ""
-        is_free = head is None and not (self.state and works_for_others(self.state))
+        is_free = head is None and self._cancel is None and not (self.state and works_for_others(self.state))
         return DeviceState(boot, seq, is_free, pose, command, read_properties(self.state, self.vehicle.sheet))
 
     def settle(self, now_s: float) -> None:
@@ -208,7 +208,9 @@ class VehicleControl:
         order = self._order
         if order is None:
             return
-        if not order.is_taken and state.order == order.id and state.update >= order.update:
+        if state.order == order.id and order.has_given_up(state.update):
+            self._call_back(order)
+        elif not order.is_taken and state.order == order.id and state.update >= order.update:
             self._order, self._tries = order.with_taken(), 0
             for task in self._tasks.handed_over:
                 if self._tasks.find(task.command) is None:
@@ -246,6 +248,21 @@ class VehicleControl:
         if refused:
             self._tasks.drop_drives()
         self._order, self._tries = (order.without_newest() if order.taken_end else None), 0
+
+    def _call_back(self, order: Order) -> None:
+        """Have an order cancelled of which the vehicle has taken what was given up; what is wanted is ordered anew.
+
+        A newer update goes on from where the vehicle is not heading, and is taken back.
+        """
+        self._cancel = self._cancel or Cancellation(self._new_id())
+        if order.is_taken:
+            return
+        self._order, self._tries = order.without_newest(), 0
+        for task in [t for t in self._tasks.handed_over if t.last > self._order.end_sequence]:
+            if self._is_cancelled(task):
+                self._tasks.end(task, "CANCELED", f"{task.method} was cancelled.")
+            else:
+                task.last = -1
 
     def _end_handed_over(self, why: str) -> None:
         for task in self._tasks.handed_over:

@@ -28,7 +28,7 @@ class Order:
     """An order that a vehicle was given: its newest message, and what of it the vehicle has said to have taken.
 
     `end` is the last node of the base. `taken` is the newest update that the vehicle has taken, -1 for none, and
-    `taken_end` the end that it has since then.
+    `taken_end` the end that it has since then. `given_up` is the oldest update that was taken back since, -1 for none.
     """
 
     id: str
@@ -39,6 +39,7 @@ class Order:
     end: Body
     taken: int = -1
     taken_end: Body | None = None
+    given_up: int = -1
 
     @property
     def is_taken(self) -> bool:
@@ -63,12 +64,17 @@ class Order:
 
     def with_taken(self) -> Order:
         """Return the order as it is when the vehicle has taken the newest update."""
-        return replace(self, taken=self.update, taken_end=self.end)
+        return replace(self, taken=self.update, taken_end=self.end, given_up=-1)
 
     def without_newest(self) -> Order:
-        """Return the order as it is when the vehicle has refused the newest update; the number is not used again."""
+        """Return the order as it is when the newest update was refused or given up; the number is not used again."""
         assert self.taken_end is not None
-        return replace(self, taken=self.update, end=self.taken_end)
+        given_up = self.update if self.given_up < 0 else self.given_up
+        return replace(self, taken=self.update, end=self.taken_end, given_up=given_up)
+
+    def has_given_up(self, update: int) -> bool:
+        """Tell whether an update was given up; one that was held up on its way may be taken all the same."""
+        return 0 <= self.given_up <= update and (self.is_taken or update < self.update)
 
 
 def begin_drive(order_id: str, map_id: str, here: Point, way: Sequence[Waypoint], ahead: Sequence[Point]) -> Order:

@@ -167,6 +167,83 @@ def test_an_order_that_was_cancelled_before_it_was_taken_is_not_sent_again_by_a_
     assert kinds(bench) == ["cancelOrder"], "it was on its way, and is nobody's now"
 
 
+def given_up() -> Bench:
+    """Return a vehicle that drives `a`, and that four messages about the piece `b` have not reached."""
+    bench = driving()
+    bench.tell("move", "b", path=[[2, 1]], **{"from": [2, 0]})
+    for _ in range(4):
+        bench.wait(3.1)
+    assert bench.said() == ["b REJECTED The vehicle did not take the order."]
+    bench.sent()
+    return bench
+
+
+LATE = {"orderId": ORDER, "orderUpdateId": 1, "driving": True}
+
+
+def test_an_update_that_is_taken_after_it_was_given_up_is_cancelled_and_what_is_wanted_ordered_anew() -> None:
+    bench = given_up()
+    bench.hear(lastNodeSequenceId=2, **LATE, **ahead(3, 4, 5, 6))
+    (cancel,) = bench.sent()
+    assert (cancel["actionType"], bench.said()) == ("cancelOrder", [])
+    finished = [{"actionId": cancel["actionId"], "actionStatus": "FINISHED"}]
+    bench.hear(lastNodeSequenceId=2, actionStates=finished, **LATE)
+    (order,) = bench.sent()
+    assert [n["nodePosition"]["x"] for n in order["nodes"]] == [0.0, 2]
+    bench.hear(orderId=order["orderId"], lastNodeSequenceId=2)
+    assert bench.said() == ["a DONE"]
+
+
+def test_a_vehicle_that_drives_what_was_given_up_is_busy_until_it_stands() -> None:
+    bench = given_up()
+    bench.hear(lastNodeSequenceId=4, **LATE, **ahead(5, 6))
+    assert (bench.said(), kinds(bench)) == (["a DONE"], ["cancelOrder"])
+    assert not bench.control.look(1, 1).done
+    bench.hear(lastNodeSequenceId=4, **LATE)
+    assert bench.control.look(1, 1).done
+
+
+def test_what_was_given_up_is_noticed_after_a_new_start_and_behind_a_second_one() -> None:
+    bench = given_up()
+    bench.tell("move", "c", path=[[2, -1]], **{"from": [2, 0]})
+    for _ in range(4):
+        bench.wait(3.1)
+    start_anew(bench)
+    bench.hear(lastNodeSequenceId=2, **LATE, **ahead(3, 4, 5, 6))
+    assert kinds(bench) == ["cancelOrder"]
+
+
+def test_a_newer_piece_is_not_taken_for_the_one_that_was_given_up() -> None:
+    bench = given_up()
+    bench.tell("move", "c", path=[[2, -1]], **{"from": [2, 0]})
+    bench.sent()
+    bench.hear(lastNodeSequenceId=6, **LATE, agvPosition={"x": 2, "y": 1, "theta": 0, "mapId": "hall"})
+    assert bench.said() == ["a DONE", "c REJECTED The way begins 1.0 m from where Acme 1 will be."]
+    assert kinds(bench) == []
+
+
+def test_a_newer_piece_is_ordered_anew_where_the_one_given_up_is_taken_in_its_stead() -> None:
+    bench = given_up()
+    bench.tell("move", "c", path=[[2, -1]], **{"from": [2, 0]})
+    bench.sent()
+    bench.hear(lastNodeSequenceId=2, **LATE, **ahead(3, 4, 5, 6))
+    assert (bench.said(), kinds(bench)) == ([], ["cancelOrder"])
+    bench.hear(lastNodeSequenceId=2, **LATE)
+    (order,) = bench.sent()
+    assert [(n["nodePosition"]["x"], n["nodePosition"]["y"]) for n in order["nodes"]] == [(0.0, 0.0), (2, 0), (2, -1)]
+    bench.hear(orderId=order["orderId"], lastNodeSequenceId=2, **ahead(3, 4))
+    assert bench.said() == ["c ACCEPTED", "a DONE", "c RUNNING"]
+
+
+def test_a_newer_piece_that_is_cancelled_ends_with_the_one_that_was_given_up() -> None:
+    bench = given_up()
+    bench.tell("move", "c", path=[[2, -1]], **{"from": [2, 0]})
+    bench.tell("cancel", "x", command="c")
+    bench.hear(lastNodeSequenceId=2, **LATE, **ahead(3, 4, 5, 6))
+    bench.hear(lastNodeSequenceId=2, **LATE)
+    assert bench.said() == ["c CANCELED move was cancelled.", "x DONE"]
+
+
 def test_what_a_vehicle_does_not_tell_is_left_out_and_what_stops_it_is_said() -> None:
     bench = Bench()
     bench.hear(batteryState=None, safetyState={"eStop": "MANUAL", "fieldViolation": True}, errors=[error("slip")])
