@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
-from vipo_device.protocol.messages import BadMessage, parse_json
+from vipo_device.protocol.messages import MAX_DEPTH, BadMessage, parse_plain_json
+from vipo_device.protocol.texts import cleaned_json
 
 MAX_BYTES = 256 * 1024
 MAX_ITEMS = 1000
@@ -101,8 +102,11 @@ class Fields:
 
 
 def read_fields(payload: bytes, topic: str) -> Fields:
-    """Read a message of a vehicle; `topic` is the name it is refused under. Raises BadMessage."""
-    body = parse_json(payload, max_bytes=MAX_BYTES)
+    """Read a message of a vehicle; `topic` is the name it is refused under. Raises BadMessage.
+
+    Texts are cleaned, not refused: one code of a load with a separator of GS1 would take the whole state along.
+    """
+    body = cleaned_json(parse_plain_json(payload, max_bytes=MAX_BYTES, max_depth=MAX_DEPTH))
     if not isinstance(body, dict):
         raise BadMessage(f"{topic} must be a JSON object.")
     return Fields(body, topic)

@@ -72,6 +72,15 @@ def test_a_refusal_says_where(changes: dict[str, Any], why: str) -> None:
     assert caught.value.detail == why
 
 
+def test_what_no_text_may_hold_is_left_out_and_the_rest_of_the_state_is_read() -> None:
+    told = {"errorType": "scan", "errorLevel": "WARNING", "errorDescription": "no\x07 code"}
+    said = payload(
+        STATE, loads=[{"loadType": "01\x1d10"}], errors=[told], information=[{"infoType": "\0"}], **{"a\x01": 1}
+    )
+    read = read_state(said, NAME)
+    assert (read.loads, [e.sentence for e in read.errors]) == (("0110",), ["scan: no code"])
+
+
 def test_a_message_that_was_overtaken_is_stale_and_a_new_start_is_not() -> None:
     at, later = datetime(2026, 1, 1, tzinfo=UTC), datetime(2026, 1, 2, tzinfo=UTC)
     newest = Header(7, at, "2.0.0")
