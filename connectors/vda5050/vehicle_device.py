@@ -84,7 +84,7 @@ class VehicleDevice:
             case "state":
                 state = read_state(payload, self.name)
                 if self._is_news("state", state.header):
-                    self._state = state
+                    self._state, self._version = state, state.header.version
                     self._connection_state.hear_state(now_s)
                     self._locate(state.located)
             case "visualization":

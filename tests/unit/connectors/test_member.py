@@ -143,6 +143,15 @@ def test_a_vehicle_whose_connection_is_forgotten_is_asked_who_it_is(member: Vehi
     assert member.control.online
 
 
+def test_a_vehicle_that_is_known_by_its_state_alone_is_spoken_to_in_the_version_of_that(
+    member: VehicleDevice, asked: list[Any]
+) -> None:
+    for number in (1, 2):
+        say(member, "state", 100.0 + number, **{**STATE, "headerId": number, "version": "2.1.0"})
+    member.tick(104.0)
+    assert [(body["version"], "instantActions" in body) for _, body in asked] == [("2.1.0", False)]
+
+
 def test_no_two_messages_that_go_out_together_have_the_same_number(member: VehicleDevice, asked: list[Any]) -> None:
     come(member, 100.0)
     assert member.control is not None
