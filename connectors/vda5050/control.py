@@ -33,6 +33,7 @@ from vipo_device.protocol.messages import CONTROLS, AckMessage, DeviceCommand
 PATIENCE_S = 3.0
 TRIES = 4
 NOT_TAKEN = "The vehicle did not take the order."
+NOT_THERE = "The vehicle no longer has the action; it was started anew, or its order was ended."
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +63,7 @@ class VehicleControl:
         self._tries = 0
         self._errors_before: frozenset[VehicleError] = frozenset()
         self._cancelled_s: float | None = None
+        self._missed: tuple[VehicleState, float] | None = None
 
     def hear_state(self, state: VehicleState, now_s: float) -> None:
         """Take in a state of the vehicle."""
@@ -108,7 +110,7 @@ class VehicleControl:
             return
         self._follow_order(state, now_s)
         self._give_up_on_fatal(state)
-        self._finish(state)
+        self._finish(state, now_s)
         self._follow_cancel(state, now_s)
         self._steer_pause(state, now_s)
         self._hand_over(state, now_s)
@@ -279,12 +281,13 @@ class VehicleControl:
         if self._order is not None:
             self._cancel = self._cancel or Cancellation(self._new_id())
 
-    def _finish(self, state: VehicleState) -> None:
+    def _finish(self, state: VehicleState, now_s: float) -> None:
         order = self._order
         if order is None or order.taken < 0 or state.order != order.id:
             return
         if order.kind == "act":
             self._finish_actions(state)
+            self._give_up_on_missed(state, now_s)
             return
         for task in self._tasks.handed_over:
             if state.last_sequence < task.last or any(s.sequence <= task.last for s in state.ahead):
@@ -303,6 +306,17 @@ class VehicleControl:
                 self._tasks.end(task, "FAILED", state.reason(failed.id) or failed.result or f"{task.method} failed.")
                 if not all(a and a.status in ENDED for a in states):
                     self._cancel = self._cancel or Cancellation(self._new_id())
+
+    def _give_up_on_missed(self, state: VehicleState, now_s: float) -> None:
+        """End what the vehicle says nothing of any more; the first states after it took the order may be early."""
+        head = self._tasks.head
+        if head is None or not head.actions or state.ahead or any(state.action(a) for a in head.actions):
+            self._missed = None
+        elif self._missed is None:
+            self._missed = (state, now_s)
+        elif self._missed[0] is not state and now_s - self._missed[1] > PATIENCE_S and not self._is_cancelled(head):
+            self._missed = None
+            self._tasks.end(head, "FAILED", NOT_THERE)
 
     def _follow_cancel(self, state: VehicleState, now_s: float) -> None:
         """Have the order cancelled: ours when it is wanted, and one of ours that nobody knows of any more."""

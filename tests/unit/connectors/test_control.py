@@ -164,6 +164,26 @@ def test_an_order_that_somebody_else_ended_has_failed() -> None:
     assert bench.said() == ["a FAILED The vehicle ended its order before the end of the way."]
 
 
+def test_an_action_that_the_vehicle_no_longer_has_has_failed() -> None:
+    bench = Bench()
+    bench.tell("pick", "p", object="EPAL")
+    bench.tell("move", "b", path=[[1, 0]])
+    (order,) = bench.sent()
+    running = [{"actionId": order["nodes"][0]["actions"][0]["actionId"], "actionStatus": "RUNNING"}]
+    bench.hear(orderId=ORDER)
+    bench.wait(3.1)
+    assert bench.said() == ["b ACCEPTED", "p ACCEPTED", "p RUNNING"], "one state may be early"
+    bench.hear(orderId=ORDER, actionStates=running)
+    bench.hear(orderId=ORDER)
+    bench.wait(3.1)
+    assert bench.said() == []
+    bench.hear(orderId=ORDER)
+    assert bench.said() == [
+        "p FAILED The vehicle no longer has the action; it was started anew, or its order was ended."
+    ]
+    assert [n["sequenceId"] for n in bench.sent()[0]["nodes"]] == [0, 2], "the next command is its turn"
+
+
 def test_to_cancel_a_later_piece_sends_the_vehicle_on_to_the_end_of_those_before() -> None:
     bench = driving()
     bench.tell("move", "b", path=[[3, 0]])
