@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from typing import Any, cast
-from urllib.parse import urlsplit
+from urllib.parse import SplitResult, urljoin, urlsplit
 
 from vipo_device.descriptions.forms import CONTEXT, NAMESPACES, TD_CONTEXT, TD_CONTEXTS, refuse
 from vipo_device.descriptions.json_fields import Fields, read_pose, read_size
+from vipo_device.protocol.arguments import is_number
 from vipo_device.protocol.description import Description, DeviceKind, MethodSpec, ParameterSpec, PropertySpec, ValueType
 from vipo_device.protocol.messages import down_topic, up_topic
 
@@ -31,6 +32,7 @@ _TD_TYPES: Mapping[ValueType, str] = {
     "location": "array",
 }
 _TYPES: Mapping[str, ValueType] = {"number": "number", "integer": "number", "string": "text", "boolean": "boolean"}
+_TD_TYPES_OF: Mapping[type, str] = {str: "string", bool: "boolean", int: "number", float: "number"}
 COMMAND = "vipo:Command"
 
 
@@ -60,7 +62,7 @@ def describe_thing(body: Mapping[str, Any]) -> Description:
         properties=tuple(
             PropertySpec(**_value(name, item), title=item.text("title")) for name, item in fields.named("properties")
         ),
-        methods=tuple(_method(device_id, name, item) for name, item in fields.named("actions")),
+        methods=tuple(_method(device_id, name, item, fields.text("base")) for name, item in fields.named("actions")),
     )
 
 
@@ -137,46 +139,74 @@ def _kind(fields: Fields) -> DeviceKind:
 
 
 def _value(name: str, item: Fields) -> dict[str, Any]:
+    kind, minimum, maximum = _type(item), item.number("minimum"), item.number("maximum")
+    allowed, options = _allowed(item), tuple[str, ...]()
+    if kind == "number" and allowed and all(map(is_number, allowed)):
+        # Choices are texts here; what is left of numbers are their limits.
+        minimum = max([float(min(allowed)), *([] if minimum is None else [minimum])])
+        maximum = min([float(max(allowed)), *([] if maximum is None else [maximum])])
+    elif kind != "boolean":
+        options = Fields({"enum": allowed}, item.path, item.places).words("enum")
     return {
         "name": name,
-        "type": _type(item),
+        "type": kind,
         "unit": item.text("unit").removeprefix(TERMS["unit"]).removeprefix("unit:"),
-        "minimum": item.number("minimum"),
-        "maximum": item.number("maximum"),
-        "options": item.words("enum"),
+        "minimum": minimum,
+        "maximum": maximum,
+        "options": options,
     }
+
+
+def _allowed(item: Fields) -> list[Any]:
+    """Return the values that alone are allowed; none where any is."""
+    if item.has("const"):
+        return [item.body["const"]]
+    return list(item.body["enum"]) if item.has("enum") else []
 
 
 def _type(item: Fields) -> ValueType:
     if item.has("vipo:type"):
         return cast("ValueType", item.text("vipo:type"))
-    said = item.text("type") or ("string" if item.has("enum") else "number")
+    kinds = [_TD_TYPES_OF.get(type(value), "string") for value in _allowed(item)]
+    said = item.text("type") or next(iter(kinds), "number")
     if said not in _TYPES:
         item.refuse("type", "value_type", type=said[:20])
     return _TYPES[said]
 
 
-def _method(device_id: str, name: str, item: Fields) -> MethodSpec:
-    form = _mqtt_form(item)
+def _method(device_id: str, name: str, item: Fields, base: str) -> MethodSpec:
     return MethodSpec(
         name=name,
-        topic=_topic(form) or down_topic(device_id, name) if form else down_topic(device_id, name),
+        topic=_topic(_mqtt_form(item, base), base) or down_topic(device_id, name),
         message_type=item.text("vipo:messageType"),
         title=item.text("title"),
         parameters=tuple(_parameters(item.inside("input"))),
     )
 
 
-def _mqtt_form(item: Fields) -> Fields:
+def _mqtt_form(item: Fields, base: str) -> Fields:
     for form in item.each("forms"):
-        if form.has("mqv:topic") or urlsplit(form.text("href")).scheme in ("", "mqtt", "mqtts"):
+        if form.has("mqv:topic") or _address(form, base).scheme in ("", "mqtt", "mqtts"):
             return form
     return item.refuse("forms", "need_mqtt")
 
 
-def _topic(form: Fields) -> str:
+def _address(form: Fields, base: str) -> SplitResult:
+    """Return where a form leads to, within the base of its Thing; without a base, a topic alone has no scheme."""
+    try:
+        linked, within = urlsplit(form.text("href")), urlsplit(base)
+        if linked.scheme or not within.scheme:
+            return linked
+        # urljoin joins only addresses of schemes that it knows.
+        joined = urlsplit(urljoin(within._replace(scheme="http").geturl(), linked.geturl()))
+        return joined._replace(scheme=within.scheme)
+    except ValueError:
+        return SplitResult("unknown", "", "", "", "")
+
+
+def _topic(form: Fields, base: str) -> str:
     """Return the topic of a form; where it is said twice, both must agree."""
-    named, linked = form.text("mqv:topic"), urlsplit(form.text("href")).path.lstrip("/")
+    named, linked = form.text("mqv:topic"), _address(form, base).path.lstrip("/")
     if named and linked and not linked.endswith(named):
         form.refuse("mqv:topic", "two_topics", named=named[:80], linked=linked[:80])
     return named or linked

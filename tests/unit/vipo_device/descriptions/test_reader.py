@@ -209,6 +209,49 @@ def test_somebody_elses_thing_is_read() -> None:
 
 
 @pytest.mark.parametrize(
+    ("base", "href", "topic"),
+    [
+        ("mqtt://broker/vipo/v1/dev/m1/down/", "dim", "vipo/v1/dev/m1/down/dim"),
+        ("mqtts://broker:8883/vipo/v1/dev/m1/", "down/dim", "vipo/v1/dev/m1/down/dim"),
+        ("mqtt://broker", "vipo/v1/dev/m1/down/dim", "vipo/v1/dev/m1/down/dim"),
+        ("mqtt://broker/else/", "/vipo/v1/dev/m1/down/dim", "vipo/v1/dev/m1/down/dim"),
+        ("mqtt://broker/else/", "mqtts://another/vipo/v1/dev/m1/down/dim", "vipo/v1/dev/m1/down/dim"),
+        ("http://lamp.local/", "mqtt://broker/vipo/v1/dev/m1/down/dim", "vipo/v1/dev/m1/down/dim"),
+    ],
+)
+def test_where_a_form_leads_to_is_told_within_the_base(base: str, href: str, topic: str) -> None:
+    forms = [{"href": "http://lamp.local/dim"}, {"href": href}]
+    found = read(json.dumps({**THING, "base": base, "actions": {"dim": {"forms": forms}}}).encode()).description
+    assert [method.topic for method in found.methods] == [topic]
+
+
+@pytest.mark.parametrize(("base", "href"), [("http://lamp.local/", "actions/dim"), ("", "http://["), ("http://[", "d")])
+def test_a_form_that_leads_elsewhere_is_none_for_mqtt(base: str, href: str) -> None:
+    actions = {"dim": {"forms": [{"href": href}]}}
+    with pytest.raises(BadDescription, match="a form for MQTT"):
+        read(json.dumps({**THING, "base": base, "actions": actions}).encode())
+
+
+@pytest.mark.parametrize(
+    ("schema", "spec"),
+    [
+        ({"type": "integer", "enum": [3, 1, 2]}, PropertySpec("a", "number", minimum=1, maximum=3)),
+        ({"type": "number", "enum": [0, 5], "maximum": 4}, PropertySpec("a", "number", minimum=0, maximum=4)),
+        ({"enum": [0.5, 1]}, PropertySpec("a", "number", minimum=0.5, maximum=1)),
+        ({"enum": ["on", "off"]}, PropertySpec("a", "text", options=("on", "off"))),
+        ({"type": "boolean", "enum": [True]}, PropertySpec("a", "boolean")),
+        ({"const": "on"}, PropertySpec("a", "text", options=("on",))),
+        ({"const": 0}, PropertySpec("a", "number", minimum=0, maximum=0)),
+        ({"const": False}, PropertySpec("a", "boolean")),
+        ({}, PropertySpec("a", "number")),
+    ],
+)
+def test_a_value_of_which_only_a_few_are_allowed_is_read(schema: dict[str, object], spec: PropertySpec) -> None:
+    thing = {**THING, "properties": {"a": {**schema, "forms": [FORM]}}}
+    assert read(json.dumps(thing).encode()).description.properties == (spec,)
+
+
+@pytest.mark.parametrize(
     ("change", "path", "says"),
     [
         ({"security": None}, "/security", "is not valid under any"),
@@ -229,6 +272,7 @@ def test_somebody_elses_thing_is_read() -> None:
             "/properties/a/type",
             "use number, string or boolean",
         ),
+        ({"properties": {"a": {"enum": ["on", 1], "forms": [FORM]}}}, "/properties/a/enum", "a list of texts"),
         ({"vipo:capacity": 1.5}, "/vipo:capacity", "a whole number"),
         (
             {"@context": ["https://www.w3.org/2022/wot/td/v1.1", "https://a.example/c"]},
