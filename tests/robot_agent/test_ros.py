@@ -24,7 +24,7 @@ from tests.kit.mqtt import Ear, ServerSide
 from tests.kit.servers import Mosquitto, answers, free_port, must_be_installed, run_mosquitto, wait_ready
 from tests.kit.waiting import PATIENCE_S, wait_for
 from tests.robot_agent.bridge_stand_in import BridgeStandIn
-from tests.robot_agent.pretend_robot import HEIGHT, WIDTH, map_cells
+from tests.robot_agent.pretend_robot import HEIGHT, SPEED_M_S, WIDTH, map_cells
 from vipo_device.descriptions.reader import read_description
 
 AGENT = ROOT / "firmware" / "robot_agent"
@@ -34,6 +34,7 @@ ACCOUNTS = {
     "server": "secret of the server",
     "tb1": "the word of tb1",
     "tb2": "the word of tb2",
+    "tb3": "the word of tb3",
     "join:hall": "the key for enrolment",
 }
 STOP = "vipo/v1/site/hall/stop"
@@ -283,3 +284,30 @@ def test_nav2_is_told_to_drive_slower_and_move_base_refuses(
     ros2.tell("move", "slow", path=[[1.2, 2.0]], speed=0.2)
     assert ros2.wait_ack("slow")["st"] == "DONE"
     assert bridge.robot.top_m_s == 0.2
+
+
+def test_nav2_that_has_started_anew_is_told_again_to_drive_slower(ros2: ServerSide, bridge: BridgeStandIn) -> None:
+    ros2.tell("move", "there", path=[[1.1, 2.0]], speed=0.2)
+    assert ros2.wait_ack("there")["st"] == "DONE"
+    bridge.robot.limit_m_s, bridge.robot.top_m_s = SPEED_M_S, 0.0
+    ros2.tell("move", "back again", path=[[1.0, 2.0]], speed=0.2)
+    assert ros2.wait_ack("back again")["st"] == "DONE"
+    assert bridge.robot.top_m_s == 0.2
+
+
+def test_an_agent_that_has_started_anew_lifts_the_limit_of_the_one_before(
+    broker: Mosquitto, ear: Ear, tmp_path: Path
+) -> None:
+    bridge = BridgeStandIn(free_port())
+    try:
+        bridge.robot.limit_m_s = 0.2
+        config = write_config(tmp_path, broker, "tb3", ros=2, bridge_port=bridge.port, speed_topic="/speed_limit")
+        environment = {**os.environ, "PYTHONPATH": str(AGENT)}
+        command = [sys.executable, "-m", "vipo_agent", config]
+        with joined(ear, "tb3", command, environment, tmp_path / "agent.log") as server:
+            assert "advertise" in [body["op"] for body in bridge.heard]
+            server.tell("move", "there", path=[[1.1, 2.0]])
+            assert server.wait_ack("there")["st"] == "DONE"
+        assert bridge.robot.limit_m_s == SPEED_M_S
+    finally:
+        bridge.close()

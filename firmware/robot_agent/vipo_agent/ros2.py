@@ -30,7 +30,6 @@ class NavigateToPose(Navigation):
         self._speed = roslibpy.Topic(self._ros, config.speed_topic or "/speed_limit", "nav2_msgs/msg/SpeedLimit")
         self._goal_id: Any = None
         self._number = 0
-        self._limit_m_s: Any = None
         self._agent: Any = None
 
     def start(self, agent: Agent) -> None:
@@ -43,6 +42,9 @@ class NavigateToPose(Navigation):
             where = f"{self._config.bridge_host}:{self._config.bridge_port}"
             raise CannotStart(f"rosbridge does not answer at {where}; is rosbridge_server running?") from None
         self._ros.on("close", self._lost)
+        if self.limits_speed:
+            # Whoever listens needs a moment to find a new topic, and would miss what is said at once.
+            self._speed.advertise()
         hear = {
             (self._config.pose_topic, "geometry_msgs/msg/PoseWithCovarianceStamped"): self._hear_pose,
             (self._config.battery_topic, "sensor_msgs/msg/BatteryState"): self._hear_battery,
@@ -80,9 +82,9 @@ class NavigateToPose(Navigation):
         self._ros.close()
 
     def _limit_speed(self, goal: Go) -> None:
-        if not self.limits_speed or goal.speed_m_s == self._limit_m_s:
+        """Tell Nav2 how fast to drive, with each goal: one that started anew knows nothing of what it was told."""
+        if not self.limits_speed:
             return
-        self._limit_m_s = goal.speed_m_s
         limit = {"percentage": False, "speed_limit": goal.speed_m_s} if goal.speed_m_s else FULL_SPEED
         self._speed.publish(roslibpy.Message(limit))
 
