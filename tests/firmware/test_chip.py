@@ -233,3 +233,51 @@ def test_a_board_whose_heap_stays_too_full_to_connect_starts_again(micropython: 
             assert chip.process.wait(LIMIT_S) == 7
             assert chip.record[-1][1] == "reset"
             assert "|Fault" in chip.console
+
+
+def test_a_board_whose_heap_is_too_full_to_end_a_command_starts_again_and_answers_for_it(
+    micropython: str, tmp_path: Path
+) -> None:
+    (tmp_path / "full.py").write_text(
+        "import vipo.duties as duties, vipo.chip as chip\n"
+        "make_answer = duties.make_answer\n"
+        "def full(command, status, *more):\n"
+        "    if status == 'DONE':\n        raise MemoryError\n"
+        "    return make_answer(command, status, *more)\n"
+        "duties.make_answer, chip.SHOWN_S = full, 0\nchip.run()\n"
+    )
+    with running_bus("mosquitto", tmp_path) as bus, listening(bus) as ear:
+        flash(tmp_path, configuration(bus, tmp_path, pins=PINS))
+        with running_chip(micropython, tmp_path, {}, main=tmp_path / "full.py") as chip:
+            mixer = Running(ear, bus, chip.process, tmp_path / "console")
+            told = mixer.state(lambda _state: True)["boot"]
+            mixer.tell("mixPaint", "c1", time=1)
+            assert chip.process.wait(LIMIT_S) == 7
+            assert (chip.record[-1][1], "|Fault" in chip.console) == ("reset", True)
+        with running_chip(micropython, tmp_path, {}) as chip:
+            mixer = Running(ear, bus, chip.process, tmp_path / "console")
+            assert mixer.state(lambda state: state["boot"] > told)["done"]
+            mixer.tell("mixPaint", "c1", time=1)
+            mixer.answer("c1", "DONE")
+            assert mixer.answers("c1") == ["ACCEPTED", "RUNNING", "DONE"], "it is not done twice"
+
+
+def test_a_board_whose_heap_is_too_full_to_accept_a_command_ends_it_all_the_same(
+    micropython: str, tmp_path: Path
+) -> None:
+    (tmp_path / "full.py").write_text(
+        "import vipo.duties as duties, vipo.chip as chip\n"
+        "make_answer = duties.make_answer\n"
+        "def full(command, status, *more):\n"
+        "    if status == 'ACCEPTED':\n        raise MemoryError\n"
+        "    return make_answer(command, status, *more)\n"
+        "duties.make_answer = full\nchip.run()\n"
+    )
+    with running_bus("mosquitto", tmp_path) as bus, listening(bus) as ear:
+        flash(tmp_path, configuration(bus, tmp_path, pins=PINS))
+        with running_chip(micropython, tmp_path, {}, main=tmp_path / "full.py") as chip:
+            mixer = Running(ear, bus, chip.process, tmp_path / "console")
+            mixer.state(lambda _state: True)
+            mixer.tell("mixPaint", "c1", time=1)
+            mixer.answer("c1", "DONE")
+            assert mixer.state(lambda state: state["done"] and state["seq"] > 2)["cmd"] == ""

@@ -45,6 +45,9 @@ class Device:
                 for task in tasks:
                     if task.done():
                         await task  # raises what ended it
+                work = self.duties.running
+                if work and work.done():
+                    await work  # so does this: only a restart answers for a command that was left in its middle
                 if self.feed:
                     self.feed()
                 if self.duties.work is None:

@@ -13,19 +13,22 @@ CONTROLS = ("pause", "resume", "cancel")
 
 
 class Duties:
-    """The commands of one machine; `say(answer)` sends an answer, `changed()` tells a new state."""
+    """The commands of one machine; `say(answer)` sends an answer, `changed()` tells a new state.
+
+    `running` is the task that carries a command out. It is None again when that has come to its end; one that is done
+    and still stands there was ended by a fault.
+    """
 
     def __init__(self, driver, panel, speed, output, entrance, ledger):
         self.driver, self.panel, self.speed = driver, panel, speed
         self.entrance, self._ledger = entrance, ledger
         self.say = self.changed = None
-        self.work = None
+        self.work = self.running = None
         self.connected = True
         self._stops = {}
         self._fence = 0
         self._output = output or (lambda on: None)
         self._answers = Answers(ledger.answers)
-        self._running = None
 
     @property
     def stopped(self):
@@ -122,9 +125,11 @@ class Duties:
         except OSError as error:
             self._answer(command, "REJECTED", "it could not be kept over a power cut: %s" % error)
             return
-        self.work = Work(command, self.speed, lambda: self.stopped, self._switch)
+        work = Work(command, self.speed, lambda: self.stopped, self._switch)
+        # A full heap may end this at any line; there is no work without its task.
+        self.running = asyncio.create_task(self._carry_out(command, method, values))
+        self.work = work
         self._answer(command, "ACCEPTED")
-        self._running = asyncio.create_task(self._carry_out(command, method, values))
 
     def _switch(self, on):
         self._output(on)
@@ -152,6 +157,7 @@ class Duties:
         self.shine(failed=status == "FAILED")
         self.changed()
         self._answer(command, status, why, result)
+        self.running = None
 
     def _steer(self, command, method, target):
         work = self.work
