@@ -21,6 +21,7 @@ from vipo_device.protocol.description import (
     ValueType,
 )
 from vipo_device.protocol.messages import down_topic
+from vipo_device.protocol.units import device_unit
 
 MOST_ITEMS = 256
 _LISTS = frozenset({"vipo:location", "vipo:size", "vipo:parameters", "vipo:options"})
@@ -196,7 +197,7 @@ def _value_fields(value: _Thing) -> dict[str, Any]:
     return {
         "name": value.text("td:name"),
         "type": cast("ValueType", value.text("vipo:type") or "number"),
-        "unit": value.text("qudt:hasUnit").removeprefix(NAMESPACES["unit"]),
+        "unit": device_unit(value.text("qudt:hasUnit").removeprefix(NAMESPACES["unit"])),
         "minimum": value.limit("schema:minValue"),
         "maximum": value.limit("schema:maxValue"),
         "options": tuple(_text_of(item, "vipo:options") for item in value.items("vipo:options")),

@@ -41,6 +41,8 @@ NAMESPACES: Mapping[str, str] = {
     "schema": "https://schema.org/",
     "dct": "http://purl.org/dc/terms/",
 }
+SCHEMA_OVER_HTTP = "http://schema.org/"
+"""How schema.org's own context, and much that is published, write the same terms."""
 CONTEXT = "urn:vipo:context"
 DESCRIPTION = "The description"
 MOST_TOLD = 5

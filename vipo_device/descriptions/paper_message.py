@@ -21,6 +21,7 @@ from vipo_device.protocol.description import (
 )
 from vipo_device.protocol.faults import Fault, note
 from vipo_device.protocol.messages import down_topic
+from vipo_device.protocol.units import device_unit
 
 SIZES_M: Mapping[str, float] = {"small": 0.5, "medium": 1.0, "large": 2.0}
 """The paper calls sizes by name; a word stands for a cube of that many metres."""
@@ -121,7 +122,7 @@ def _value(item: Fields) -> dict[str, Any]:
     return {
         "name": item.text("name"),
         "type": item.text("type") or _type_of(item.body.get("value")),
-        "unit": item.text("unit"),
+        "unit": device_unit(item.text("unit")),
         "minimum": item.number("minimum"),
         "maximum": item.number("maximum"),
         "options": item.words("options"),

@@ -12,7 +12,14 @@ from typing import Any
 
 from pyoxigraph import BlankNode, Literal, NamedNode, QuadParser, RdfFormat, parse
 
-from vipo_device.descriptions.forms import BadDescription, check_turtle, pin_contexts, refuse
+from vipo_device.descriptions.forms import (
+    NAMESPACES,
+    SCHEMA_OVER_HTTP,
+    BadDescription,
+    check_turtle,
+    pin_contexts,
+    refuse,
+)
 from vipo_device.descriptions.triples import BLANK, RDF, Node, Text, Triple, Triples
 from vipo_device.protocol.faults import Fault, fault
 
@@ -51,7 +58,14 @@ def read_json_ld(body: Any) -> Triples:
 
 def _plain(found: QuadParser) -> Iterator[Triple]:
     for quad in found:
-        yield _name(quad.subject), quad.predicate.value, _node(quad.object)
+        yield _name(quad.subject), _predicate(quad.predicate.value), _node(quad.object)
+
+
+def _predicate(name: str) -> str:
+    """Return a predicate as VIPO names it: much of what is published writes schema.org with http."""
+    if name.startswith(SCHEMA_OVER_HTTP):
+        return NAMESPACES["schema"] + name.removeprefix(SCHEMA_OVER_HTTP)
+    return name
 
 
 def _node(value: object) -> Node:

@@ -7,11 +7,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any, cast
 from urllib.parse import SplitResult, urljoin, urlsplit
 
-from vipo_device.descriptions.forms import CONTEXT, NAMESPACES, TD_CONTEXT, TD_CONTEXTS, refuse
+from vipo_device.descriptions.forms import CONTEXT, NAMESPACES, SCHEMA_OVER_HTTP, TD_CONTEXT, TD_CONTEXTS, refuse
 from vipo_device.descriptions.json_fields import Fields, read_pose, read_size
 from vipo_device.protocol.arguments import is_number
 from vipo_device.protocol.description import Description, DeviceKind, MethodSpec, ParameterSpec, PropertySpec, ValueType
 from vipo_device.protocol.messages import down_topic, up_topic
+from vipo_device.protocol.units import device_unit
 
 DEVICE_URN = "urn:vipo:device:"
 TERMS: Mapping[str, str] = {
@@ -34,6 +35,8 @@ _TD_TYPES: Mapping[ValueType, str] = {
 _TYPES: Mapping[str, ValueType] = {"number": "number", "integer": "number", "string": "text", "boolean": "boolean"}
 _TD_TYPES_OF: Mapping[type, str] = {str: "string", bool: "boolean", int: "number", float: "number"}
 COMMAND = "vipo:Command"
+INVOKE = "invokeaction"
+"""What a form of an action is for, where it does not say so."""
 
 
 def describe_thing(body: Mapping[str, Any]) -> Description:
@@ -74,9 +77,9 @@ def _with_our_prefixes(body: Mapping[str, Any]) -> dict[str, Any]:
         if isinstance(part, str) and part not in {*TD_CONTEXTS, CONTEXT}:
             refuse("context_unknown", 0, 0, "/@context", named=part[:100], known=TD_CONTEXT)
         own.update(part if isinstance(part, dict) else {})
-    ours = {name: prefix for prefix, name in TERMS.items()}
+    ours = {name: prefix for prefix, name in TERMS.items()} | {SCHEMA_OVER_HTTP: "schema"}
     renamed = {p: ours[n] for p, n in own.items() if isinstance(n, str) and n in ours and p != ours[n]}
-    foreign = [p for p, n in own.items() if p in TERMS and n != TERMS[p]]
+    foreign = [p for p, n in own.items() if p in TERMS and not (isinstance(n, str) and ours.get(n) == p)]
     if foreign:
         refuse("context_meaning", 0, 0, "/@context", prefix=foreign[0], meaning=TERMS[foreign[0]])
     rest = {key: value for key, value in body.items() if key != "@context"}
@@ -145,12 +148,12 @@ def _value(name: str, item: Fields) -> dict[str, Any]:
         # Choices are texts here; what is left of numbers are their limits.
         minimum = max([float(min(allowed)), *([] if minimum is None else [minimum])])
         maximum = min([float(max(allowed)), *([] if maximum is None else [maximum])])
-    elif kind != "boolean":
+    elif not all(isinstance(each, bool) for each in allowed):
         options = Fields({"enum": allowed}, item.path, item.places).words("enum")
     return {
         "name": name,
         "type": kind,
-        "unit": item.text("unit").removeprefix(TERMS["unit"]).removeprefix("unit:"),
+        "unit": device_unit(item.text("unit").removeprefix(TERMS["unit"]).removeprefix("unit:")),
         "minimum": minimum,
         "maximum": maximum,
         "options": options,
@@ -186,7 +189,9 @@ def _method(device_id: str, name: str, item: Fields, base: str) -> MethodSpec:
 
 def _mqtt_form(item: Fields, base: str) -> Fields:
     for form in item.each("forms"):
-        if form.has("mqv:topic") or _address(form, base).scheme in ("", "mqtt", "mqtts"):
+        operations = form.body.get("op", INVOKE)
+        is_call = operations == INVOKE or (isinstance(operations, list) and INVOKE in operations)
+        if is_call and (form.has("mqv:topic") or _address(form, base).scheme in ("", "mqtt", "mqtts")):
             return form
     return item.refuse("forms", "need_mqtt")
 
@@ -226,7 +231,8 @@ def _parameters(given: Fields) -> Iterator[ParameterSpec]:
 
 def write_thing(description: Description, base: str = "") -> str:
     """Return a description as a Thing Description; `base` is the broker's address, such as mqtt://host:1883/."""
-    return json.dumps(thing_of(description, base), ensure_ascii=False, indent=2, allow_nan=False) + "\n"
+    within = f"{base.rstrip('/')}/" if base else ""
+    return json.dumps(thing_of(description, within), ensure_ascii=False, indent=2, allow_nan=False) + "\n"
 
 
 def thing_of(d: Description, base: str = "") -> dict[str, Any]:

@@ -12,7 +12,8 @@ def is_charge(unit: str) -> bool:
     A number without a unit is per cent. What is measured otherwise, such as volts, says nothing without the kind of
     battery.
     """
-    return unit == "PERCENT" or not is_measure(declared_unit(unit))
+    code = declared_unit(unit)
+    return code == "PERCENT" or not is_measure(code)
 
 
 def says_charge(device: Description) -> bool:

@@ -101,11 +101,19 @@ def is_unit(written: str) -> bool:
 
 
 _UNITLESS: Final = frozenset({PLAIN, "UNITLESS", "NUM"})
+_QUDT_ONLY: Final = frozenset({"C", "F"})
+"""QUDT's coulomb and farad: people also write so for temperatures, descriptions of devices do not."""
+
+
+def device_unit(written: str) -> str:
+    """Return the code of a unit in a device's description: QUDT's own, or what people write for one."""
+    return written if written in _QUDT_ONLY else unit_code(written)
 
 
 def declared_unit(unit: str) -> str:
     """Return the unit of a number that a device declares; QUDT has two words for plain numbers."""
-    return PLAIN if unit in _UNITLESS else unit or UNSAID
+    code = device_unit(unit)
+    return PLAIN if code in _UNITLESS else code or UNSAID
 
 
 def is_measure(unit: str) -> bool:

@@ -321,3 +321,54 @@ def test_the_examples_of_the_protocol_are_read() -> None:
     ]
     assert found[0].description.methods[0].parameters == (ParameterSpec("value", "number", "PERCENT", 0.0, 100.0),)
     assert examples[1][1].encode() == FIGURE_5
+
+
+def test_a_form_of_an_action_is_one_that_invokes_it() -> None:
+    ask = {"href": "mqtts://broker.example/vipo/v1/dev/m1/down/status", "op": "queryaction"}
+    found = read(_thing(actions={"dim": {"forms": [ask, {**FORM, "op": ["invokeaction"]}]}}), device_id="m1")
+    assert [method.topic for method in found.description.methods] == ["vipo/v1/dev/m1/down/dim"]
+    with pytest.raises(BadDescription, match="a form for MQTT"):
+        read(_thing(actions={"dim": {"forms": [ask]}}), device_id="m1")
+
+
+def test_a_brokers_address_needs_no_slash_at_its_end() -> None:
+    lamp = read(_thing(actions={"dim": {"forms": [FORM]}}), device_id="m1").description
+    written = write_description(lamp, "td", broker="mqtts://b:8883")
+    assert "mqtts://b:8883/vipo/v1/dev/m1/down/dim" in written
+    assert read(written.encode(), device_id="m1").description == lamp
+
+
+@pytest.mark.parametrize("schema", ["https://schema.org/", "http://schema.org/"])
+def test_limits_are_read_however_schema_org_is_written(schema: str) -> None:
+    turtle = f"""@prefix schema: <{schema}> . @prefix vipo: <urn:vipo:ns#> . @prefix dct: <http://purl.org/dc/terms/> .
+    @prefix td: <https://www.w3.org/2019/wot/td#> .
+    <urn:vipo:device:m1> a vipo:Machine ; dct:identifier "m1" ; vipo:location ( 1 2 ) ; vipo:size ( 1 1 1 ) ;
+      schema:image "https://a.example/m1.png" ;
+      td:hasPropertyAffordance [ td:name "level" ; schema:minValue 0 ; schema:maxValue 5 ] ."""
+    found = read(turtle.encode(), device_id="m1").description
+    assert (found.image, found.properties) == (
+        "https://a.example/m1.png",
+        (PropertySpec("level", "number", minimum=0.0, maximum=5.0),),
+    )
+    context = ["https://www.w3.org/2022/wot/td/v1.1", {"vipo": "urn:vipo:ns#", "schema": schema}]
+    thing = _thing(**{"@context": context, "schema:image": found.image})
+    assert read(thing, device_id="m1").description.image == found.image
+
+
+@pytest.mark.parametrize(
+    ("written", "code"), [("percent", "PERCENT"), ("%", "PERCENT"), ("°C", "DEG_C"), ("m/s", "M-PER-SEC"), ("C", "C")]
+)
+def test_units_of_things_and_of_the_paper_are_taken_as_people_write_them(written: str, code: str) -> None:
+    level = {"type": "number", "unit": written, "forms": [{"href": "coap://lamp/level"}]}
+    found = read(_thing(properties={"level": level}), device_id="m1").description
+    paper = f"id: m1\nlocation: [1, 2]\nsize: [1, 1, 1]\nproperties:\n- name: level\n  unit: {written}\n"
+    assert [
+        spec.unit for spec in (*found.properties, *read(paper.encode(), device_id="m1").description.properties)
+    ] == [
+        code,
+        code,
+    ]
+
+
+def _thing(**said: object) -> bytes:
+    return json.dumps({**THING, **said}).encode()

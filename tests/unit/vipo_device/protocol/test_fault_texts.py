@@ -49,7 +49,7 @@ BROKEN: list[tuple[str, str, str]] = [
     (f"{DEVICE}[ 1 2 ] .", "rdf_predicate", "3:86"),
     (f'{DEVICE}( "eins" 2 ) .', "rdf_number", ""),
     (f'{DEVICE}( 1 2 ) ; dct:title "A" , "B" .', "rdf_more", ""),
-    (f'{DEVICE}( 1 2 ) ; td:hasPropertyAffordance [ td:name "t" ; qudt:hasUnit "°C" ] .', "no_unit", ""),
+    (f'{DEVICE}( 1 2 ) ; td:hasPropertyAffordance [ td:name "t" ; qudt:hasUnit "°X" ] .', "no_unit", ""),
     (f'{DEVICE}( 1 2 ) ; td:hasActionAffordance [ dct:title "Los" ] .', "method_nameless", ""),
     (f'{DEVICE}( 1 2 ) ; td:hasActionAffordance [ td:name "öffnen" ] .', "method_name", ""),
     (f"{DEVICE}( 1 2 ) . <urn:b> a vipo:Robot .", "rdf_kinds", ""),

@@ -2,11 +2,13 @@
 
 import pytest
 
+from vipo_device.protocol.batteries import is_charge
 from vipo_device.protocol.units import (
     UNITS,
     DifferentDimensions,
     conversion,
     convert,
+    declared_unit,
     is_unit,
     unit_code,
     unit_symbol,
@@ -81,3 +83,26 @@ def test_units_that_measure_different_things_are_refused() -> None:
 def test_what_is_no_unit_stays_as_it_is() -> None:
     assert (unit_code("widgets"), unit_symbol("widgets"), is_unit("widgets")) == ("widgets", "widgets", False)
     assert (is_unit("°C"), is_unit("DEG_C"), is_unit("minutes")) == (True, True, True)
+
+
+@pytest.mark.parametrize(
+    ("said", "unit"),
+    [
+        ("percent", "PERCENT"),
+        ("min", "MIN"),
+        ("°C", "DEG_C"),
+        ("C", "C"),
+        ("NUM", "1"),
+        ("", "?"),
+        ("widgets", "widgets"),
+    ],
+)
+def test_a_device_says_its_unit_by_qudts_code_or_as_people_do(said: str, unit: str) -> None:
+    assert declared_unit(said) == unit
+
+
+@pytest.mark.parametrize(
+    ("unit", "says"), [("PERCENT", True), ("percent", True), ("", True), ("V", False), ("C", False)]
+)
+def test_a_battery_in_per_cent_says_how_full_it_is(unit: str, says: bool) -> None:
+    assert is_charge(unit) is says
