@@ -7,7 +7,6 @@ from collections import defaultdict
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from datetime import datetime
 from queue import Empty, Full, Queue
 from threading import Event, Thread
 from time import monotonic
@@ -40,7 +39,7 @@ ONLY_READ = "This machine is only read over MTConnect; it cannot be told anythin
 class Setting:
     """What all machines of a connector share; the first one stands at `stand`, the others in a row beside it.
 
-    `name_device` gives one its id by the one that its uuid makes.
+    `name_device` gives one its id by the one that its uuid makes, `boot` is the number of this start.
     """
 
     site: str
@@ -48,7 +47,7 @@ class Setting:
     interval_s: float
     connect: ConnectionMaker
     name_device: Callable[[str], str]
-    clock: Callable[[], datetime]
+    boot: int
 
 
 class FollowerEnded(RuntimeError):
@@ -116,7 +115,6 @@ class Connector:
         self._inbox: Queue[AgentEvent | ConnectionEvent] = Queue(MOST_WAITING)
         self._devices: dict[str, MachineDevice] = {}
         self._by_id: dict[str, MachineDevice] = {}
-        self._boot = int(setting.clock().timestamp())
 
     def run(self, stopping: Event) -> None:
         """Serve until `stopping` is set; then say that the machines are not to be seen any more."""
@@ -179,7 +177,7 @@ class Connector:
         if len(self._devices) >= MOST_DEVICES:
             log.warning("%s is one machine too many: a connector serves %d.", described.description.id, MOST_DEVICES)
             return
-        device = MachineDevice(described, self._setting, self._boot, self._hear_connection)
+        device = MachineDevice(described, self._setting, self._setting.boot, self._hear_connection)
         self._devices[uuid] = self._by_id[device.id] = device
 
     def _stand(self, place: int) -> Stand:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import os
+import time
 from argparse import ArgumentParser
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from django.core.management.base import BaseCommand, CommandError
 from connectors.mtconnect.agent import Agent, read_address
 from connectors.mtconnect.connector import Connector, Setting
 from connectors.mtconnect.description import Stand
+from connectors.mtconnect.starts import count_start
 from connectors.settings import add_prefix, connections, device_names
 from vipo_device.kit.shutdown import stop_on_signals
 from vipo_device.protocol.description import Pose, Size
@@ -62,16 +63,17 @@ def make_connector(options: dict[str, Any]) -> Connector:
         raise CommandError("--site must be a word of letters, digits, '_', '.' and '-'.")
     if not LEAST_INTERVAL_S <= interval_s <= MOST_INTERVAL_S:
         raise CommandError(f"--interval must lie between {LEAST_INTERVAL_S} and {MOST_INTERVAL_S:.0f} seconds.")
-    secrets = Path(settings.VIPO_STATE_DIR) / "secrets"
+    folder = Path(settings.VIPO_STATE_DIR)
+    agent, secrets = make_agent(options), folder / "secrets"
     setting = Setting(
         site=site,
         stand=read_stand(options["place"], options["size"]),
         interval_s=interval_s,
         connect=connections(site, secrets, "mtconnect"),
         name_device=device_names(site, secrets, "mtconnect", options["prefix"]),
-        clock=lambda: datetime.now(UTC),
+        boot=count_start(folder / "mtconnect" / f"{site}.json", int(time.time())),
     )
-    return Connector(make_agent(options), setting)
+    return Connector(agent, setting)
 
 
 def make_agent(options: dict[str, Any]) -> Agent:

@@ -178,7 +178,7 @@ class BrokenAgent(Agent):
 def test_a_connector_that_does_not_follow_any_more_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(threading, "excepthook", lambda _: None)
     stand = Stand(Pose(0, 0), Size(1, 1, 1))
-    setting = Setting("hall", stand, 0.1, lambda *_: pytest.fail("no machine is known"), str, lambda: datetime.now(UTC))
+    setting = Setting("hall", stand, 0.1, lambda *_: pytest.fail("no machine is known"), str, 1)
     with pytest.raises(FollowerEnded):
         Connector(BrokenAgent(read_address("http://127.0.0.1:1")), setting).run(Event())
 

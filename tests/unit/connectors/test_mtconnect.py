@@ -13,6 +13,7 @@ from connectors.mtconnect.agent import BadAddress, read_address
 from connectors.mtconnect.condition import MachineCondition
 from connectors.mtconnect.description import Stand, describe_machine, device_id
 from connectors.mtconnect.documents import MOST_BYTES, BadDocument, Devices, Machine, Refusal, Streams, read_document
+from connectors.mtconnect.starts import count_start
 from tests.kit.work import within_processor_time
 from tests.unit.connectors import mtconnect_words as words
 from vipo_device.descriptions.reader import read_description
@@ -214,3 +215,25 @@ def test_the_command_line_is_read(tmp_path: Path) -> None:
         make_agent({"agent": "cell", "ca": "", "headers": ""})
     with pytest.raises(CommandError, match="No such file"):
         make_agent({"agent": "http://cell/", "ca": "", "headers": str(tmp_path / "none")})
+
+
+def test_a_start_has_a_higher_number_than_those_before_also_when_the_clock_goes_back(tmp_path: Path) -> None:
+    path = tmp_path / "mtconnect" / "hall.json"
+    assert [count_start(path, now) for now in (5_000, 1_000, 1_000, 6_000)] == [5_000, 5_001, 5_002, 6_000]
+
+
+@pytest.mark.parametrize("kept", ["", "[]", "{}", '{"boot": 1e999}', '{"boot": null}', "\ud800"])
+def test_a_start_whose_last_number_cannot_be_read_takes_the_clocks(
+    tmp_path: Path, kept: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    path = tmp_path / "hall.json"
+    path.write_bytes(kept.encode("utf-8", "surrogatepass"))
+    assert (count_start(path, 7), count_start(path, 7), len(caplog.messages)) == (7, 8, 1)
+
+
+def test_a_start_whose_number_cannot_be_kept_is_one_all_the_same(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    (tmp_path / "a file").touch()
+    assert count_start(tmp_path / "a file" / "hall.json", 7) == 7
+    assert len(caplog.messages) == 1
