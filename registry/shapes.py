@@ -224,6 +224,7 @@ class DeviceShape(Schema):
     doing: str
     activity: Activity | None
     location: PoseShape
+    is_placed: bool
     size: SizeShape
     radius_m: float
     properties: list[PropertyShape]
@@ -294,7 +295,7 @@ class StandsAt(Asked):
 
 
 class DeviceEdit(Asked):
-    """What people may say of a device; fields that are left out stay."""
+    """What people may say of a device; fields that are left out stay, a location of null is its own again."""
 
     name: Line | None = Field(None, max_length=100)
     location: StandsAt | None = None

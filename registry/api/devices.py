@@ -13,7 +13,7 @@ from ninja import Field, Router, Schema
 
 from registry import services
 from registry.devices.property_history import MOST_POINTS
-from registry.devices.views import device_to_json
+from registry.devices.views import OWN_PLACE, NewPlace, device_to_json
 from registry.people.access import require
 from registry.requests import sends, signed_in
 from registry.shapes import (
@@ -162,11 +162,16 @@ def edit_device(request: HttpRequest, slug: str, device_id: str, body: DeviceEdi
     """Rename a device, or say where it stands."""
     user = signed_in(request)
     require(user, slug, "admin")
-    pose = Pose(**body.location.dict()) if body.location else None
     device = services.update_device(
-        site=slug, device_id=device_id, name=body.name, pose=pose, by=user, at=timezone.now()
+        site=slug, device_id=device_id, name=body.name, pose=_place_in(body), by=user, at=timezone.now()
     )
     return device_to_json(device)
+
+
+def _place_in(body: DeviceEdit) -> NewPlace | None:
+    if body.location is not None:
+        return Pose(**body.location.dict())
+    return OWN_PLACE if "location" in body.model_fields_set else None
 
 
 @router.get("/sites/{slug}/devices/{device_id}/history", response=SeriesShape)

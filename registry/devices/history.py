@@ -55,6 +55,7 @@ SENTENCES: Mapping[str, str] = {
     "mended": "{text}",
     "renamed": "Renamed from {before} to {after}",
     "moved": "Moved to {x:.2f}, {y:.2f}",
+    "own_place": "Stands where it says itself again: {x:.2f}, {y:.2f}",
     "map": "Sent its map: {width} by {height} m",
     "topic_asked": "Asks for the topic {topic} for {method}",
     "topic_confirmed": "The topic {topic} was confirmed for {method}",

@@ -26,7 +26,7 @@ from registry.devices.legacy_topics import claim_again, release_topics
 from registry.devices.rows import STARTS, BadDevice, announce, forget_starts, lock_device
 from registry.devices.samples import write_when_committed
 from registry.devices.things import record_thing
-from registry.devices.views import DeviceView, view_of
+from registry.devices.views import DeviceView, NewPlace, view_of
 from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import Device, Place, User
@@ -158,12 +158,18 @@ def _require_no_place(device: Device) -> None:
 
 
 def update_device(
-    *, site: str, device_id: str, name: str | None = None, pose: Pose | None = None, by: User | None, at: datetime
+    *,
+    site: str,
+    device_id: str,
+    name: str | None = None,
+    pose: NewPlace | None = None,
+    by: User | None,
+    at: datetime,
 ) -> DeviceView:
     """Give a device another name (empty: its own again) or place. Raises NoSuchDevice, BadDevice, NotApproved."""
     if name is not None and (len(name.strip()) > 100 or find_unfit(name, is_line=True)):
         raise BadDevice("A device's name has at most 100 characters, all of which can be printed.")
-    if pose is not None and not all(abs(v) <= 1e6 for v in (pose.x, pose.y, pose.z, pose.theta)):
+    if isinstance(pose, Pose) and not all(abs(v) <= 1e6 for v in (pose.x, pose.y, pose.z, pose.theta)):
         raise BadDevice("A device's place must lie within a million metres.")
     with transaction.atomic():
         device = lock_device(site, device_id)
@@ -173,7 +179,7 @@ def update_device(
         if name is not None:
             device.name_override = normal(name.strip())
         if pose is not None:
-            device.pose_override = asdict(pose)
+            device.pose_override = asdict(pose) if isinstance(pose, Pose) else None
         device.save(update_fields=["name_override", "pose_override"])
         after = view_of(device, site)
         for line in _edits(before, after):
@@ -186,6 +192,8 @@ def _edits(before: DeviceView, after: DeviceView) -> list[HistoryText]:
     edits = []
     if before.name != after.name:
         edits.append(history_text("renamed", before=before.name, after=after.name))
-    if before.pose != after.pose:
+    if before.is_placed and not after.is_placed:
+        edits.append(history_text("own_place", x=after.pose.x, y=after.pose.y))
+    elif before.pose != after.pose:
         edits.append(history_text("moved", x=after.pose.x, y=after.pose.y))
     return edits

@@ -16,7 +16,7 @@ from django.db import connection, transaction
 from django.db.models import Max
 
 from registry.devices.thing_forms import consumed_thing
-from registry.devices.views import DeviceView
+from registry.devices.views import OWN_PLACE, DeviceView, NewPlace
 from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import Site, ThingEvent
@@ -45,7 +45,7 @@ class ThingPatch:
     """What people may say of a Thing; None stays as it is, an empty name is the device's own again."""
 
     name: str | None
-    pose: Pose | None
+    pose: NewPlace | None
 
 
 def thing_to_json(view: DeviceView, base: str) -> dict[str, Any]:
@@ -91,13 +91,16 @@ def _title(patch: Mapping[str, Any]) -> str | None:
     return (title or "") if "title" in patch else None
 
 
-def _pose(patch: Mapping[str, Any]) -> Pose | None:
+def _pose(patch: Mapping[str, Any]) -> NewPlace | None:
     if "vipo:location" not in patch:
         return None
     numbers = patch["vipo:location"]
+    if numbers is None:
+        return OWN_PLACE
     if not isinstance(numbers, list) or len(numbers) not in (2, 3, 4) or not all(map(_is_number, numbers)):
         raise BadThingPatch(
-            "`vipo:location` must be [x, y, z, theta] in metres and radians; z and theta may be left out."
+            "`vipo:location` must be [x, y, z, theta] in metres and radians, z and theta may be left out; or null for "
+            "the device's own."
         )
     return Pose(*map(float, numbers))
 

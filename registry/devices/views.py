@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from datetime import datetime
-from typing import Any, Literal
+from typing import Any, Final, Literal
 
 from registry.alerts.causes import is_battery_low
 from registry.devices.activity import NOT_TRUSTED, NOTHING, Activity, Seen, activity_of
@@ -21,6 +21,10 @@ _ICONS = {"turtlebot": "turtle"}
 _MOST_KNOWN = 5000
 _known: dict[str, Description] = {}
 
+OWN_PLACE: Final = "own"
+NewPlace = Pose | Literal["own"]
+"""Where people put a device; `OWN_PLACE`: where it says itself again."""
+
 
 @dataclass(frozen=True, slots=True)
 class DeviceView:
@@ -31,7 +35,7 @@ class DeviceView:
     that whoever plays it now may therefore answer no command but by `done`;
     `stand_in` tells that it is simulated in place of the real one, and `stands_at` where a real robot is meanwhile;
     `asks` are the methods that nobody may call before an admin has confirmed their topics. `home` is where a robot
-    belongs, by its description or where people put it.
+    belongs, by its description or where people put it; `is_placed` tells that people put it somewhere.
     """
 
     id: str
@@ -54,6 +58,7 @@ class DeviceView:
     stands_at: Pose | None = None
     asks: tuple[MethodSpec, ...] = ()
     home: Pose | None = None
+    is_placed: bool = False
 
     @property
     def only_done_flag(self) -> bool:
@@ -116,6 +121,7 @@ def view_of(device: Device, site: str) -> DeviceView:
         stands_at=place_of_real(canonical.kind, device.aside),
         asks=asks,
         home=_home_of(device) if canonical.kind == "robot" else None,
+        is_placed=bool(device.pose_override),
     )
     return replace(view, status=status_of(view), activity=_activity(view))
 
@@ -196,6 +202,7 @@ def device_to_json(view: DeviceView) -> dict[str, Any]:
         "status": view.status,
         **_activity_to_json(view.activity),
         "location": asdict(said.pose),
+        "is_placed": view.is_placed,
         "size": asdict(said.size),
         "radius_m": said.radius_m,
         "properties": [_property_to_json(p, view.readings.get(p.name)) for p in said.properties],

@@ -81,7 +81,10 @@ def _patch() -> dict[str, Any]:
     form = _form("PATCH", "/things/{id}", "invokeaction", media_type, 400, 401, 403, 404, 412, 415)
     changes = {
         "title": {"type": "string", "description": "A name that people give it; null: its own again."},
-        "vipo:location": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 4},
+        "vipo:location": {
+            "oneOf": [{"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 4}, {"type": "null"}],
+            "description": "Where people put it; null: where it says itself again.",
+        },
     }
     return {
         "description": "Name or place a Thing, for admins of its site; If-Match keeps others' changes.",

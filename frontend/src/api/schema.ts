@@ -4202,6 +4202,7 @@ export interface components {
             icon: string;
             id: string;
             image: string;
+            is_placed: boolean;
             /** @enum {string} */
             kind: "robot" | "machine";
             last_seen_at: string | null;
@@ -4651,7 +4652,7 @@ export interface components {
         DescriptionText: {
             text: string;
         };
-        /** @description What people may say of a device; fields that are left out stay. */
+        /** @description What people may say of a device; fields that are left out stay, a location of null is its own again. */
         DeviceEdit: {
             location?: components["schemas"]["StandsAt"] | null;
             name?: string | null;
@@ -4690,6 +4691,7 @@ export interface components {
             icon: string;
             id: string;
             image: string;
+            is_placed: boolean;
             /** @enum {string} */
             kind: "robot" | "machine";
             last_seen_at: string | null;

@@ -1,6 +1,6 @@
 /** Everything that is known about one device. */
 import { Menu, Tabs } from "@mantine/core";
-import { Crosshair, Ellipsis, Pencil, X } from "lucide-react";
+import { Crosshair, Ellipsis, MapPin, Pencil, X } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate } from "react-router-dom";
@@ -15,6 +15,7 @@ import { formatAge, formatNumber } from "@/i18n/format";
 import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import { useNow } from "@/design/useNow";
 import { DeviceHistory } from "@/device/history/DeviceHistory";
+import { useDecide } from "./decisions";
 import { DescriptionTable } from "./description/DescriptionTable";
 import { jobOf } from "./filter";
 import { useFocusInList } from "./focus";
@@ -110,6 +111,7 @@ function Actions({ site, device }: { site: Site; device: Device }) {
   const navigate = useNavigate();
   const [renaming, setRenaming] = useState(false);
   const [asking, setAsking] = useState<KeyDecision | null>(null);
+  const decide = useDecide(site.slug);
   return (
     <div className={styles.actions}>
       <IconButton
@@ -129,6 +131,11 @@ function Actions({ site, device }: { site: Site; device: Device }) {
             <Menu.Item leftSection={<Pencil size={15} />} onClick={() => setRenaming(true)}>
               {t("pages.devices.rename")}
             </Menu.Item>
+            {device.kind === "machine" && device.is_placed ? (
+              <Menu.Item leftSection={<MapPin size={15} />} onClick={() => decide.mutate({ do: "ownPlace", device })}>
+                {t("pages.devices.ownPlace")}
+              </Menu.Item>
+            ) : null}
             <KeyMenuItems device={device} choose={setAsking} />
           </Menu.Dropdown>
         </Menu>

@@ -13,7 +13,8 @@ export type Decision =
   | { do: "approve" | "reject" | "retire" | "readmit" | "rotate" | "revoke"; device: Device }
   | { do: "confirmTopic" | "withdrawTopic"; device: Device; topic: string }
   | { do: "rename"; device: Device; name: string }
-  | { do: "move"; device: Device; to: readonly [number, number] };
+  | { do: "move"; device: Device; to: readonly [number, number] }
+  | { do: "ownPlace"; device: Device };
 
 /** What the server answers that is told only once. */
 interface Told {
@@ -30,6 +31,8 @@ function send(slug: string, decision: Decision): Promise<Told> {
       const [x, y] = decision.to;
       return api.patch<Told>(path, { location: { ...decision.device.location, x, y } });
     }
+    case "ownPlace":
+      return api.patch<Told>(path, { location: null });
     case "confirmTopic":
       return api.post<Told>(`${path}/topics/confirm`, { topic: decision.topic });
     case "withdrawTopic":

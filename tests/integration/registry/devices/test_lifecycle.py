@@ -15,6 +15,7 @@ from registry.services import BadDevice, NotApproved, NotRetired
 from tests.kit.sign_in import below_role, signed_in
 from tests.kit.sites import NOW, approve, come, describe, may_come_in, say
 from vipo_device.protocol.credentials import secret_hash
+from vipo_device.protocol.description import Pose
 from vipo_device.protocol.messages import BadMessage
 
 KEY, OTHER, JOIN = "k" * 32, "o" * 32, "j" * 32
@@ -196,3 +197,24 @@ def test_a_key_is_told_once_and_not_kept_by_browsers(hall: str) -> None:
     assert not may_come_in(answer.json()["credential"])
     assert admin.get("/api/sites/hall/devices?lifecycle=retired").json() == []
     assert admin.get("/api/sites/hall/devices?lifecycle=nonsense").status_code == 422
+
+
+def test_a_machine_that_people_placed_stands_where_it_says_itself_again_when_they_take_that_back(hall: str) -> None:
+    describe()
+    own = services.get_device(site="hall", device_id="mixer1").pose
+    admin, address = signed_in("admin"), "/api/sites/hall/devices/mixer1"
+
+    def edit(body: dict[str, Any]) -> tuple[int, bool]:
+        answer = admin.patch(address, json.dumps(body), content_type="application/json")
+        return answer.status_code, answer.json()["is_placed"]
+
+    assert edit({"location": None}) == (200, False)
+    assert edit({"location": {"x": 5, "y": 6}}) == (200, True)
+    assert edit({"name": "Left"}) == (200, True)
+    assert services.get_device(site="hall", device_id="mixer1").pose == Pose(5, 6)
+    assert edit({"location": None}) == (200, False)
+    assert services.get_device(site="hall", device_id="mixer1").pose == own
+    assert say(loc=[9, 8, 0, 0]).pose == Pose(9, 8)
+    texts = [e.text for e in services.list_device_events(site="hall", device_id="mixer1")]
+    again = f"Stands where it says itself again: {own.x:.2f}, {own.y:.2f}"
+    assert texts[:3] == [again, "Renamed from Mixer One to Left", "Moved to 5.00, 6.00"]

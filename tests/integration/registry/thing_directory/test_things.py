@@ -69,8 +69,9 @@ def test_members_look_and_admins_change(things: str, role: str) -> None:
     assert device.name == ("Mine" if role == "admin" else "Mixer a")
 
 
-def test_a_patch_moves_and_renames_and_null_gives_back_the_own_name(things: str) -> None:
+def test_a_patch_moves_and_renames_and_null_gives_back_the_own_name_and_place(things: str) -> None:
     admin = signed_in("admin")
+    own = services.get_device(site="hall", device_id="a").pose
 
     def patch(body: Any) -> Any:
         return admin.patch(f"{ADDRESS}/{URN}a", json.dumps(body), content_type="application/merge-patch+json")
@@ -81,6 +82,8 @@ def test_a_patch_moves_and_renames_and_null_gives_back_the_own_name(things: str)
     assert patch({"title": None}).status_code == 204
     device = services.get_device(site="hall", device_id="a")
     assert (device.name, device.pose) == ("Mixer a", Pose(1.5, 2.5, 0.0, 1.0))
+    assert patch({"vipo:location": None}).status_code == 204
+    assert services.get_device(site="hall", device_id="a").pose == own
     edits = DeviceEvent.objects.filter(device_id="a", kind="edited").values_list("by__display_name", flat=True)
     assert set(edits) == {"Admin Person"}
 
@@ -95,7 +98,7 @@ def test_a_patch_moves_and_renames_and_null_gives_back_the_own_name(things: str)
         ('{"actions": {}}', "'actions' cannot be changed here: the device says it itself."),
         ('{"title": "\\u0000"}', "The patch holds a character that is not text"),
         ('{"title": 3}', "`title` must be a text, or null for the device's own."),
-        ('{"vipo:location": null}', "`vipo:location` must be [x, y, z, theta]"),
+        ('{"vipo:location": [1]}', "`vipo:location` must be [x, y, z, theta]"),
         ('{"vipo:location": [1, NaN]}', "The patch holds NaN, which is not a number of JSON."),
     ],
 )
