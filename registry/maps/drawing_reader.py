@@ -39,7 +39,8 @@ MOST_POINTS = 400_000
 MOST_LAYERS = 500
 MOST_DEPTH = 12
 """So deep blocks may stand in blocks."""
-FARTHEST = 1e9
+FARTHEST = 1e11
+"""In the drawing's units: a country's survey in millimetres reaches 6e9. Farther out lie only damaged lines."""
 SAG = 0.002
 """How far a line may cut a curve short, as a share of the curve's size."""
 METRES = {1: 0.0254, 2: 0.3048, 4: 0.001, 5: 0.01, 6: 1.0, 10: 0.9144, 14: 0.1}
@@ -120,7 +121,10 @@ class Reader:
 
     def _add(self, layer: Layer, path: Path) -> None:
         corners = path.control_vertices()
-        if len(corners) < 2 or not all(isfinite(v) and abs(v) < FARTHEST for c in corners for v in (c.x, c.y)):
+        if len(corners) < 2:
+            return
+        if not all(isfinite(v) and abs(v) < FARTHEST for c in corners for v in (c.x, c.y)):
+            self.skipped["FAR"] += 1
             return
         size = max(_span([c.x for c in corners]), _span([c.y for c in corners]))
         points = path.flattening(max(size * SAG, 1e-9), 4) if path.has_curves else iter(corners)
@@ -193,6 +197,8 @@ def _why_empty(reader: Reader) -> str:
             f"The drawing has no lines in its model space: the blocks there ({lost}) lie in other files or nowhere. "
             "Bind them into the drawing, and save it again."
         )
+    if far := reader.skipped["FAR"]:
+        return f"All {far} lines lie farther than {FARTHEST:g} units from the drawing's origin. Move it to the origin."
     return "The drawing has no lines in its model space. Choose the drawing with the walls."
 
 

@@ -131,6 +131,6 @@ class OpenSession(models.Model):
 
 
 def initials_of(name: str) -> str:
-    """Return up to two capital letters that stand for a name."""
-    words = [w for w in name.split() if w]
-    return "".join(w[0] for w in (words[:1] + words[-1:] if len(words) > 1 else words)).upper()
+    """Return up to two capital letters that stand for a name; of a letter that several stand for, their first."""
+    words = name.split()
+    return "".join(w[0].upper()[:1] for w in (words[:1] + words[-1:] if len(words) > 1 else words))

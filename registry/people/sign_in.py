@@ -46,6 +46,13 @@ class SignOnAgain(RegistryError):
     status = 403
 
 
+class NoPassword(RegistryError):
+    """Somebody without a password who would change it."""
+
+    code = "no_password"
+    status = 409
+
+
 class BadPerson(RegistryError):
     """A person that cannot be added."""
 
@@ -123,7 +130,15 @@ def reopen_account(*, email: str, password: str) -> None:
 
 
 def check_own_password(*, user: User, password: str, address: str, now: datetime) -> None:
-    """Make sure that somebody who is signed in knows their password. Raises WrongOldPassword, TooManyAttempts."""
+    """Make sure that somebody who is signed in knows their password.
+
+    Raises NoPassword, WrongOldPassword, TooManyAttempts.
+    """
+    if not user.has_usable_password():
+        raise NoPassword(
+            "You have no password here, so it cannot be changed. Whoever runs this VIPO server can give you one "
+            "(vipo account EMAIL --new-password)."
+        )
     with checking_own_password(user=user, password=password, address=address, now=now):
         pass
 

@@ -119,7 +119,7 @@ def keep_token(
                 f"This site demands a second factor of the role {member.role}, and so of who makes such a token. Set "
                 "one up on the page of your account."
             )
-        if member.tokens.count() >= MOST_OF_MEMBER:
+        if member.tokens.filter(expires_at__gt=now).count() >= MOST_OF_MEMBER:
             raise TooManyTokens(f"You have {MOST_OF_MEMBER} tokens at this site. Revoke one that is no longer used.")
         row = ApiToken.objects.create(
             membership=member,

@@ -50,3 +50,18 @@ def test_strangers_and_tokens_change_no_name(hall: str) -> None:
     assert rename(Client(), "Somebody").status_code == 401
     assert Client().put("/api/me/mail", {"wanted": False}, content_type="application/json").status_code == 401
     assert not AuditLine.objects.filter(code="renamed").exists()
+
+
+def test_the_initials_of_any_name_fit(hall: str) -> None:
+    user = rename(signed_in("author"), "\ufb03 \ufb03").json()["user"]
+    assert user["initials"] == "FF"
+
+
+def test_who_has_no_password_is_told_who_gives_one(hall: str) -> None:
+    person, client = find_person("author"), signed_in("author")
+    person.set_unusable_password()
+    person.save()
+    client.force_login(person)
+    answer = client.post("/api/me/password", {"old": "", "new": "long enough for all"}, content_type="application/json")
+    assert (answer.status_code, answer.json()["code"]) == (409, "no_password")
+    assert "vipo account EMAIL --new-password" in answer.json()["detail"]

@@ -167,9 +167,9 @@ def test_too_many_corners_and_layers_are_refused(monkeypatch):
         read_drawing(packed(drawing))
 
 
-def test_what_lies_beyond_any_floor_is_left_out_and_nothing_at_all_is_refused():
+def test_a_drawing_without_lines_is_refused():
     drawing, space = new()
-    space.add_line((0, 0), (1e300, 0))
+    space.add_text("Hall")
     with pytest.raises(Refused, match="no lines"):
         read_drawing(packed(drawing))
 
@@ -203,3 +203,18 @@ def test_a_drawing_that_is_cut_off_gives_what_is_there_or_is_refused(share):
     except Refused as refusal:
         told = str(refusal)
     assert told == "" or "DXF" in told or "no lines" in told
+
+
+def test_a_drawing_in_millimetres_of_a_countrys_survey_is_read():
+    drawing, space = new()
+    space.add_line((5e8, 5.8e9), (5e8 + 1000, 5.8e9))
+    space.add_line((0, 0), (1e12, 0))
+    read = read_drawing(packed(drawing))
+    assert (read["skipped"], lines_of(read, "0")) == ({"FAR": 1}, [[5e8, 5.8e9, 5e8 + 1000, 5.8e9]])
+
+
+def test_a_drawing_whose_lines_all_lie_too_far_out_says_so():
+    drawing, space = new()
+    space.add_line((0, 0), (1e300, 0))
+    with pytest.raises(Refused, match="All 1 lines lie farther than 1e\\+11 units from the drawing's origin"):
+        read_drawing(packed(drawing))

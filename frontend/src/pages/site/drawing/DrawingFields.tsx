@@ -16,7 +16,7 @@ export function DrawingFields({ drawing, reading, change }: FieldsProps) {
   const { t } = useTranslation();
   const size = sizeOf(drawing, reading);
   const metres = (value: number) => withUnit(formatNumber(value, 1), "m");
-  const { blocks, others } = skippedOf(drawing);
+  const { blocks, far, others } = skippedOf(drawing);
   return (
     <div className={styles.fields}>
       <NativeSelect
@@ -63,6 +63,7 @@ export function DrawingFields({ drawing, reading, change }: FieldsProps) {
         onChange={(event) => change({ ...reading, outsideUnknown: event.currentTarget.checked })}
       />
       {blocks ? <p>{t("mapImport.drawing.lost", { count: blocks })}</p> : null}
+      {far ? <p>{t("mapImport.drawing.far", { count: far })}</p> : null}
       {others ? <p>{t("mapImport.drawing.skipped", { count: others })}</p> : null}
     </div>
   );

@@ -17,9 +17,9 @@ function at({ width, resolution_m: side, origin, cells }: CellMap, x: number, y:
 }
 
 test("blocks that are left out, in which walls may be, are told apart from what is no line", () => {
-  const skipped = { XREF: 1, INSERT: 2, TEXT: 4, HATCH: 8 };
-  expect(skippedOf({ ...ROOM, skipped })).toEqual({ blocks: 3, others: 12 });
-  expect(skippedOf(ROOM)).toEqual({ blocks: 0, others: 0 });
+  const skipped = { XREF: 1, INSERT: 2, TEXT: 4, HATCH: 8, FAR: 16 };
+  expect(skippedOf({ ...ROOM, skipped })).toEqual({ blocks: 3, far: 16, others: 12 });
+  expect(skippedOf(ROOM)).toEqual({ blocks: 0, far: 0, others: 0 });
 });
 
 test("what is hidden in the drawing is not chosen at first, and the unit is the drawing's", () => {

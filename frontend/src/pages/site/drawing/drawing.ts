@@ -36,12 +36,14 @@ const MARGIN = 0.5;
 const FARTHEST = 100_000;
 
 const BLOCKS = ["XREF", "INSERT"];
+const FAR = "FAR";
 
-/** How many blocks are left out, in which walls may be, and how many parts that are no lines. */
-export function skippedOf({ skipped }: Drawing): { blocks: number; others: number } {
+/** How many blocks are left out, in which walls may be, how many lines that lie too far, and parts that are none. */
+export function skippedOf({ skipped }: Drawing): { blocks: number; far: number; others: number } {
   const sum = (isMeant: (kind: string) => boolean) =>
     Object.entries(skipped).reduce((found, [kind, count]) => found + (isMeant(kind) ? count : 0), 0);
-  return { blocks: sum((kind) => BLOCKS.includes(kind)), others: sum((kind) => !BLOCKS.includes(kind)) };
+  const others = sum((kind) => kind !== FAR && !BLOCKS.includes(kind));
+  return { blocks: sum((kind) => BLOCKS.includes(kind)), far: sum((kind) => kind === FAR), others };
 }
 
 /** A drawing as it is first looked at: what is hidden in it stays out. */
