@@ -48,11 +48,15 @@ class MemberShape(Schema):
 
 
 class EndingShape(Schema):
-    """What ends when a member is removed: tokens by name, open invitations, and whether all their sessions do."""
+    """What ends when a member is removed: tokens by name, open invitations, and whether all their sessions do.
+
+    The wall screens that they made, by name, are left: they go on until somebody turns them off.
+    """
 
     tokens: list[str]
     invitations: int
     signs_out: bool
+    wall_screens_left: list[str]
 
 
 class MemberDetail(MemberShape):

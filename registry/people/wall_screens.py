@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import secrets
 from collections.abc import Collection
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
@@ -111,6 +112,20 @@ def list_wall_screens(*, site: str) -> tuple[WallScreenView, ...]:
     """Return the wall screens of a site, the newest first; also those that have expired."""
     rows = WallScreen.objects.filter(site__slug=site).select_related("made_by")
     return tuple(_view(row) for row in rows.order_by("-made_at", "-pk")[:200])
+
+
+def list_walls_of(*, site: str, user: User, now: datetime) -> tuple[str, ...]:
+    """Return the names of the wall screens of a site that somebody made and that have not expired."""
+    rows = WallScreen.objects.filter(site__slug=site, made_by=user, expires_at__gt=now)
+    return tuple(rows.order_by("pk").values_list("name", flat=True))
+
+
+def revoke_walls_of(*, user: User, now: datetime) -> None:
+    """End all wall screens that were made in somebody's name, at all sites."""
+    rows = WallScreen.objects.filter(made_by=user, expires_at__gt=now).order_by("pk")
+    for site, wall in rows.values_list("site__slug", "pk"):
+        with suppress(NoSuchWallScreen):  # an admin has just turned it off
+            revoke_wall_screen(site=site, wall_screen=wall)
 
 
 def revoke_wall_screen(*, site: str, wall_screen: int) -> None:

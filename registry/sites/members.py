@@ -21,6 +21,7 @@ from registry.models import ApiToken, Invitation, Membership, Site, User
 from registry.people.access import ROLES, NotAllowed, NotAMember, allows, find_access, has_not_ended, require
 from registry.people.second_factor import reset_factor
 from registry.people.sign_on.providers import title_of
+from registry.people.wall_screens import list_walls_of
 from registry.sites.sites import BadName, UnknownPerson, find_site
 
 LONGEST = timedelta(days=3660)
@@ -85,11 +86,15 @@ class PersonView:
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """What ends with somebody's part in a site; `signs_out`: it is their only one, so their sessions end, too."""
+    """What ends with somebody's part in a site; `signs_out`: it is their only one, so their sessions end, too.
+
+    `wall_screens_left` are those that they made, by name: they go on, and whoever kept a link goes on watching.
+    """
 
     tokens: tuple[str, ...]
     invitations: int
     signs_out: bool
+    wall_screens_left: tuple[str, ...]
 
 
 def list_people(*, site: str) -> tuple[PersonView, ...]:
@@ -294,7 +299,10 @@ def _ending(member: Membership) -> Ending:
     tokens = ApiToken.objects.filter(membership=member, expires_at__gt=timezone.now()).order_by("pk")
     elsewhere = Membership.objects.filter(user_id=member.user_id).exclude(pk=member.pk)
     return Ending(
-        tuple(tokens.values_list("name", flat=True)), _open_invitations(member).count(), not elsewhere.exists()
+        tuple(tokens.values_list("name", flat=True)),
+        _open_invitations(member).count(),
+        not elsewhere.exists(),
+        list_walls_of(site=member.site.slug, user=member.user, now=timezone.now()),
     )
 
 

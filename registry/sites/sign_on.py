@@ -34,6 +34,7 @@ from registry.people.sign_on.provider_client import begin_address, check_sender,
 from registry.people.sign_on.providers import Identity, Provider, SignOnFailed
 from registry.people.throttle import Attempt, counted, network_of
 from registry.people.tokens import drop_all_tokens
+from registry.people.wall_screens import revoke_walls_of
 from registry.sites.invitations import find_open_link, revoke_invitations_of, take_in
 
 log = logging.getLogger(__name__)
@@ -183,12 +184,13 @@ def _link_by_address(user: User, provider: Provider, identity: Identity, now: da
 def _turn_all_out(user: User, identity: Identity, now: datetime) -> None:
     """End what opens a person's account or was given in their name. A second factor was asked for.
 
-    That is the password, sessions, tokens, links with other providers, and invitations that are open.
+    That is the password, sessions, tokens, links with other providers, open invitations, and wall screens.
     """
     user.set_unusable_password()
     user.save(update_fields=["password"])
     User.objects.filter(pk=user.pk).update(session_generation=F("session_generation") + 1)
     user.refresh_from_db(fields=["session_generation"])
+    revoke_walls_of(user=user, now=now)
     unlink_others(user=user, issuer=identity.issuer)
     revoke_invitations_of(user=user, now=now)
     readers = [token.id for token in drop_all_tokens(user=user, now=now) if token.opens_broker]

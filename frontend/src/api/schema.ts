@@ -4802,11 +4802,16 @@ export interface components {
             x: number;
             y: number;
         };
-        /** @description What ends when a member is removed: tokens by name, open invitations, and whether all their sessions do. */
+        /**
+         * @description What ends when a member is removed: tokens by name, open invitations, and whether all their sessions do.
+         *
+         *     The wall screens that they made, by name, are left: they go on until somebody turns them off.
+         */
         EndingShape: {
             invitations: number;
             signs_out: boolean;
             tokens: string[];
+            wall_screens_left: string[];
         };
         /** @description Which lines of a journal are asked for: the oldest that fit, or with `newest` the newest. */
         EventsAsked: {

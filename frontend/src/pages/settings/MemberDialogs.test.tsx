@@ -19,6 +19,7 @@ test.each([
 });
 
 const BO = { id: 7, name: "Bo", ends_at: "2026-12-01T12:00:00Z" } as Member;
+const ENDING = { tokens: [], invitations: 0, signs_out: false, wall_screens_left: ["East wall", "Gate 2"] };
 const OF_BO = { slug: "hall", member: BO, onClose: () => undefined };
 
 test.each([
@@ -27,7 +28,7 @@ test.each([
   ["Leave", () => <AskLeave {...OF_BO} />],
   ["Reset", () => <AskReset {...OF_BO} />],
 ])("who has closed the question before it is refused is told: %s", async (word, dialog) => {
-  const { nth } = slowServer({ "/members/7": { ...BO, ending: { tokens: [], invitations: 0, signs_out: false } } });
+  const { nth } = slowServer({ "/members/7": { ...BO, ending: ENDING } });
   const { leave } = showWithCorner(dialog());
   const go = screen.getByText(word, { selector: "button *" });
   await waitFor(() => expect(go.closest("button")?.disabled).toBe(false));
@@ -36,4 +37,10 @@ test.each([
   leave();
   await asked.answer(409);
   expect(await screen.findByText("No.")).toBeTruthy();
+});
+
+test("who removes a member is told of their wall screens, which go on", async () => {
+  slowServer({ "/members/7": { ...BO, ending: ENDING } });
+  show(<AskRemove {...OF_BO} afterwards={() => null} />);
+  expect(await screen.findByText(/^2 wall screens that they made go on: East wall, Gate 2\./)).toBeTruthy();
 });

@@ -156,9 +156,16 @@ export function AskRemove({ slug, member, onClose, afterwards }: RemoveProps) {
     >
       <p>{t("people.remove.text")}</p>
       {known.data ? <Ending ending={known.data.ending} /> : null}
+      {known.data?.ending.wall_screens_left.length ? <WallsLeft names={known.data.ending.wall_screens_left} /> : null}
       <p>{t("people.remove.keeps")}</p>
     </Ask>
   );
+}
+
+/** Screens in a hall do not go dark by themselves; but whoever kept such a link goes on watching the site. */
+function WallsLeft({ names }: { names: readonly string[] }) {
+  const { t } = useTranslation();
+  return <p>{t("people.remove.wallScreens", { count: names.length, names: names.join(", ") })}</p>;
 }
 
 export function AskLeave({ slug, onClose }: Omit<OfMember, "member">) {

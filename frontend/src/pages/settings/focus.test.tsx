@@ -16,7 +16,7 @@ const SOON = "2026-12-24T08:00:00Z";
 const INVITATION = { id: 1, role: "viewer", state: "open", people: [], made_at: SOON, expires_at: SOON, uses: 1 };
 const SCREEN = { id: 1, name: "East", seen_at: null, expires_at: SOON, expired: false } as WallScreen;
 const BO = { id: 7, name: "Bo", role: "viewer", sign_in_by: [], seen_at: null, ends_at: null, me: false };
-const ENDING = { tokens: [], invitations: 0, signs_out: false };
+const ENDING = { tokens: [], invitations: 0, signs_out: false, wall_screens_left: [] };
 
 const members = [BO] as unknown as Member[];
 const invitations = [INVITATION] as unknown as Invitation[];

@@ -12,6 +12,7 @@ from registry import services
 from registry.models import ApiToken, AuditLine, Invitation, Membership
 from registry.people.seen import Seen, note_seen
 from registry.people.sessions import Session, read_standings
+from registry.people.wall_screens import make_wall_screen
 from registry.sites.invitations import Wanted, make_invitation
 from tests.kit.sign_in import add_person, find_person, post_json, signed_in
 
@@ -114,7 +115,10 @@ def test_removal_says_beforehand_what_it_ends_and_ends_that(hall: str) -> None:
     token, session = make_token("chief"), signed_in("chief")
     invite("chief")
     key = Session(str(session.session.session_key), find_person("chief").pk)
-    ending = {"tokens": ["Display of chief"], "invitations": 1, "signs_out": True}
+    wall = {"site": "hall", "days": 1, "now": datetime.now(UTC)}
+    make_wall_screen(**wall, by=find_person("chief"), name="East wall")
+    make_wall_screen(**wall, by=find_person("admin"), name="West wall")
+    ending = {"tokens": ["Display of chief"], "invitations": 1, "signs_out": True, "wall_screens_left": ["East wall"]}
     admin = signed_in("admin")
     assert admin.get(path_of("chief")).json()["ending"] == ending
     assert admin.delete(path_of("chief")).json() == ending

@@ -13,6 +13,7 @@ from pytest_django import Settings
 
 from registry import services
 from registry.models import AuditLine, SignOn, SignOnAttempt, User
+from registry.people.wall_screens import list_wall_screens, make_wall_screen
 from registry.sites.invitations import Wanted, make_invitation
 from tests.kit.openid import OpenId, visit
 from tests.kit.openid.journeys import AT, begin, come, finish, link, refusals, who_is, why
@@ -94,6 +95,8 @@ def test_whoever_made_an_account_beforehand_stays_in_it_by_no_token_and_no_other
     _, hears = services.create_token(**made, site="shed", name="Hears", scopes=["broker"])
     other = {"user": find_person("viewer"), "days": 30, "now": now}
     _, stays = services.create_token(**other, site="hall", name="Stays", scopes=["broker"])
+    make_wall_screen(site="shed", by=author, name="East wall", days=30, now=now)
+    make_wall_screen(site="shed", by=find_person("admin"), name="West wall", days=30, now=now)
     elsewhere = {"provider": "gone", "issuer": "https://gone.example", "subject": "somebody", "linked_at": now}
     SignOn.objects.create(user=author, **elsewhere)
     SignOn.objects.create(user=find_person("viewer"), **{**elsewhere, "subject": "viewer"})
@@ -102,6 +105,8 @@ def test_whoever_made_an_account_beforehand_stays_in_it_by_no_token_and_no_other
     answers = [Client(headers={"Authorization": f"Bearer {token}"}).get("/api/sites") for token in (asks, hears, stays)]
     assert [answer.status_code for answer in answers] == [401, 401, 200]
     assert len(services.list_broker_hashes()) == 1
+    assert [wall.name for wall in list_wall_screens(site="shed")] == ["West wall"]
+    assert AuditLine.objects.filter(site__slug="shed", code="wall_screen_revoked").count() == 1
     assert {site for site, news in heard if news == {"type": "members"}} >= {"hall", "shed"}
     links = SignOn.objects.order_by("pk").values_list("user__email", "issuer")
     assert list(links) == [("viewer@vipo.example", "https://gone.example"), ("author@vipo.example", acme.issuer)]
