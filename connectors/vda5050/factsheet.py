@@ -20,6 +20,7 @@ from vipo_device.protocol.description import (
     Size,
     ValueType,
 )
+from vipo_device.protocol.loads import PARTING
 from vipo_device.protocol.messages import MAX_TEXT, BadMessage, down_topic, fit_device_id
 
 HANDLING = ("pick", "drop")
@@ -43,6 +44,7 @@ PROPERTIES = (
 )
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 _UNFIT = re.compile(r"[^A-Za-z0-9_.-]")
+_NO_PARTING = str.maketrans(dict.fromkeys(PARTING, "-"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,4 +232,5 @@ def _warning_text(state: VehicleState) -> str:
 
 def _counted(loads: tuple[str, ...]) -> str:
     """Return loads as VIPO writes them: EPAL:2,box:1."""
-    return ",".join(f"{name}:{loads.count(name)}" for name in sorted(set(loads)))[:MAX_TEXT]
+    named = [load.translate(_NO_PARTING) for load in loads]
+    return ",".join(f"{name}:{named.count(name)}" for name in sorted(set(named)))[:MAX_TEXT]

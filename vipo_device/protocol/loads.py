@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import re
 
-_LOAD = re.compile(r"([A-Za-z0-9_.-]+)\s*[:=]\s*(\d{1,6})")
+PARTING = ",;:="
+"""No name of a load has one of these signs in what a robot says that it carries."""
+_LOAD = re.compile(rf"([^{PARTING}]{{1,64}})[:=]\s*(\d{{1,6}})(?!\d)")
 
 
 def read_load(value: object) -> dict[str, int]:
     """Read what a robot carries: text such as `box:1,can:2`; nothing of anything else."""
-    return {name: int(count) for name, count in _LOAD.findall(value) if int(count)} if isinstance(value, str) else {}
+    if not isinstance(value, str):
+        return {}
+    return {name: int(count) for said, count in _LOAD.findall(value) if int(count) and (name := said.strip())}

@@ -12,12 +12,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from connectors.vda5050.factsheet import device_id, read_factsheet
+from connectors.vda5050.factsheet import device_id, read_factsheet, read_properties
 from connectors.vda5050.messages import Header, VehicleName, read_connection, read_state, read_visualization
 from connectors.vda5050.orders import instant_actions
 from tests.integration.connectors.factsheet import FACTSHEET
 from tests.kit.programs import paths_in
 from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
+from vipo_device.protocol.loads import read_load
 from vipo_device.protocol.messages import BadMessage, is_device_id
 
 JUNK = st.one_of(
@@ -79,6 +80,13 @@ def test_what_no_text_may_hold_is_left_out_and_the_rest_of_the_state_is_read() -
     )
     read = read_state(said, NAME)
     assert (read.loads, [e.sentence for e in read.errors]) == (("0110",), ["scan: no code"])
+
+
+def test_a_load_is_shown_by_the_whole_name_of_its_type() -> None:
+    carried = [{"loadType": "Euro pallet"}, {"loadType": "Euro pallet"}, {"loadType": "KLT/6428"}, {"loadType": "a:b"}]
+    sheet = read_factsheet(payload({**HEADER, **FACTSHEET}), NAME)
+    said = read_properties(read_state(payload(STATE, loads=carried), NAME), sheet)
+    assert read_load(said["load"]) == {"Euro pallet": 2, "KLT/6428": 1, "a-b": 1}
 
 
 def test_a_message_that_was_overtaken_is_stale_and_a_new_start_is_not() -> None:
