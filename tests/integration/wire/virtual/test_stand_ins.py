@@ -148,10 +148,11 @@ def test_no_device_speaks_for_a_stand_in(bus: Bus, mixer: Mixer, stand_ins: Stan
 
 def test_one_that_is_switched_back_and_on_within_a_moment_begins_anew(mixer: Mixer, stand_ins: StandIns) -> None:
     switch(simulated=True)
-    first = Device.objects.get(pk=MIXER).boot
+    first, played = Device.objects.get(pk=MIXER).boot, stand_ins._playing[MIXER]
     simulate_device(site=SITE, device_id=MIXER, simulated=False, by=None)
     simulate_device(site=SITE, device_id=MIXER, simulated=True, by=None)
-    wait_for("the new one", lambda: Device.objects.get(pk=MIXER).online)
+    wait_for("the new one", lambda: stand_ins._playing.get(MIXER, played) is not played)
+    wait_for("its word", lambda: Device.objects.get(pk=MIXER).online)
     assert Device.objects.get(pk=MIXER).boot >= first
     assert (call().status, mixer.heard) == ("done", 0)
 
