@@ -148,7 +148,7 @@ def _value(name: str, item: Fields) -> dict[str, Any]:
         # Choices are texts here; what is left of numbers are their limits.
         minimum = max([float(min(allowed)), *([] if minimum is None else [minimum])])
         maximum = min([float(max(allowed)), *([] if maximum is None else [maximum])])
-    elif not all(isinstance(each, bool) for each in allowed):
+    elif not (kind == "boolean" and all(isinstance(each, bool) for each in allowed)):
         options = Fields({"enum": allowed}, item.path, item.places).words("enum")
     return {
         "name": name,
