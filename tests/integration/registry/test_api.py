@@ -274,7 +274,20 @@ def test_a_device_is_shown_as_the_contract_says(hall: str) -> None:
     assert body["methods"][0]["topic"] == "vipo/v1/dev/mixer1/down/mix"
     assert body["last_seen_at"] == "2026-11-21T12:00:00+00:00"
     contract = {
-        *("id", "name", "kind", "device_class", "icon", "lifecycle", "status", "doing", "location", "size", "radius_m"),
+        *(
+            "id",
+            "name",
+            "kind",
+            "device_class",
+            "icon",
+            "lifecycle",
+            "status",
+            "doing",
+            "location",
+            "is_placed",
+            "size",
+            "radius_m",
+        ),
         *("properties", "methods", "gives", "takes", "capacity", "carrying", "last_seen_at", "done", "simulated"),
         *("image", "description", "stand_in", "stands_at", "has_key", "dropped", "activity", "asks"),
     }
