@@ -116,11 +116,11 @@ from registry.maps.zones import ZoneChange, add_zone, change_zone, close_zone, f
 from registry.people.access import Access, NotAMember, find_access, list_with_role, require
 from registry.people.keyed_requests import prune_keyed_requests
 from registry.people.open_sessions import drop_expired
+from registry.people.passwords import draw_password
 from registry.people.second_factor import reset_factor
 from registry.people.sessions import Session, Standing, session_of_socket
 from registry.people.sign_in import (
     change_password,
-    check_sign_in,
     close_account,
     create_user,
     find_person,
@@ -243,7 +243,6 @@ __all__ = [
     "change_place",
     "change_zone",
     "check_device_password",
-    "check_sign_in",
     "close_account",
     "close_zone",
     "confirm_topic",
@@ -256,6 +255,7 @@ __all__ = [
     "create_token",
     "create_user",
     "device_to_json",
+    "draw_password",
     "drop_expired",
     "end_alert",
     "end_alerts",

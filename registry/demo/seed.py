@@ -16,6 +16,7 @@ from registry.devices.enrolment import expect_device
 from registry.floorplan.map_server import read_map
 from registry.maps.site_maps import save_map
 from registry.models import Site, SiteMap, User
+from registry.people.passwords import draw_password
 from registry.people.sign_in import create_user
 from registry.sites.members import set_member
 from registry.sites.quota import USUAL_SITES, set_site_quota
@@ -90,7 +91,7 @@ def _seed_people(state: Path) -> list[dict[str, str]]:
     passwords = {a["email"]: a["password"] for a in read_accounts(state=state)}
     accounts = []
     for email, name, role in PEOPLE:
-        password = passwords.get(email) or secrets.token_urlsafe(9)
+        password = passwords.get(email) or draw_password(email=email, display_name=name)
         user = User.objects.filter(email=email).first()
         if user is None:
             create_user(email=email, password=password, display_name=name)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 from django.contrib.auth.password_validation import validate_password
@@ -12,6 +14,8 @@ from registry.errors import RegistryError
 from registry.models import User
 
 MOST_CHARACTERS = 1000
+DRAWN_BYTES = 12
+MOST_DRAWN = 100
 _SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "password_too_short": lambda facts: (
         f"The password is too short. Take one of at least {facts['min_length']} characters, such as four words."
@@ -48,3 +52,14 @@ def check_new_password(password: str, person: User) -> None:
         why, facts = str(first.code), dict(first.params or {})
         sentence = _SENTENCES[why](facts) if why in _SENTENCES else " ".join(error.messages)
         raise BadPassword(sentence, {"why": why.removeprefix("password_"), "least": facts.get("min_length")}) from error
+
+
+def draw_password(*, email: str, display_name: str = "") -> str:
+    """Return a password that nobody guesses and that is taken for this person: a drawn one may be like their name."""
+    person = User(email=email.strip().lower(), display_name=display_name)
+    for _ in range(MOST_DRAWN):
+        password = secrets.token_urlsafe(DRAWN_BYTES)
+        with suppress(BadPassword):
+            check_new_password(password, person)
+            break
+    return password

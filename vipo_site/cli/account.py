@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import secrets
 
 from vipo_site.cli.terminal import CLEAN, complain, set_up, write
 
@@ -49,7 +48,7 @@ def _decide(options: argparse.Namespace) -> list[str]:
     from registry import services
 
     email: str = options.email.strip().lower()
-    told, password = [], secrets.token_urlsafe(12)
+    told, password = [], services.draw_password(email=email, display_name=options.name or email.partition("@")[0])
     if options.close:
         services.close_account(email=email)
         return [f"{email} signs in no more. --reopen undoes that."]

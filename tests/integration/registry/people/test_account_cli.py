@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import secrets
+
 import pytest
 from django.test import Client
 
+from registry import services
 from registry.models import Membership, User
 from tests.kit.command_line import run_vipo
 
@@ -57,3 +60,9 @@ def test_what_cannot_be_changes_nothing(
     before = User.objects.count()
     assert run_vipo(capsys, "account", *arguments) == (2, "", f"{says}\n")
     assert User.objects.count() == before
+
+
+def test_a_password_that_is_drawn_is_no_other_word_for_the_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = iter(["otto-brandt-", "qX2_v9Lm-4Rt"])
+    monkeypatch.setattr(secrets, "token_urlsafe", lambda _: next(drawn))
+    assert services.draw_password(email="author@vipo.example", display_name="Otto Brandt") == "qX2_v9Lm-4Rt"
