@@ -120,15 +120,17 @@ def test_messages_that_cannot_be_read_are_noted_and_harm_nobody(served: Served) 
 
 
 def heard_of_obstacles(served: Served, client: httpx.Client, web: int) -> Generator[None]:
-    """Go on once for each time that the other person's site socket says that obstacles have changed."""
+    """Go on at `hello`, from when on news come, then once for each time that it says that obstacles have changed."""
     address = f"127.0.0.1:{served.web_ports[web]}"
     cookies = "; ".join(f"{name}={value}" for name, value in client.cookies.items())
     with connect(f"ws://{address}/ws/site/painting-factory", origin=Origin(f"http://{address}"),
                  additional_headers={"Cookie": cookies}, max_size=None) as socket:  # fmt: skip
+        assert json.loads(socket.recv(timeout=PATIENCE_S))["type"] == "hello"
         yield
         while True:
-            while json.loads(socket.recv(timeout=PATIENCE_S)).get("type") != "obstacles":
-                pass
+            served.wait(
+                "news of obstacles", lambda: json.loads(socket.recv(timeout=PATIENCE_S)).get("type") == "obstacles"
+            )
             yield
 
 
