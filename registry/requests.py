@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import AsyncIterator, Iterator, Mapping
 from typing import Annotated, Any
 from unicodedata import category
 
+from asgiref.sync import sync_to_async
+from django.core.handlers.asgi import ASGIRequest
 from django.http import HttpRequest, HttpResponse
 from django.utils.http import content_disposition_header
 from ninja import Field, Schema
@@ -53,6 +55,20 @@ def as_file(name: str) -> dict[str, str]:
 def file_response(content: bytes | str, name: str, content_type: str) -> HttpResponse:
     """Return an answer that browsers keep as a file of this name."""
     return HttpResponse(content, content_type=content_type, headers=as_file(name))
+
+
+def one_by_one(request: HttpRequest, parts: Iterator[str]) -> Iterator[str] | AsyncIterator[str]:
+    """Return the parts of a long answer so that each is made when the one before was sent.
+
+    Django gathers a plain iterator whole before it sends anything, where it is served asynchronously.
+    """
+    return _made_elsewhere(parts) if isinstance(request, ASGIRequest) else parts
+
+
+async def _made_elsewhere(parts: Iterator[str]) -> AsyncIterator[str]:
+    following = sync_to_async(lambda: next(parts, None))
+    while (part := await following()) is not None:
+        yield part
 
 
 def _is_unfit_in_name(sign: str) -> bool:

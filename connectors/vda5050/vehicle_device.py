@@ -64,7 +64,7 @@ class VehicleDevice:
         self.connection: DeviceConnection | None = None
         self._sheet: Factsheet | None = None
         self._sheet_said = b""
-        self._sheet_fault = ""
+        self._sheet_fault = self._unfit = ""
         self._description = b""
         self._version = "2.0.0"
         self._described_facts = (b"", "")
@@ -186,15 +186,19 @@ class VehicleDevice:
             self.control.located = self._located
 
     def _become_device(self) -> None:
-        """Make the device, or describe it anew when the factsheet has changed."""
+        """Make the device, or describe it anew when the factsheet has changed. Raises BadMessage."""
         facts = (self._sheet_said, self._version)
         if not self._connection_state.is_connected or facts == self._described_facts:
             return
         if self._sheet is None or self._state is None or self._located is None:
             return
-        self._described_facts = facts
+        self._described_facts, self._unfit = facts, ""
         home = self._memory.home or self._setting.frame.to_site(self._located.pose)
-        description = describe(self.name, self._sheet, home, self._setting.site, self.id)
+        try:
+            description = describe(self.name, self._sheet, home, self._setting.site, self.id)
+        except BadMessage as error:
+            self._unfit = error.detail.rstrip(".")
+            raise
         vehicle = Vehicle(description, self._sheet, self._setting.frame, self._version, self._setting.station_type)
         self._memory.home, self._description = home, write_description(description).encode()
         if self.control is not None:
@@ -224,17 +228,22 @@ class VehicleDevice:
             self.connection.say_presence(online=online)
 
     def _ask(self, now_s: float) -> None:
-        """Ask for a state or factsheet that does not come by itself."""
-        for what in self._connection_state.take_questions(now_s, has_sheet=self._sheet is not None):
-            self._send("instantActions", action(self._setting.new_id(), what, {}), self._count("instantActions"))
+        """Ask for a state or factsheet that does not come by itself. Who never was a device has no memory."""
+        questions = self._connection_state.take_questions(now_s, has_sheet=self._sheet is not None)
+        numbered = [(what, self._count("instantActions")) for what in questions]
+        if numbered and self._path.exists():
+            write_memory(self._path, self._memory)
+        for what, number in numbered:
+            self._send("instantActions", action(self._setting.new_id(), what, {}), number)
 
     def _say_what_is_missing(self, now_s: float) -> None:
         """Tell in the log, once, why a vehicle that is connected is not on the map."""
         if self.control is not None or not self._connection_state.is_long_here(now_s):
             return
-        refused = f"its factsheet was refused ({self._sheet_fault})"
+        fault = self._unfit or self._sheet_fault
+        refused = f"its factsheet was refused ({fault})"
         known = {
-            refused if self._sheet_fault else "it has not told its factsheet": self._sheet is not None,
+            refused if fault else "it has not told its factsheet": self._sheet is not None and not self._unfit,
             "it has not told its state": self._state is not None,
             "it does not know where it is": self._located is not None,
         }

@@ -14,7 +14,7 @@ from registry.audit import queries
 from registry.audit.codes import Kind
 from registry.people.access import require
 from registry.people.open_sessions import name_browser
-from registry.requests import Asked, PartAsked, as_file, sends, signed_in, tell_rest
+from registry.requests import Asked, PartAsked, as_file, one_by_one, sends, signed_in, tell_rest
 
 router = Router(tags=["registry"])
 
@@ -67,8 +67,8 @@ def list_audit(
 def export_audit(request: HttpRequest, slug: str, asked: Query[AuditOfKind]) -> StreamingHttpResponse:
     """Give the record as a table (CSV), the newest first."""
     require(signed_in(request), slug, "admin")
-    lines = queries.write_table(site=slug, kind=asked.kind)
-    return StreamingHttpResponse(lines, content_type="text/csv; charset=utf-8", headers=as_file(f"{slug}-audit.csv"))
+    parts = one_by_one(request, queries.write_table(site=slug, kind=asked.kind))
+    return StreamingHttpResponse(parts, content_type="text/csv; charset=utf-8", headers=as_file(f"{slug}-audit.csv"))
 
 
 def _to_json(view: queries.AuditView) -> dict[str, Any]:

@@ -6,7 +6,6 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from itertools import chain, islice
 from typing import Any
 
 from django.db.models import QuerySet
@@ -17,6 +16,7 @@ from registry.models import AuditLine
 from vipo_device.protocol.csv_lines import csv_line
 
 COLUMNS = ("at", "kind", "code", "actor_kind", "actor", "address", "agent", "facts")
+_PART = Page(500)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,13 +50,19 @@ def count_audit(*, site: str, kind: Kind | None = None) -> int:
 
 
 def write_table(*, site: str, kind: Kind | None = None) -> Iterator[str]:
-    """Return the record as lines of CSV with a head, the newest first, read bit by bit.
+    """Return the record as CSV with a head, the newest first, in parts of which each is read when it is asked for.
 
     The first part is read at once: what cannot be read is told before an answer has begun.
     """
-    rows = _rows(site, kind).order_by("-at", "-pk").iterator(chunk_size=500)
-    first = list(islice(rows, 1))
-    return chain([csv_line(COLUMNS)], map(_line, chain(first, rows)))
+    rows = _rows(site, kind)
+    return _write_parts(rows, take_page(rows=rows, by="-at", page=_PART, view=_line))
+
+
+def _write_parts(rows: QuerySet[AuditLine], lines: Listed[str]) -> Iterator[str]:
+    yield csv_line(COLUMNS) + "".join(lines)
+    while lines.rest:
+        lines = take_page(rows=rows, by="-at", page=Page(_PART.limit, lines.rest), view=_line)
+        yield "".join(lines)
 
 
 def _line(row: AuditLine) -> str:

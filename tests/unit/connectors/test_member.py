@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from connectors.vda5050.connection_state import PATIENCE_S
+from connectors.vda5050.connection_state import ASK_S, PATIENCE_S
 from connectors.vda5050.control import Send
 from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.vehicle_device import Setting, VehicleDevice
@@ -33,9 +33,13 @@ def asked() -> list[tuple[str, Any]]:
 
 
 @pytest.fixture
-def member(tmp_path: Path, asked: list[tuple[str, Any]]) -> Iterator[VehicleDevice]:
+def setting(tmp_path: Path) -> Setting:
     at = datetime(2026, 1, 1, tzinfo=UTC)
-    setting = Setting("hall", Frame(), "floor", tmp_path, away, lambda plain: plain, lambda: "id", lambda: at)
+    return Setting("hall", Frame(), "floor", tmp_path, away, lambda plain: plain, lambda: "id", lambda: at)
+
+
+@pytest.fixture
+def member(setting: Setting, asked: list[tuple[str, Any]]) -> Iterator[VehicleDevice]:
     member = VehicleDevice(
         NAME, setting, lambda _, topic, body: asked.append((topic, json.loads(body))), lambda _: None
     )
@@ -102,6 +106,36 @@ def test_the_log_says_why_a_factsheet_was_refused_and_not_that_there_is_none(
         "Acme-1 is connected, but not on the map yet: its factsheet was refused (factsheet/physicalParameters/width "
         "must be a number)."
     ]
+
+
+def test_the_log_says_why_a_factsheet_makes_no_device_however_often_it_is_told(
+    member: VehicleDevice, caplog: pytest.LogCaptureFixture
+) -> None:
+    sheet = {**FACTSHEET, "physicalParameters": {**FACTSHEET["physicalParameters"], "length": 1400, "width": 800}}
+    say(member, "connection", 0.0, connectionState="ONLINE")
+    say(member, "factsheet", 0.0, **sheet)
+    with pytest.raises(BadMessage):
+        say(member, "state", 0.0, **STATE)
+    say(member, "factsheet", 1.0, **sheet)
+    member.tick(PATIENCE_S)
+    assert len(caplog.messages) == 1
+    assert "not on the map yet: its factsheet was refused (factsheet: " in caplog.messages[0]
+    say(member, "factsheet", 1.0 + PATIENCE_S, **FACTSHEET)
+    assert member.control is not None
+
+
+def test_the_number_of_a_question_is_kept_before_it_is_asked(
+    member: VehicleDevice, setting: Setting, tmp_path: Path
+) -> None:
+    come(member, 100.0)
+    (memory,) = tmp_path.glob("*.json")
+    kept: list[dict[str, int]] = []
+    again = VehicleDevice(
+        NAME, setting, lambda *_: kept.append(json.loads(memory.read_text())["headers"]), lambda _: None
+    )
+    say(again, "connection", 200.0, connectionState="ONLINE")
+    again.tick(201.0 + ASK_S)
+    assert [each["instantActions"] for each in kept] == [1, 1]
 
 
 def test_a_last_will_that_comes_late_does_not_keep_a_vehicle_away(member: VehicleDevice) -> None:

@@ -8,8 +8,9 @@ from datetime import UTC, datetime, timedelta
 from typing import Any
 
 import pytest
+from asgiref.sync import async_to_sync, sync_to_async
 from django.db import DatabaseError, connection, transaction
-from django.test import Client
+from django.test import AsyncClient, Client
 from django.test.utils import CaptureQueriesContext
 from pytest_django import Settings
 
@@ -214,6 +215,27 @@ def test_the_table_is_read_before_its_answer_begins(fresh: str) -> None:
         assert len(list(csv.reader(io.StringIO(answer.getvalue().decode())))) == 4
     assert [*filter(lambda asked: "registry_auditline" in asked["sql"], before.captured_queries)] != []
     assert after.captured_queries == []
+
+
+def test_a_long_table_is_read_as_it_is_sent(fresh: str) -> None:
+    """More than this is never held: Django gathers a plain iterator whole, where it is served asynchronously."""
+    site = Site.objects.get(slug="hall")
+    AuditLine.objects.bulk_create(
+        AuditLine(
+            site=site, at=datetime.now(UTC), kind="stops", code="stop_reset", actor_kind="vipo", actor=f"P{number}"
+        )
+        for number in range(1200)
+    )
+    browser = AsyncClient()
+    browser.cookies = signed_in("admin").cookies
+
+    async def read() -> tuple[int, int]:
+        parts = aiter(await browser.get(f"{SITE}/audit.csv?kind=stops"))
+        first = await anext(parts)
+        await sync_to_async(AuditLine.objects.all().delete)()
+        return first.count(b"\n"), sum([part.count(b"\n") async for part in parts])
+
+    assert async_to_sync(read)() == (501, 0)
 
 
 def test_lines_are_kept_as_long_as_the_server_says(fresh: str, settings: Settings) -> None:
