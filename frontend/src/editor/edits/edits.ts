@@ -33,6 +33,7 @@ export type Refusal =
   | "not_inside"
   | "returns"
   | "hidden"
+  | "gone"
   | "nothing";
 
 /** A gesture's outcome: what to change, or why nothing changes. */

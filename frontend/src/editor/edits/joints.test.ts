@@ -172,3 +172,13 @@ test("events stand among the events only, comments nowhere", () => {
   const fresh = { id: "new", kind: "comment", pos: [0, 0], params: {} } as const;
   expect(applyEdits(more, addStep(more, PROGRAM, fresh)).steps.new?.place).toBeNull();
 });
+
+test("steps go nowhere where somebody has taken away the step that they were to follow, or what they were to go into", () => {
+  const gone = { refused: "gone" };
+  expect(moveStep(program, "three", PROGRAM, "lost")).toEqual(gone);
+  expect(moveStep(program, "three", PROGRAM, "in1")).toEqual(gone);
+  expect(moveStep(program, "three", { parent: "lost", branch: "body" }, null)).toEqual(gone);
+  expect(moveStep(program, "three", { parent: "loop", branch: "else" }, null)).toEqual(gone);
+  const functions = { mix: { name: "mix", parameters: [] } };
+  expect(moveStep({ ...program, functions }, "three", { parent: "mix", branch: "body" }, null)).toHaveProperty("edits");
+});

@@ -2,6 +2,7 @@
 import type { ProgramDocument, Step, StepKind, Position } from "@/program/document/document";
 import type { Decision, Edit, Refusal, StepPlace } from "./edits";
 import { keysBetween } from "./order";
+import { takes } from "@/program/document/outline";
 import { standingAlone } from "@/program/document/called";
 import {
   ancestors,
@@ -29,6 +30,17 @@ export function branchForNew(document: ProgramDocument, selected: string | null)
 
 export function endOfBranch(document: ProgramDocument, branch: BranchRef): Goal {
   return { branch, after: readTree(document).children(branch.parent, branch.branch).at(-1) ?? null };
+}
+
+/** Whether the document has the branch. */
+export function hasBranch(document: ProgramDocument, { parent, branch }: BranchRef): boolean {
+  return takes(document, parent, branch, "wait") || takes(document, parent, branch, "on_event");
+}
+
+/** Whether a goal that was chosen a while ago is one still: others may have taken it away, or what stood before it. */
+export function stillThere(document: ProgramDocument, { branch, after }: Goal): boolean {
+  if (!hasBranch(document, branch)) return false;
+  return after === null || readTree(document).children(branch.parent, branch.branch).includes(after);
 }
 
 /** The branch that a step stands in, as the tree reads it; null for drafts. */
@@ -87,15 +99,21 @@ export function addStep(document: ProgramDocument, where: BranchRef | Goal, fres
 
 /** Put steps, with all inside them, one behind the other at a goal; refused where one would stand in itself. */
 export function moveSteps(document: ProgramDocument, ids: readonly string[], goal: Goal): Decision {
-  const { parent } = goal.branch;
-  const moving = new Set(ids);
-  if (ids.length === 0 || (goal.after !== null && moving.has(goal.after))) return { refused: "nothing" };
-  const refused = ids.map((id) => whyNot(document.steps[id], goal.branch)).find((each) => each !== null);
+  const refused = whyNotTo(document, ids, goal);
   if (refused) return { refused };
-  if ([parent, ...ancestors(document, parent)].some((above) => moving.has(above))) return { refused: "cycle" };
-  const room = roomAt(document, goal, ids.length, moving);
+  const room = roomAt(document, goal, ids.length, new Set(ids));
   const moves = ids.map((id, index): Edit => ({ do: "set_place", id, place: room.places[index] ?? null }));
   return { edits: [...room.shifted, ...moves] };
+}
+
+/** Why steps cannot go to a goal; null where they can. */
+export function whyNotTo(document: ProgramDocument, ids: readonly string[], goal: Goal): Refusal | null {
+  const { parent } = goal.branch;
+  if (ids.length === 0 || (goal.after !== null && ids.includes(goal.after))) return "nothing";
+  const refused = ids.map((id) => whyNot(document.steps[id], goal.branch)).find((each) => each !== null);
+  if (refused) return refused;
+  if ([parent, ...ancestors(document, parent)].some((above) => ids.includes(above))) return "cycle";
+  return stillThere(document, goal) ? null : "gone";
 }
 
 /** Events begin by themselves, comments are for people: neither stands among the steps. */

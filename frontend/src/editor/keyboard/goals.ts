@@ -3,7 +3,7 @@ import type { ProgramDocument } from "@/program/document/document";
 import { branchesOf, EVENTS, PROGRAM, readTree } from "@/program/document/tree";
 import { compareBytes } from "@/program/document/outline";
 import type { Decision } from "../edits/edits";
-import { branchOf, type Goal, moveSteps } from "../edits/joints";
+import { branchOf, type Goal, moveSteps, whyNotTo } from "../edits/joints";
 
 /** A spot in words: before or after a step, or inside one that holds others. */
 export interface Spot extends Goal {
@@ -32,7 +32,7 @@ export function spotsFor(document: ProgramDocument, ids: readonly string[]): rea
   walk(PROGRAM.parent, PROGRAM.branch, "");
   walk(EVENTS.parent, EVENTS.branch, "");
   for (const id of Object.keys(document.functions).sort(compareBytes)) walk(id, "body", "");
-  return spots.filter((spot) => "edits" in moveSteps(document, ids, spot));
+  return spots.filter((spot) => whyNotTo(document, ids, spot) === null);
 }
 
 /** The spot where the first of the steps stands now; 0 for a draft, which stands nowhere. */

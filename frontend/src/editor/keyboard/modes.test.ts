@@ -1,6 +1,7 @@
 /** What the keys do to steps on the map is what dragging them does. */
 import { beforeEach, expect, test } from "vitest";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
+import { readTree } from "@/program/document/tree";
 import { buildScene } from "@/program/scene/scene";
 import { surroundingsOf } from "@/program/surroundings";
 import { moveChips } from "../canvas/chipDrop";
@@ -9,7 +10,7 @@ import type { On } from "../commands/command";
 import { applyEdits, type Edit } from "../edits/edits";
 import type { OpenProgram } from "../state/context";
 import { resetUi, select } from "../state/ui";
-import { pressInMode } from "./modes";
+import { enterMove, pressInMode, useMode } from "./modes";
 
 const step = (kind: string, pos: Step["pos"], parent: string, order = "a"): Step => {
   return { kind, pos, place: [parent, "body", order], params: {} };
@@ -69,4 +70,29 @@ test("a frame that is nudged takes along what stands in it, once each also where
   select(["outer", "wait"]);
   for (let press = 0; press < 4; press += 1) nudge?.run(open(), { keys: "Alt+Shift+ArrowRight" } as On);
   expect(places()).toEqual(dragged());
+});
+
+test("in the mode that moves, a spot that somebody took away meanwhile is looked for anew, and the step stays", () => {
+  const program: ProgramDocument = {
+    ...EMPTY_DOCUMENT,
+    steps: Object.fromEntries(["a", "b", "c", "d"].map((id) => [id, step("wait", [1, -1], "program", id)])),
+  };
+  const inOrder = () => readTree(document).children("program", "body");
+  const press = (key: string) => {
+    const { mode } = useMode.getState();
+    if (mode) pressInMode(open(), mode, { key, shiftKey: false });
+  };
+  document = program;
+  select(["d"]);
+  enterMove(open());
+  press("ArrowUp");
+  document = applyEdits(document, [{ do: "remove_step", id: "b" }]);
+  press("Enter");
+  expect(inOrder()).toEqual(["a", "c", "d"]);
+  expect(useMode.getState().mode).toMatchObject({ kind: "move", at: 2 });
+  expect(useMode.getState().words).toContain("refused.gone");
+  press("ArrowUp");
+  press("Enter");
+  expect(inOrder()).toEqual(["a", "d", "c"]);
+  expect(useMode.getState().mode).toBeNull();
 });

@@ -56,11 +56,15 @@ export function leaveMode(words?: string): void {
 /** Move the selected steps to another spot of the order. */
 export function enterMove(open: OpenProgram): boolean {
   const steps = useUi.getState().selected.filter((id) => open.document.steps[id]?.kind !== "comment");
+  return lookForSpots(open, steps, say("access.move.begin", { count: steps.length }));
+}
+
+/** The spots that the steps may go to now, from their own on; false where there is none. */
+function lookForSpots(open: OpenProgram, steps: readonly string[], words: string): boolean {
   const spots = steps.length > 0 ? spotsFor(open.document, steps) : [];
   if (spots.length === 0) return false;
-  const at = ownSpot(open.document, steps, spots);
-  const mode = { kind: "move" as const, steps, spots, at };
-  show(mode, `${say("access.move.begin", { count: steps.length })} ${moveWords(open, mode)}`);
+  const mode = { kind: "move" as const, steps, spots, at: ownSpot(open.document, steps, spots) };
+  show(mode, `${words} ${moveWords(open, mode)}`);
   return true;
 }
 
@@ -189,7 +193,10 @@ function pressMove(open: OpenProgram, mode: Extract<Mode, { kind: "move" }>, key
   const spot = mode.spots[mode.at];
   if (key !== "Enter" || !spot) return false;
   const where = spotWords(open, spot);
-  if (settle(open, decideMove(open.document, mode.steps, spot))) leaveMode(say("access.move.done", { where }));
+  const decision = decideMove(open.document, mode.steps, spot);
+  const gone = "refused" in decision && decision.refused === "gone";
+  if (gone && lookForSpots(open, mode.steps, open.t("refused.gone"))) return true;
+  if (settle(open, decision)) leaveMode(say("access.move.done", { where }));
   return true;
 }
 

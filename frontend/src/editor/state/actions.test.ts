@@ -1,13 +1,15 @@
 import { beforeEach, expect, test } from "vitest";
 import { clip } from "../edits/clipping";
 import { applyEdits, type Edit } from "../edits/edits";
+import { branchOf } from "../edits/joints";
 import { wrapInFunction } from "../edits/calls";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
 import { lastChosen, standingAlone } from "@/program/document/called";
 import { readTree } from "@/program/document/tree";
-import { branchNow, duplicateSelected, pasteClipping, removeSelected } from "./actions";
+import { branchNow, createStep, duplicateSelected, pasteClipping, removeSelected } from "./actions";
 import type { OpenProgram } from "./context";
-import { resetUi, useUi } from "./ui";
+import { answerWaiting } from "./putting";
+import { resetUi, select, useUi } from "./ui";
 
 beforeEach(resetUi);
 
@@ -58,7 +60,8 @@ test("copies of all steps stand behind them in the program, and a function keeps
   for (const copied of [
     after(duplicateSelected),
     after((document, apply) => {
-      const open = { document, apply, devices: [], plan: null, program: { id: "a" } } as unknown as OpenProgram;
+      const shared = { getDocument: () => document };
+      const open = { document, shared, apply, devices: [], plan: null, program: { id: "a" } } as unknown as OpenProgram;
       pasteClipping(open, clip(document, called), {});
     }),
   ]) {
@@ -92,7 +95,7 @@ test("however many functions are selected with what calls them, the tree is read
     ...names.map((id) => [`call ${id}`, step("call", ["program", "body", id], { function: id })] as const),
   ]);
   const many = { ...EMPTY_DOCUMENT, functions, steps };
-  readTree(many);
+  readTree({ ...many });
   const once = count;
   expect(standingAlone(many, Object.keys(steps))).toHaveLength(30);
   expect(count).toBe(2 * once);
@@ -110,4 +113,46 @@ test("a function is made of all steps of the program, which call others", () => 
   expect(branch(made, "program")).toEqual(["call"]);
   expect(branch(made, "day")).toEqual(["wait", "call"]);
   expect(branch(made, "mix")).toEqual(["call"]);
+});
+
+test("a new step goes to the chosen spot, to the end of its branch where its neighbour has gone, else where it went before", () => {
+  const drawn = (branch: { parent: string; branch: string }, after?: string | null) => {
+    resetUi();
+    useUi.setState({ into: { branch, link: "", word: "", after } });
+    let document = program;
+    createStep(document, (edits) => (document = applyEdits(document, edits)), {
+      kind: "drop",
+      pos: [0, 0],
+      params: {},
+    });
+    return [branchOf(document, useUi.getState().selected[0] ?? "")?.parent, branchAll(document)];
+  };
+  const branchAll = (document: ProgramDocument) => branch(document, "program").join(" ");
+  const own = { parent: "program", branch: "body" };
+  expect(drawn(own, "first")).toEqual(["program", "wait drop call"]);
+  expect(drawn(own, null)).toEqual(["program", "drop wait call"]);
+  expect(drawn(own, "lost")).toEqual(["program", "wait call drop"]);
+  expect(drawn({ parent: "mix", branch: "body" })[0]).toBe("mix");
+  expect(drawn({ parent: "lost", branch: "body" }, "first")).toEqual(["program", "wait call drop"]);
+  expect(drawn({ parent: "lost", branch: "body" })).toEqual(["program", "wait call drop"]);
+});
+
+test("what waits for somebody to stand in goes into the program as it is then", () => {
+  const steps = { pick: step("operate", ["program", "body", "A"], { device: { device: "oven" } }) };
+  const clipping = clip({ ...EMPTY_DOCUMENT, steps }, ["pick"]);
+  let document = program;
+  const open = {
+    document,
+    shared: { getDocument: () => document },
+    apply: (edits: readonly Edit[]) => (document = applyEdits(document, edits)),
+    devices: [],
+    plan: null,
+    program: { id: "a" },
+  } as unknown as OpenProgram;
+  select(["first"]);
+  pasteClipping(open, clipping, {});
+  expect(useUi.getState().dialog).toBe("strangers");
+  document = applyEdits(document, [{ do: "remove_step", id: "first" }]);
+  answerWaiting(new Map());
+  expect(branch(document, "program")).toEqual(["call", "operate"]);
 });

@@ -11,15 +11,17 @@ import {
   deleteSteps,
   endOfBranch,
   type Goal,
+  hasBranch,
   type NewStep,
   shiftStep,
+  stillThere,
 } from "../edits/joints";
 import { moveTogether } from "../edits/arranging";
 import { wrapIn } from "../edits/branches";
 import type { OpenProgram } from "./context";
 import { type Names, putEdits } from "./putting";
 import { finish } from "./tool";
-import { say, select, useUi } from "./ui";
+import { type NextPlace, say, select, useUi } from "./ui";
 
 export type Apply = (edits: readonly Edit[]) => void;
 
@@ -28,18 +30,28 @@ export function makeId(): string {
   return crypto.randomUUID().replaceAll("-", "").slice(0, 12);
 }
 
+/** The spot that was chosen for the next step, as long as nobody has taken its branch away. */
+export function intoNow(document: ProgramDocument): NextPlace | null {
+  const { into } = useUi.getState();
+  return into && hasBranch(document, into.branch) ? into : null;
+}
+
 /** The branch that a new step goes into. */
 export function branchNow(document: ProgramDocument): BranchRef {
-  const { into, selected } = useUi.getState();
-  return into?.branch ?? branchForNew(document, lastChosen(document, selected));
+  return intoNow(document)?.branch ?? branchForNew(document, lastChosen(document, useUi.getState().selected));
+}
+
+/** Behind the step that it was chosen for, while that stands there, else at the end of the branch. */
+function placeNow(document: ProgramDocument): BranchRef | Goal {
+  const branch = branchNow(document);
+  const after = intoNow(document)?.after;
+  return after !== undefined && stillThere(document, { branch, after }) ? { branch, after } : branch;
 }
 
 /** Make a step, select it, and put the tool away unless it is locked. */
 export function createStep(document: ProgramDocument, apply: Apply, fresh: Omit<NewStep, "id">): string {
   const id = makeId();
-  const { into } = useUi.getState();
-  const where = into?.after === undefined ? branchNow(document) : { branch: into.branch, after: into.after };
-  apply(addStep(document, where, { ...fresh, id }));
+  apply(addStep(document, placeNow(document), { ...fresh, id }));
   useUi.setState((ui) => ({ gesture: finish(ui.gesture) }));
   select([id]);
   useUi.setState({ fresh: id, inspector: true });
@@ -69,13 +81,12 @@ function copiesOf(document: ProgramDocument, clipping: Clipping, here?: string):
 
 /** Put steps from the clipboard into the program; devices that are not known here are asked for. */
 export function pasteClipping(open: OpenProgram, clipping: Clipping, names: Names): void {
-  const { edits, added } = copiesOf(open.document, clipping, open.program.id);
-  putEdits(open, edits, added, names);
+  putEdits(open, (document) => copiesOf(document, clipping, open.program.id), names);
 }
 
 function goalNow(document: ProgramDocument): Goal {
-  const { into, selected } = useUi.getState();
-  const last = lastChosen(document, selected);
+  const into = intoNow(document);
+  const last = lastChosen(document, useUi.getState().selected);
   const branch = last === null ? null : branchOf(document, last);
   if (!into && branch && branch.branch !== EVENTS.branch) return { branch, after: last };
   return endOfBranch(document, into?.branch ?? branchForNew(document, last));

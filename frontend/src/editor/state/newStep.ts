@@ -10,7 +10,7 @@ import { zoneAt } from "@/program/scene/coverLanes";
 import { outerBox } from "@/program/scene/scene";
 import { operable } from "@/program/operation";
 import { deviceBox, type SiteDevice } from "@/program/surroundings";
-import { branchNow, createStep } from "./actions";
+import { branchNow, createStep, intoNow } from "./actions";
 import type { OpenProgram } from "./context";
 import { freeSpot } from "./freeSpot";
 import { chooseBranch, openBranchAt } from "./nextPlace";
@@ -116,9 +116,8 @@ function onlyZone(document: ProgramDocument): string | null {
 
 /** A step for a frame's body goes under what stands there already. */
 function insideFrame(open: OpenProgram): Point | null {
-  const { into } = useUi.getState();
   const branch = branchNow(open.document);
-  if (!into || branch.branch !== "body") return null;
+  if (!intoNow(open.document) || branch.branch !== "body") return null;
   const last = open.scene.tree.children(branch.parent, "body").at(-1);
   const box = outerBox(open.scene, last ?? branch.parent);
   return box ? spotBelow(box) : null;

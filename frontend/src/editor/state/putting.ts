@@ -1,5 +1,6 @@
 /** Steps from elsewhere put into the program: at once, or after a list has asked who stands in for unknown devices. */
 import { create } from "zustand";
+import type { ProgramDocument } from "@/program/document/document";
 import type { Edit } from "../edits/edits";
 import { type Chosen, strangersIn, type Stranger, withChosen } from "../edits/holes";
 import type { OpenProgram } from "./context";
@@ -23,11 +24,10 @@ export function putWith(strangers: readonly Stranger[], put: (chosen: Chosen) =>
   return useUi.setState({ dialog: "strangers" });
 }
 
-/** One edit, and one entry to undo. */
+/** One edit, and one entry to undo; made of the program as it is when it is put in. */
 export function putEdits(
-  { devices, plan, apply }: Pick<OpenProgram, "devices" | "plan" | "apply">,
-  edits: readonly Edit[],
-  added: readonly string[],
+  { document, shared, devices, plan, apply }: OpenProgram,
+  make: (document: ProgramDocument) => { readonly edits: readonly Edit[]; readonly added: readonly string[] },
   names: Names,
 ): void {
   const known = {
@@ -35,7 +35,8 @@ export function putEdits(
     places: new Set((plan?.places ?? []).map(({ id }) => id)),
     names,
   };
-  putWith(strangersIn(edits, known), (chosen) => {
+  putWith(strangersIn(make(document).edits, known), (chosen) => {
+    const { edits, added } = make(shared.getDocument());
     apply(withChosen(edits, chosen));
     select(added);
   });

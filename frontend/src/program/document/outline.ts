@@ -59,7 +59,8 @@ function placeOf(document: ProgramDocument, id: string): GoodPlace | null {
   return takes(document, parent, branch, step.kind) ? [parent, branch, order] : null;
 }
 
-function takes(document: ProgramDocument, parent: string, branch: string, kind: string): boolean {
+/** Whether a branch is there that takes a step of this kind. */
+export function takes(document: ProgramDocument, parent: string, branch: string, kind: string): boolean {
   const above = Object.hasOwn(document.steps, parent) ? document.steps[parent] : undefined;
   if (above && isStepKind(above.kind)) return kind !== "on_event" && branchesOf(above).includes(branch);
   if (kind === "on_event") return parent === "program" && branch === "events";
