@@ -3,6 +3,7 @@ import { expect, test } from "vitest";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step, type StepKind } from "@/program/document/document";
 import { readTree } from "@/program/document/tree";
 import { applyEdits } from "../edits/edits";
+import { decideJoin } from "../gestures/connection";
 import { beside, decideMove, ownSpot, type Spot, spotsFor } from "./goals";
 
 function step(kind: StepKind, place: Step["place"]): Step {
@@ -71,4 +72,19 @@ test("a list has hard ends", () => {
   expect([beside(0, -1, 3), beside(2, 1, 3), beside(1, 1, 3), beside(1, Infinity, 3), beside(1, -Infinity, 3)]).toEqual(
     [0, 2, 2, 2, 0],
   );
+});
+
+test("however many spots there are, the program is read once for them", () => {
+  let count = 0;
+  const functions = new Proxy({}, { ownKeys: () => ((count += 1), []) });
+  const ids = Array.from({ length: 40 }, (_, at) => `step${at + 10}`);
+  const steps = Object.fromEntries(ids.map((id) => [id, step("wait", ["program", "body", id])]));
+  const many = { ...EMPTY_DOCUMENT, functions, steps };
+  readTree({ ...many });
+  const once = count;
+  const spots = spotsFor(many, ["step10"]);
+  expect(spots).toHaveLength(40);
+  expect(ownSpot(many, ["step10"], spots)).toBe(0);
+  for (const id of ids) decideJoin(many, "step10", id);
+  expect(count).toBe(2 * once + 1); // and once for the functions' own spots
 });

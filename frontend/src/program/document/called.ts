@@ -1,9 +1,9 @@
 /** Which functions steps call, and which steps stand for themselves beside the calls of their functions. */
 import { textOf, type ProgramDocument } from "./document";
-import { ancestors, EVENTS, outermost, type ProgramTree, readTree, withDescendants } from "./tree";
+import { ancestors, EVENTS, outermost, readTree, withDescendants } from "./tree";
 
 /** The functions that steps and all inside them call, and those that these call. */
-export function calledBy(document: ProgramDocument, ids: Iterable<string>, tree = readTree(document)): Set<string> {
+export function calledBy(document: ProgramDocument, ids: Iterable<string>): Set<string> {
   const found = new Set<string>();
   let left = withDescendants(document, ids);
   while (left.size > 0) {
@@ -11,30 +11,26 @@ export function calledBy(document: ProgramDocument, ids: Iterable<string>, tree 
     const names = calls.map(({ params }) => textOf(params.function));
     const fresh = names.filter((id) => Object.hasOwn(document.functions, id) && !found.has(id));
     for (const id of fresh) found.add(id);
-    left = bodiesOf(document, fresh, tree);
+    left = bodiesOf(document, fresh);
   }
   return found;
 }
 
 /** All steps of the functions. */
-export function bodiesOf(
-  document: ProgramDocument,
-  functions: Iterable<string>,
-  tree = readTree(document),
-): Set<string> {
+export function bodiesOf(document: ProgramDocument, functions: Iterable<string>): Set<string> {
+  const tree = readTree(document);
   const tops = [...functions].flatMap((id) => tree.children(id, "body"));
   return withDescendants(document, tops);
 }
 
 /** Leave out those that stand inside another one of them, or in a function that another one of them calls. */
 export function standingAlone(document: ProgramDocument, ids: readonly string[]): string[] {
-  let tree: ProgramTree | undefined;
   const topOf = (id: string) => ancestors(document, id).at(-1) ?? "";
   let kept = outermost(document, ids);
   for (const top of new Set(kept.map(topOf))) {
     if (!Object.hasOwn(document.functions, top)) continue;
     const others = kept.filter((id) => topOf(id) !== top);
-    if (calledBy(document, others, (tree ??= readTree(document))).has(top)) kept = others;
+    if (calledBy(document, others).has(top)) kept = others;
   }
   return kept;
 }

@@ -44,3 +44,11 @@ test("a try has a body, a catch and a finally; every loop has a body", () => {
     Array(4).fill(["body"]),
   );
 });
+
+test("a document is read once, and what has become of it anew", () => {
+  const document = documentOf({ move: step("move", ["program", "body", "V"]) });
+  expect(readTree(document)).toBe(readTree(document));
+  const more = { ...document, steps: { ...document.steps, wait: step("wait", ["program", "body", "W"]) } };
+  expect(readTree(more).reading).toEqual(["move", "wait"]);
+  expect(readTree(document).reading).toEqual(["move"]);
+});

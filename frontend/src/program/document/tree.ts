@@ -26,7 +26,18 @@ export const EVENTS: BranchRef = { parent: "program", branch: "events" };
 
 export { branchesOf };
 
+/** Documents never change in place: each is read once. */
+const READ = new WeakMap<ProgramDocument, ProgramTree>();
+
 export function readTree(document: ProgramDocument): ProgramTree {
+  const known = READ.get(document);
+  if (known) return known;
+  const tree = treeOf(document);
+  READ.set(document, tree);
+  return tree;
+}
+
+function treeOf(document: ProgramDocument): ProgramTree {
   const outline = makeOutline(document);
   const depths = new Map<string, number>();
   const visit = (ids: readonly string[], depth: number, into: string[]) => {
