@@ -1,6 +1,7 @@
 /** The library's functions, to be brought into this program and called at once. */
 import { Button, Modal, TextInput } from "@mantine/core";
 import { useDebouncedValue } from "@mantine/hooks";
+import { useMutation } from "@tanstack/react-query";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
@@ -55,16 +56,22 @@ function Search({ asked, onDone }: { asked: string | null; onDone: () => void })
   const [text, setText] = useState("");
   const [query] = useDebouncedValue(text, 200);
   const found = useFound(open.site.slug, query, asked);
-  const choose = async (entry: LibraryFunction) => {
-    try {
+  const fetching = useMutation({
+    mutationFn: async (entry: LibraryFunction) => {
       const full = entry.definition ? entry : await api.get<LibraryFunction>(`/library/${entry.id}`);
       await keepVersion(open);
-      bringIn(open, full);
-      onDone();
-    } catch (problem) {
-      say(problem instanceof Error ? problem.message : t("library.failed"));
-    }
-  };
+      return full;
+    },
+  });
+  // What is told to `mutate` comes to nothing once the dialog has gone.
+  const choose = (entry: LibraryFunction) =>
+    fetching.mutate(entry, {
+      onSuccess: (full) => {
+        bringIn(open, full);
+        onDone();
+      },
+      onError: (problem) => say(problem instanceof Error ? problem.message : t("library.failed")),
+    });
   return (
     <div className={classes.content}>
       <TextInput
@@ -78,7 +85,12 @@ function Search({ asked, onDone }: { asked: string | null; onDone: () => void })
       <ul className={classes.functions}>
         {(found.data ?? []).map((entry) => (
           <li key={entry.id}>
-            <button type="button" className={classes.function} onClick={() => void choose(entry)}>
+            <button
+              type="button"
+              className={classes.function}
+              disabled={fetching.isPending}
+              onClick={() => choose(entry)}
+            >
               <strong>{`${entry.name} v${entry.version}`}</strong>
               {entry.site === open.site.slug ? null : <span>{t("library.of_site", { site: entry.site })}</span>}
               <span>{entry.description || entry.parameters.map((each) => each.name).join(", ")}</span>
@@ -104,7 +116,8 @@ async function keepVersion({ shared, program }: ReturnType<typeof useOpenProgram
 
 /** One entry to undo: the definition, its steps and the call. */
 function bringIn(open: ReturnType<typeof useOpenProgram>, entry: LibraryFunction): void {
-  const { document, apply, t } = open;
+  const { shared, apply, t } = open;
+  const document = shared.getDocument();
   const known = alreadyImported(document, entry.id, entry.version);
   const source = { library: entry.id, version: entry.version };
   const fresh = known ? null : importFunction(document, entry.definition, source, makeId);
