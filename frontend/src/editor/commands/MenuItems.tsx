@@ -3,6 +3,7 @@ import { Menu } from "@mantine/core";
 import { Fragment } from "react";
 import { useTranslation } from "react-i18next";
 import { wordsOfKeys } from "@/shell/keys/keyNames";
+import { useOpenProgram } from "../state/context";
 import { type MenuItem, type OpenMenu, useGestures } from "../state/gestures";
 import classes from "../canvas/gestures.module.css";
 
@@ -27,10 +28,11 @@ export function MenuItems({ menu }: { menu: OpenMenu }) {
 
 function Item({ item, close }: { item: MenuItem; close: () => void }) {
   const { t } = useTranslation();
+  const open = useOpenProgram();
   const { icon: Icon, keys } = item;
   const run = () => {
     close();
-    item.run();
+    item.run(open);
   };
   return (
     <Menu.Item

@@ -1,4 +1,5 @@
 /** One record for each command: toolbar, menus, keys, palette, help sheet and tests are made from these. */
+import i18next from "i18next";
 import { createElement, type ComponentType } from "react";
 import { VipoIcon } from "@/design/VipoIcon";
 import type { Point } from "@/map/plane/projection";
@@ -10,7 +11,7 @@ import { settle } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { useGestures } from "../state/gestures";
 import { ZONE_TOOL } from "../state/tools";
-import { useUi } from "../state/ui";
+import { say, useUi } from "../state/ui";
 
 /** What a command is about: what was pressed for a menu, else what is selected. */
 export interface On {
@@ -71,6 +72,13 @@ export function command(wanted: Wanted): Command {
 /** What is selected now. */
 export function selection(): On {
   return { steps: useUi.getState().selected, zone: useGestures.getState().zone, device: null, link: null, at: null };
+}
+
+/** What a button, a menu or the palette does. */
+export function runCommand(open: OpenProgram, command: Command, on = selection()): void {
+  const reason = command.whyNot(open, on);
+  if (reason === null) command.run(open, on);
+  else say(i18next.t(reason));
 }
 
 export function holds(situation: Situation): boolean {

@@ -9,6 +9,8 @@ import { say, useUi } from "../state/ui";
 import { holds, selection, SITUATIONS, type Command, type Situation } from "./command";
 import { COMMANDS } from "./table";
 
+export { runCommand } from "./command";
+
 /** The command that the keys mean now: the one of the narrowest situation that holds. */
 export function commandOfKeys(
   keys: string,
@@ -66,11 +68,4 @@ function runByKeys(open: OpenProgram, command: Command, keys: string, target: Ev
   if (reason === null) return command.run(open, on) !== false;
   say(i18next.t(reason));
   return true;
-}
-
-/** What a button, a menu or the palette does. */
-export function runCommand(open: OpenProgram, command: Command, on = selection()): void {
-  const reason = command.whyNot(open, on);
-  if (reason === null) command.run(open, on);
-  else say(i18next.t(reason));
 }

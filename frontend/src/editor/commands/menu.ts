@@ -1,11 +1,12 @@
 /** Menus: right click, long press, Menu key, over whatever is there. */
 import i18next from "i18next";
+import { toMetres } from "@/map/plane/projection";
 import { keysOf, useKeymap } from "@/shell/keys/keymap";
 import type { OpenProgram } from "../state/context";
 import { useGestures, type MenuItem } from "../state/gestures";
 import { onScreen, underPointer, type Under } from "../state/under";
 import { select, useUi } from "../state/ui";
-import { type Command, GROUPS, type MenuOf, type On, selection } from "./command";
+import { type Command, GROUPS, type MenuOf, type On, runCommand, selection } from "./command";
 
 interface WindowPoint {
   readonly x: number;
@@ -23,7 +24,7 @@ export function itemsOf(commands: readonly Command[], menu: MenuOf, open: OpenPr
       icon: each.icon,
       group: each.group,
       keys: keysOf(each, keymap)[0],
-      run: () => void each.run(open, on),
+      run: (now) => runCommand(now, each, on),
     }));
 }
 
@@ -62,8 +63,7 @@ export function showMenuByKey(commands: readonly Command[], open: OpenProgram, t
   const box = row?.getBoundingClientRect();
   if (chip) {
     const under = { step: chip.id, link: null, device: null, at: [0, 0] as const };
-    const place = open.document.steps[chip.id]?.pos ?? [0, 0];
-    showMenu(commands, open, menuOver(under), box ? { x: box.left + 24, y: box.bottom } : onScreen(place));
+    showMenu(commands, open, menuOver(under), box ? { x: box.left + 24, y: box.bottom } : onScreen(toMetres(chip.at)));
     return true;
   }
   const at = midOfMap();

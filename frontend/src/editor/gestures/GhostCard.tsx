@@ -25,7 +25,7 @@ export function GhostCard({ ghost }: { ghost: Ghost }) {
     select([ghost.id]);
   };
   return (
-    <FloatAt at={toPixels(step.pos ?? [1, -1])}>
+    <FloatAt at={ghost.at ?? toPixels(step.pos ?? [1, -1])}>
       <div className={classes.ghost} role="alert">
         {remover ? t(`${words}by`, { name: remover.name }) : t(`${words}by_somebody`)}
         <button type="button" onClick={keep}>

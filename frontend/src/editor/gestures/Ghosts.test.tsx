@@ -32,7 +32,8 @@ function remove(brought: Record<string, Step>, gone = ["a", "call"], unsaved = f
     isUnsaved: (id: string) => unsaved && id === "a",
   };
   // Whoever may not edit is shown none, and so no map is needed here.
-  const open = { document, shared, canEdit: false } as unknown as OpenProgram;
+  const scene = { chips: new Map([["a", { at: { x: 60, y: 40 } }]]) };
+  const open = { document, shared, scene, canEdit: false } as unknown as OpenProgram;
   select(["a", "b"]);
   render(
     <ProgramContext value={open}>
@@ -57,4 +58,9 @@ test("one whose function is expanded, and that the same change brings under anot
 
 test("a change of it that the copy does not have is told all the same", () => {
   expect(remove({ d: wait(1) }, ["a", "call"], true)).toEqual({ ghosts: ["a"], selected: ["d", "b"] });
+});
+
+test("its words stand where it was drawn, also where it has no place of its own", () => {
+  remove({}, ["a"]);
+  expect(useGestures.getState().ghosts[0]?.at).toEqual({ x: 60, y: 40 });
 });

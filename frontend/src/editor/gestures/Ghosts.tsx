@@ -1,9 +1,8 @@
 /** Steps that somebody else took away while this person had them selected or had changed them: still there to be kept. */
 import { Suspense, useEffect } from "react";
 import { beside } from "@/design/useFetchLater";
-import type { SharedProgram } from "../shared/sharedProgram";
 import { outermost } from "@/program/document/tree";
-import { useOpenProgram } from "../state/context";
+import { type OpenProgram, useOpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";
 import { useGestures, type Ghost } from "../state/gestures";
 import type { ProgramDocument } from "@/program/document/document";
@@ -14,9 +13,9 @@ import { copiesOf, keptOf } from "./keptSteps";
 const GhostCard = beside(async () => (await import("./GhostCard")).GhostCard);
 
 export function Ghosts() {
-  const { shared, canEdit } = useOpenProgram();
+  const { shared, scene, canEdit } = useOpenProgram();
   const ghosts = useGestures((ui) => ui.ghosts);
-  useEffect(() => shared.onRemoval((...change) => keepGhosts(shared, ...change)), [shared]);
+  useEffect(() => shared.onRemoval((...change) => keepGhosts({ shared, scene }, ...change)), [shared, scene]);
   return canEdit ? (
     <Suspense fallback={null}>
       {ghosts.map((ghost) => (
@@ -27,7 +26,11 @@ export function Ghosts() {
 }
 
 /** The document that others read is still the one before: it is read anew only when the transaction has ended. */
-function keepGhosts(shared: SharedProgram, gone: readonly string[], brought: ProgramDocument["steps"]): void {
+function keepGhosts(
+  { shared, scene }: Pick<OpenProgram, "shared" | "scene">,
+  gone: readonly string[],
+  brought: ProgramDocument["steps"],
+): void {
   const before = shared.getDocument();
   const { selected } = useUi.getState();
   const copies = copiesOf(before, gone, brought);
@@ -39,7 +42,10 @@ function keepGhosts(shared: SharedProgram, gone: readonly string[], brought: Pro
   );
   const stays = selected.flatMap((id) => (gone.includes(id) ? (copies.get(id) ?? []) : [id]));
   if (lost.length === 0 && isSameValue(stays, selected)) return;
-  const fresh = lost.map((id): Ghost => ({ id, steps: keptOf(before, id, gone), changed: shared.isUnsaved(id) }));
+  const fresh = lost.map((id): Ghost => {
+    const at = scene.chips.get(id)?.at;
+    return { id, steps: keptOf(before, id, gone), at, changed: shared.isUnsaved(id) };
+  });
   useGestures.setState(({ ghosts }) => ({ ghosts: [...ghosts.filter(({ id }) => !lost.includes(id)), ...fresh] }));
   select(stays);
 }

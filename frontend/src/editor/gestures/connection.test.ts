@@ -1,10 +1,14 @@
 import { expect, test } from "vitest";
 import { START_ID } from "@/program/canvas/buildNodes";
-import { EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/document";
+import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
 import type { Chip } from "@/program/scene/chips";
 import { boxAt } from "@/program/scene/geometry";
 import { joinTarget } from "@/program/canvas/snapping";
-import { decideJoin } from "./connection";
+import { readTree } from "@/program/document/tree";
+import { applyEdits, type Edit } from "../edits/edits";
+import type { OpenProgram } from "../state/context";
+import { useGestures } from "../state/gestures";
+import { decideJoin, joinByDot } from "./connection";
 
 const chip = (id: string, x: number) =>
   [id, { id, at: { x, y: 0 }, box: boxAt({ x, y: 0 }, 100, 28) } as Chip] as const;
@@ -27,4 +31,33 @@ test("an arrow out of the start makes its step the first", () => {
   const decision = decideJoin(document, START_ID, "b");
   expect("edits" in decision && decision.edits.map((edit) => "id" in edit && edit.id)).toEqual(["b"]);
   expect(decideJoin(document, "a", "b")).toHaveProperty("edits");
+});
+
+test("a branch that is chosen for an arrow is one of the program as it is then", () => {
+  const step = (kind: string, order: string): Step => {
+    return { kind, place: ["program", "body", order], pos: null, params: {} };
+  };
+  let document: ProgramDocument = {
+    ...EMPTY_DOCUMENT,
+    steps: { hot: step("if", "A"), wait: step("wait", "B"), last: step("wait", "C") },
+  };
+  const said: string[] = [];
+  const open = () => {
+    const apply = (edits: readonly Edit[]) => (document = applyEdits(document, edits));
+    return { document, apply, t: (key: string) => (said.push(key), key) } as unknown as OpenProgram;
+  };
+  const choose = (id: string, meanwhile: Edit) => {
+    joinByDot(open(), "hot", "last", { x: 0, y: 0 });
+    document = applyEdits(document, [meanwhile]);
+    useGestures
+      .getState()
+      .menu?.items.find((each) => each.id === id)
+      ?.run(open());
+  };
+  choose("then", { do: "set_place", id: "wait", place: ["hot", "then", "A"] });
+  expect(readTree(document).children("hot", "then").toSorted()).toEqual(["last", "wait"]);
+  expect(document.steps.last?.place?.[2]).not.toBe(document.steps.wait?.place?.[2]);
+  choose("else", { do: "remove_step", id: "hot" });
+  expect(document.steps.last?.place?.slice(0, 2)).toEqual(["hot", "then"]);
+  expect(said).toContain("refused.gone");
 });

@@ -25,12 +25,12 @@ export function joinByDot(open: OpenProgram, from: string, to: string, at: { x: 
   const into = branches.map((branch): MenuItem => ({
     id: branch,
     label: branchWord(branch, step, t),
-    run: () => settle(open, moveStep(document, to, { parent: from, branch }, null)),
+    run: (now) => settle(now, moveStep(now.document, to, { parent: from, branch }, null)),
   }));
-  const behind = {
+  const behind: MenuItem = {
     id: "after",
     label: t("gesture.join.after"),
-    run: () => settle(open, decideJoin(document, from, to)),
+    run: (now) => settle(now, decideJoin(now.document, from, to)),
   };
   useGestures.setState({ menu: { at, label: t("gesture.join.which"), items: [...into, behind] } });
 }

@@ -1,7 +1,9 @@
 /** What gestures keep on one person's screen: the open menu, the zone in hand, ghosts, whose view is followed. */
 import type { ComponentType } from "react";
 import { create } from "zustand";
+import type { OpenProgram } from "./context";
 import { select } from "./ui";
+import type { PixelPoint } from "@/map/plane/paths";
 import type { Position, Step } from "@/program/document/document";
 
 export interface MenuItem {
@@ -11,7 +13,8 @@ export interface MenuItem {
   readonly icon?: ComponentType<{ size?: number }>;
   /** Items of one group stand together. */
   readonly group?: string;
-  readonly run: () => void;
+  /** With the program as it is when the item is chosen, not when the menu opened. */
+  readonly run: (now: OpenProgram) => void;
 }
 
 export interface OpenMenu {
@@ -26,6 +29,8 @@ export interface Ghost {
   readonly id: string;
   /** The step, and what stood in it and went with it, as they were. */
   readonly steps: Readonly<Record<string, Step>>;
+  /** Where it was drawn, in drawing pixels; nothing where it was not, in a closed frame, say. */
+  readonly at?: PixelPoint;
   /** A change of this person's went with it, made without a connection, say. */
   readonly changed: boolean;
 }
