@@ -5,6 +5,7 @@ import { CircleAlert } from "lucide-react";
 import { useRef, useState } from "react";
 import { useNavigate } from "react-router-dom";
 import { keys } from "@/api/queries";
+import type { ProgramDocument } from "@/program/document/document";
 import { problemText } from "@/shell/LoadProblem";
 import type { Reason } from "../shared/refusal";
 import { useOpenProgram } from "../state/context";
@@ -69,14 +70,18 @@ function useDiscard(reason: Reason) {
 
 /** A program of the same site from what is on this screen; then the copy here has done its work. */
 function useSave() {
-  const { t, shared, site, program, document } = useOpenProgram();
+  const { t, shared, site, program } = useOpenProgram();
   const queries = useQueryClient();
   const navigate = useNavigate();
   const made = useRef<string | null>(null); // another try fills the program that the first one has made
   return useMutation({
     mutationFn: async () => {
       made.current ??= (await makeProgram(site.slug, t("not_taken.name", { name: program.name }).slice(0, 100))).id;
-      await fillProgram(made.current, document);
+      // What is drawn meanwhile is a part of it, too.
+      for (let sent: ProgramDocument | null = null; sent !== shared.getDocument();) {
+        sent = shared.getDocument();
+        await fillProgram(made.current, sent);
+      }
       await shared.discard();
       return made.current;
     },
