@@ -1,11 +1,10 @@
 /** Commands that take steps away, bring them back, copy and shift them. */
 import { ClipboardPaste, Copy, CopyPlus, Move, Redo2, Scissors, Trash2, Undo2 } from "lucide-react";
 import type { Position } from "@/program/document/document";
-import { copyToSystem, pasteCopied } from "../gestures/clipboard";
+import { copyToSystem, hasCopied, pasteCopied } from "../gestures/clipboard";
 import { duplicateSelected, nudgeSelected, removeSelected } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { useGestures } from "../state/gestures";
-import { useUi } from "../state/ui";
 import { doAndSay, goBack } from "../state/undoing";
 import { removeZone } from "../zones/zoneTool";
 import { command, needsRight, needsSteps, type Command, type On } from "./command";
@@ -91,7 +90,7 @@ export const EDIT_COMMANDS: readonly Command[] = [
     fixed: true,
     byBrowser: true,
     menus: ["floor"],
-    whyNot: (open, on) => needsRight(open, on) ?? (useUi.getState().clipboard ? null : "commands.why.nothing_copied"),
+    whyNot: (open, on) => needsRight(open, on) ?? (hasCopied() ? null : "commands.why.nothing_copied"),
     run: pasteCopied,
   }),
   command({

@@ -1,7 +1,11 @@
+// @vitest-environment jsdom
 import { expect, test } from "vitest";
 import { clip, clippingToText } from "../edits/clipping";
 import { EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/document";
-import { drawnAs } from "./clipboard";
+import type { OpenProgram } from "../state/context";
+import { answerWaiting, useWaiting } from "../state/putting";
+import { select, useUi } from "../state/ui";
+import { copyToSystem, drawnAs, hasCopied, pasteCopied } from "./clipboard";
 
 const document: ProgramDocument = {
   ...EMPTY_DOCUMENT,
@@ -25,4 +29,28 @@ test("other script is not, and neither is anything where nothing sound is kept",
 
 test("a clipping as text is taken as before", () => {
   expect(drawnAs(drawn, null)?.clipping.outer).toEqual(["a"]);
+});
+
+test("the menu pastes what was copied before the page was opened anew, with the names of what it is about", () => {
+  const steps: ProgramDocument["steps"] = {
+    bake: { kind: "operate", place: ["program", "body", "A"], pos: [3, -4], params: { device: { device: "oven" } } },
+  };
+  const from = { ...EMPTY_DOCUMENT, steps };
+  const open = (document: ProgramDocument, devices: { id: string; name: string }[]) => {
+    const shared = { getSaving: () => ({ waiting: 1 }), getDocument: () => document };
+    return { document, devices, shared, program: { id: "a" }, plan: null } as unknown as OpenProgram;
+  };
+  const asksFor = () => {
+    pasteCopied(open(EMPTY_DOCUMENT, []));
+    const names = useWaiting.getState().waiting?.strangers.map(({ name }) => name);
+    answerWaiting(null);
+    return names;
+  };
+  useUi.setState({ clipboard: null });
+  expect([hasCopied(), asksFor()]).toEqual([false, undefined]);
+  select(["bake"]);
+  copyToSystem(open(from, [{ id: "oven", name: "Big oven" }]), false);
+  expect([hasCopied(), asksFor()]).toEqual([true, ["Big oven"]]);
+  useUi.setState({ clipboard: null });
+  expect([hasCopied(), asksFor()]).toEqual([true, ["Big oven"]]);
 });

@@ -8,7 +8,7 @@ import { pasteClipping, removeSelected } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { isTyping } from "../state/focus";
 import type { Names } from "../state/putting";
-import { useUi } from "../state/ui";
+import { type EditorUi, useUi } from "../state/ui";
 
 /** From a menu: the system's clipboard may refuse, this browser's memory does not. */
 export function copyToSystem(open: OpenProgram, cut: boolean): void {
@@ -23,8 +23,9 @@ function takeSelected(open: OpenProgram, cut: boolean): string | null {
   const clipping = clip(document, selected, open.program.id);
   const drawn = clippingToText(clipping);
   const text = scriptOf(open, clipping) ?? drawn;
-  keepDrawn({ text, drawn, names: namesOf(open) });
-  useUi.setState({ clipboard: clipping });
+  const names = namesOf(open);
+  keepDrawn({ text, drawn, names });
+  useUi.setState({ clipboard: { clipping, names } });
   if (cut && canEdit) removeSelected(document, apply, clipping.outer);
   return text;
 }
@@ -63,14 +64,27 @@ function keepDrawn(kept: Kept): void {
   }
 }
 
+function readKept(): string | null {
+  try {
+    return localStorage.getItem(placeOfKept());
+  } catch {
+    return null;
+  }
+}
+
+type Copied = EditorUi["clipboard"];
+
 /** What was drawn as this text, if it was copied in this browser. */
-export function drawnAs(text: string, kept: string | null): { clipping: Clipping; names: Names } | null {
+export function drawnAs(text: string, kept: string | null): Copied {
   const direct = clippingFromText(text);
   if (direct) return { clipping: direct, names: {} };
+  return drawnIn(kept, (copied) => copied.trim() === text.replaceAll("\r\n", "\n").trim());
+}
+
+function drawnIn(kept: string | null, isMeant: (text: string) => boolean): Copied {
   try {
     const found = JSON.parse(kept ?? "null") as Kept | null;
-    const same = found?.text.trim() === text.replaceAll("\r\n", "\n").trim();
-    const clipping = found && same ? clippingFromText(found.drawn) : null;
+    const clipping = found && isMeant(found.text) ? clippingFromText(found.drawn) : null;
     return clipping ? { clipping, names: found?.names ?? {} } : null;
   } catch {
     return null;
@@ -80,15 +94,25 @@ export function drawnAs(text: string, kept: string | null): { clipping: Clipping
 type PasteText = (open: OpenProgram, text: string) => boolean;
 
 function putText(open: OpenProgram, text: string, pasteText: PasteText): void {
-  const drawn = drawnAs(text, localStorage.getItem(placeOfKept()));
-  if (drawn) pasteClipping(open, drawn.clipping, drawn.names);
-  else if (!pasteText(open, text)) pasteCopied(open);
+  const drawn = drawnAs(text, readKept());
+  if (drawn) putCopied(open, drawn);
+  else if (!pasteText(open, text)) putCopied(open, useUi.getState().clipboard);
 }
 
-/** What was copied here last: from a menu the system's clipboard cannot be read without asking. */
+function putCopied(open: OpenProgram, copied: Copied): void {
+  if (copied) pasteClipping(open, copied.clipping, copied.names);
+}
+
+export function hasCopied(): boolean {
+  return useUi.getState().clipboard !== null || readKept() !== null;
+}
+
+/**
+ * What was copied here last, before this page was opened, too: from a menu the system's clipboard cannot be read
+ * without asking.
+ */
 export function pasteCopied(open: OpenProgram): void {
-  const { clipboard } = useUi.getState();
-  if (clipboard) pasteClipping(open, clipboard, {});
+  putCopied(open, useUi.getState().clipboard ?? drawnIn(readKept(), () => true));
 }
 
 /** The browser's own events of Ctrl+C, X and V, wherever no field has them; `pasteText` takes what is no clipping. */

@@ -75,7 +75,8 @@ export interface EditorUi {
   /** What "find" begins with: the id of a device, or nothing. */
   find: string;
   fieldPick: FieldPick | null;
-  clipboard: Clipping | null;
+  /** What was copied here last, and what people call the devices and places in it. */
+  clipboard: { readonly clipping: Clipping; readonly names: Readonly<Record<string, string>> } | null;
   collapsed: ReadonlySet<string>;
   toast: { readonly text: string; readonly offer: Offer | null; readonly at: number } | null;
 }
