@@ -1,15 +1,13 @@
 /** The editor: a program drawn on its map, by several people at once. */
-import { memo, useCallback, useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
+import { memo, useCallback, useEffect, useMemo, useState, useSyncExternalStore } from "react";
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
 import { useDevices, useMe, useProgram, useSite, useSiteMap } from "@/api/queries";
 import { mayOperate } from "@/api/roles";
 import type { Device, Program, Site, User } from "@/api/types";
-import { activityWords } from "@/i18n/activity";
 import { useAsHeld } from "@/live/held";
 import { useSiteLive } from "@/live/site";
-import { isRobot, progressOf } from "@/map/devices/device";
 import { useEditorText, useScene } from "@/program/canvas/useScene";
 import { openKeymap } from "@/shell/keys/keymap";
 import { LoadProblem } from "@/shell/LoadProblem";
@@ -23,6 +21,7 @@ import { loadDrawer } from "./parts/Drawer";
 import { SharedProgram } from "./shared/sharedProgram";
 import { type OpenProgram, ProgramContext } from "./state/context";
 import { usePeople, useShowSelection } from "./state/presence";
+import { useQuietDevices } from "./state/quietDevices";
 import { resetUi, useUi } from "./state/ui";
 
 export function EditorScreen() {
@@ -200,28 +199,4 @@ function Loaded({ program, site, devices: live, shared, canEdit, user, openAnew 
       <Workspace />
     </ProgramContext>
   );
-}
-
-export function useQuietDevices(devices: Device[]): readonly Device[] {
-  const kept = useRef<{ print: string; devices: readonly Device[] }>({ print: "", devices: [] });
-  const print = JSON.stringify(devices.map(lookOf));
-  if (kept.current.print !== print) kept.current = { print, devices };
-  return kept.current.devices;
-}
-
-/** Robots are drawn from their live poses, so theirs do not count here. */
-function lookOf(device: Device): unknown[] {
-  const { x, y, theta } = device.location;
-  const progress = progressOf(device);
-  return [
-    device.id,
-    device.name,
-    device.status,
-    device.lifecycle,
-    isRobot(device) ? null : [x, y, theta, activityWords(device)],
-    progress === null ? null : Math.round(progress * 20),
-    device.methods.length,
-    device.gives,
-    device.takes,
-  ];
 }
