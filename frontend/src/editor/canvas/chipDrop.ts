@@ -55,11 +55,13 @@ function carried(open: OpenProgram, moved: readonly { id: string; at: Point }[])
 function joined(open: OpenProgram, id: string, at: Point): Dropped {
   const { document, scene, t } = open;
   const point = toPixels(at);
+  // What comes along is drawn where it stood, and is no goal there.
+  const moving = new Set([id, ...takenAlong(open, id)]);
   const link = scene.links.find((each) => {
-    if (each.from === id || each.to === id || each.into.parent === id) return false;
+    if ([each.from, each.to, each.into.parent].some((end) => end !== null && moving.has(end))) return false;
     return (nearestOn(each.points, point)?.off ?? Infinity) < ON_LINK;
   });
-  const others = scene.frames.filter((each) => each.id !== id && document.steps[id]?.place?.[0] !== each.id);
+  const others = scene.frames.filter((each) => !moving.has(each.id) && document.steps[id]?.place?.[0] !== each.id);
   const frame = frameAt(others, point);
   const goal = link
     ? { branch: link.into, after: link.after }
