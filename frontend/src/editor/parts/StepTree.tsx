@@ -30,7 +30,7 @@ export function StepTree() {
   const go = (id: string | undefined) => {
     if (!id) return;
     select([id]);
-    list.current?.querySelector<HTMLElement>(`[data-step="${id}"]`)?.focus();
+    list.current?.querySelector<HTMLElement>(`[data-step="${CSS.escape(id)}"]`)?.focus();
   };
   /** At its ends the list stops, and says so. */
   const walk = (from: number, by: number) => {
