@@ -107,8 +107,15 @@ function UndoButtons() {
   );
 }
 
-function People() {
+/** So many people have a picture; the others are named behind them. */
+const MOST_SHOWN = 6;
+
+export function People() {
   const { people, t, shared } = useOpenProgram();
+  const rest = people
+    .slice(MOST_SHOWN)
+    .map(({ name }) => name)
+    .join(", ");
   const { connection } = useSyncExternalStore(shared.subscribeSaving, shared.getSaving);
   return (
     <>
@@ -118,7 +125,7 @@ function People() {
         </span>
       )}
       {people
-        .slice(0, 6)
+        .slice(0, MOST_SHOWN)
         .map((person) =>
           person.me ? (
             <Avatar
@@ -133,6 +140,14 @@ function People() {
             <FollowButton key={person.client} person={person} />
           ),
         )}
+      {rest ? (
+        <Avatar
+          name={rest}
+          initials={`+${people.length - MOST_SHOWN}`}
+          colour="#475067"
+          title={t("people_more", { names: rest })}
+        />
+      ) : null}
     </>
   );
 }
