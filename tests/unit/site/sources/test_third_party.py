@@ -29,6 +29,7 @@ NOT_IMPORTED = {
     "import-linter": "a command",
     "mypy": "a command",
     "pytest-asyncio": "pytest loads it by itself",
+    "pytest-timeout": "pytest loads it by itself",
     "ruff": "a command",
     "sniffio": "servestatic imports it where it is there",
     "types-pyyaml": "mypy finds it by itself",
