@@ -19,6 +19,7 @@ from datetime import datetime, timedelta
 
 from django.db import DatabaseError, InterfaceError, connection, transaction
 from django.db.models import Count, F, OuterRef, Subquery
+from django.db.models.functions import Greatest
 
 from registry.devices.views import DeviceView, effective_description
 from registry.models import Device, Sample, SampleClock
@@ -225,9 +226,13 @@ def _write(taken: dict[Key, Bucket]) -> None:
 
 
 def _take_numbers(count: int) -> int:
-    """Return the first of so many numbers that nobody else gets."""
+    """Return the first of so many numbers that nobody else gets.
+
+    They follow the clock on the wall, in milliseconds: a restored backup, which knows an older number, gives none anew.
+    """
     SampleClock.objects.get_or_create(pk=1)
-    SampleClock.objects.filter(pk=1).update(next=F("next") + count)
+    at_least = Greatest(F("next"), int(time.time() * 1000))
+    SampleClock.objects.filter(pk=1).update(next=at_least + count)
     return SampleClock.objects.get(pk=1).next - count
 
 

@@ -168,9 +168,12 @@ def _numbers(agent: Agent, devices: Sequence[DeviceView]) -> Iterable[Observatio
 
 
 def _bounds(agent: Agent) -> tuple[int, int]:
-    """Return the number from which on everything is kept, and the one that the next observation will have."""
+    """Return the number from which on everything is kept, and the one that the next observation will have.
+
+    All sites share the numbers: where this one was silent, what others said is kept no shorter.
+    """
     following = next_number()
-    kept = _rows(agent.site).filter(minute__gte=first_minute(agent.at)).order_by("minute", "seq")
+    kept = Sample.objects.filter(minute__gte=first_minute(agent.at)).order_by("minute", "seq")
     return kept.values_list("seq", flat=True).first() or following, following
 
 
