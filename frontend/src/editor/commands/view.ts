@@ -1,5 +1,6 @@
 /** Commands that move the map's view. */
 import { Expand, Focus, Radio, RotateCcw, ZoomIn, ZoomOut } from "lucide-react";
+import { leastZoom } from "@/map/floor/floor";
 import type { Box } from "@/map/plane/projection";
 import { outerBox } from "@/program/scene/scene";
 import type { OpenProgram } from "../state/context";
@@ -19,7 +20,7 @@ function flight(): number {
 }
 
 /** Bring steps into the midst of the view, as near as they all fit. */
-export function showSteps({ scene }: Pick<OpenProgram, "scene">, steps: readonly string[]): boolean {
+export function showSteps({ scene, plan }: Pick<OpenProgram, "scene" | "plan">, steps: readonly string[]): boolean {
   const { stage } = useScreen.getState();
   const boxes = steps.flatMap((id) => outerBox(scene, id) ?? scene.chips.get(id)?.box ?? []);
   if (!stage || boxes.length === 0) return false;
@@ -27,7 +28,7 @@ export function showSteps({ scene }: Pick<OpenProgram, "scene">, steps: readonly
   const room = { x: Math.max(200, stage.pane.width - MARGIN.x), y: Math.max(160, stage.pane.height - MARGIN.y) };
   const zoom = Math.min(NEAREST, room.x / (around.right - around.left), room.y / (around.bottom - around.top));
   const [x, y] = [(around.left + around.right) / 2, (around.top + around.bottom) / 2];
-  void stage.flow.setCenter(x, y, { zoom: Math.max(0.2, zoom), duration: flight() });
+  void stage.flow.setCenter(x, y, { zoom: Math.max(leastZoom(plan), zoom), duration: flight() });
   return true;
 }
 

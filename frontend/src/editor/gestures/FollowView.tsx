@@ -1,5 +1,6 @@
 /** One's own view shown to the others, and somebody else's view followed until one moves the map oneself. */
 import { useEffect } from "react";
+import { type FloorPlan, leastZoom } from "@/map/floor/floor";
 import { PIXELS_PER_METRE, toMetres, toPixels } from "@/map/plane/projection";
 import { useStage } from "@/program/canvas/stageContext";
 import type { SharedProgram } from "../shared/sharedProgram";
@@ -9,9 +10,9 @@ import { useGestures } from "../state/gestures";
 const TELL_EVERY_MS = 150;
 
 export function FollowView() {
-  const { shared } = useOpenProgram();
+  const { shared, plan } = useOpenProgram();
   useTellView(shared);
-  useFollow(shared);
+  useFollow(shared, plan);
   return null;
 }
 
@@ -36,7 +37,7 @@ function useTellView(shared: SharedProgram): void {
   }, [shared, viewport, pane.width, pane.height]);
 }
 
-function useFollow(shared: SharedProgram): void {
+function useFollow(shared: SharedProgram, plan: FloorPlan | null): void {
   const { flow, pane } = useStage();
   const following = useGestures((ui) => ui.following);
   useEffect(() => {
@@ -49,12 +50,12 @@ function useFollow(shared: SharedProgram): void {
       if (!view || view.join() === last?.join()) return;
       last = view;
       const at = toPixels([view[0], view[1]]);
-      void flow.setCenter(at.x, at.y, { zoom: zoomFor(view, pane.width), duration: TELL_EVERY_MS });
+      void flow.setCenter(at.x, at.y, { zoom: zoomFor(view, pane.width, plan), duration: TELL_EVERY_MS });
     };
     go();
     shared.awareness.on("change", go);
     return () => shared.awareness.off("change", go);
-  }, [shared, following, flow, pane.width]);
+  }, [shared, plan, following, flow, pane.width]);
 }
 
 export type SharedView = readonly [x: number, y: number, width: number];
@@ -68,6 +69,6 @@ export function viewFrom(value: unknown): SharedView | null {
 }
 
 /** The zoom at which a pane shows as much from left to right, within what the map allows. */
-export function zoomFor([, , width]: SharedView, paneWidth: number): number {
-  return Math.min(3, Math.max(0.2, paneWidth / (width * PIXELS_PER_METRE)));
+export function zoomFor([, , width]: SharedView, paneWidth: number, plan: FloorPlan | null): number {
+  return Math.min(3, Math.max(leastZoom(plan), paneWidth / (width * PIXELS_PER_METRE)));
 }

@@ -1,10 +1,13 @@
 import { expect, test } from "vitest";
+import { fitViewport } from "../plane/projection";
 import {
   cellAt,
   cellBoxToPixels,
   floorMark,
   knownBox,
+  leastZoom,
   mergeCells,
+  planBox,
   wallBoxes,
   type FloorPlan,
   type MapZone,
@@ -35,6 +38,19 @@ test("the bottom row stands lowest on the screen", () => {
 
 test("unknown cells at the edge are not part of the known box", () => {
   expect(knownBox(plan).right).toBe(138);
+});
+
+test("a large map is seen as a whole, and farther away; a small one no farther than before", () => {
+  const hall = (width: number, height: number) => ({ ...plan, width, height, cells: new Uint8Array(width * height) });
+  expect([leastZoom(null), leastZoom(plan), leastZoom(hall(20, 14))]).toEqual([0.2, 0.2, 0.2]);
+  for (const [width, height] of [
+    [200, 14],
+    [20, 90],
+    [1000, 1000],
+  ] as const) {
+    const whole = fitViewport(planBox(hall(width, height)), 800, 600, { left: 36, top: 36, right: 24, bottom: 24 });
+    expect(leastZoom(hall(width, height))).toBeLessThan(0.5 * whole.zoom);
+  }
 });
 
 test("a point off the map is unknown", () => {

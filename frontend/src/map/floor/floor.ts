@@ -115,6 +115,13 @@ export function planBox(plan: FloorPlan): Box {
   return cellBoxToPixels(plan, { column: 0, row: 0, columns: plan.width, rows: plan.height });
 }
 
+/** The least zoom of a map that is moved: a fifth, or where all of a large one is seen on a small pane. */
+export function leastZoom(plan: FloorPlan | null): number {
+  if (!plan) return 0.2;
+  const { left, right, top, bottom } = planBox(plan);
+  return Math.min(0.2, 200 / (right - left), 150 / (bottom - top));
+}
+
 /** The part of the map that is known (not 255), so that a wide empty margin does not make the floor small. */
 export function knownBox(plan: FloorPlan): Box {
   let [left, right, bottom, top] = [plan.width, 0, plan.height, 0];

@@ -10,7 +10,7 @@ import {
 } from "@xyflow/react";
 import { type MouseEvent, type PointerEvent, type ReactNode, useCallback, useRef, useState } from "react";
 import { joinTarget, pointOf } from "./snapping";
-import { type FloorPlan, planBox } from "@/map/floor/floor";
+import { type FloorPlan, leastZoom, planBox } from "@/map/floor/floor";
 import { boxAround, toMetres, toPixels } from "@/map/plane/projection";
 import type { ViewportCell } from "@/map/plane/viewport";
 import { chipAt, chipsIn, lineAt, type Pieces } from "../scene/pieces";
@@ -71,7 +71,7 @@ export function StageFlow(props: StageFlowProps) {
       nodesDraggable={looks.editable && mode !== "draw"}
       nodesConnectable={looks.editable}
       zoomOnDoubleClick={false}
-      minZoom={0.2}
+      minZoom={leastZoom(props.plan)}
       maxZoom={3}
       onlyRenderVisibleElements
       nodeDragThreshold={3}
