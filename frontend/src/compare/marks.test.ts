@@ -27,6 +27,7 @@ function sceneOf(steps: Record<string, Step>): Scene {
     document,
     compiled,
     surroundings,
+    floor: null,
     routes: () => undefined,
     collapsed: new Set(),
     t,

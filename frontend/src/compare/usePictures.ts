@@ -9,7 +9,6 @@ import { wellFormed } from "@/program/document/wellFormed";
 import type { Scene } from "@/program/scene/scene";
 import type { SiteDevice, Surroundings } from "@/program/surroundings";
 import type { Translate } from "@/program/words/stepWords";
-import { floorMark } from "@/map/floor/floor";
 import { drawnScene, type Ghost, ghostsOf, type Shown, type Tile, tilesOf } from "./marks";
 
 interface Part {
@@ -43,11 +42,10 @@ function useSide(
   const document = useMemo(() => wellFormed(raw ?? EMPTY_DOCUMENT), [raw]);
   const { scene, surroundings, t } = useScene({
     site,
-    floor: floorMark(plan),
+    plan,
     document,
     compiled,
     devices,
-    places: plan?.places,
   });
   return useMemo(() => ({ document, scene, surroundings, t, compiled }), [document, scene, surroundings, t, compiled]);
 }

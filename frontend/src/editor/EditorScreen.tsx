@@ -11,7 +11,6 @@ import { useSiteLive } from "@/live/site";
 import { useEditorText, useScene } from "@/program/canvas/useScene";
 import { openKeymap } from "@/shell/keys/keymap";
 import { LoadProblem } from "@/shell/LoadProblem";
-import { floorMark } from "@/map/floor/floor";
 import { useTitle } from "@/shell/useTitle";
 import classes from "./editor.module.css";
 import { EditorWorkspace } from "./EditorWorkspace";
@@ -159,11 +158,10 @@ function Loaded({ program, site, devices: live, shared, canEdit, user, openAnew 
   const plan = map.data ?? null;
   const parts = useScene({
     site: site.slug,
-    floor: floorMark(plan),
+    plan,
     document,
     compiled,
     devices,
-    places: plan?.places,
     collapsed,
   });
   const people = usePeople(shared);

@@ -3,7 +3,6 @@ import { type ReactNode, useMemo } from "react";
 import type { FloorPlan } from "@/map/floor/floor";
 import type { Insets } from "@/map/plane/projection";
 import type { RobotSource } from "@/map/robots/robots";
-import { floorMark } from "@/map/floor/floor";
 import type { NodeLooks } from "./canvas/buildNodes";
 import { MapControls } from "./canvas/MapControls";
 import { MapStage } from "./canvas/MapStage";
@@ -43,11 +42,10 @@ export function ProgramMap(props: ProgramMapProps) {
   const document = useMemo(() => wellFormed(props.document), [props.document]);
   const { scene, t, surroundings } = useScene({
     site: props.site,
-    floor: floorMark(plan),
+    plan,
     document,
     compiled: props.compiled,
     devices,
-    places: plan?.places,
   });
   const looks = useMemo<NodeLooks>(
     () => ({

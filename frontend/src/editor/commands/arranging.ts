@@ -10,7 +10,6 @@ import {
   AlignVerticalDistributeCenter,
   LayoutGrid,
 } from "lucide-react";
-import { knownBox } from "@/map/floor/floor";
 import type { Box } from "@/map/plane/projection";
 import { outermost } from "@/program/document/tree";
 import { centre, grown, overlaps } from "@/program/scene/geometry";
@@ -29,7 +28,7 @@ import {
 } from "../edits/arranging";
 import { sortByReading } from "../edits/clipping";
 import type { OpenProgram } from "../state/context";
-import { freeNear } from "../state/freeSpot";
+import { freeOn } from "../state/freeSpot";
 import { command, needsRight, type Command, type On } from "./command";
 
 /** The selected steps that stand in no other selected one, in reading order. */
@@ -69,7 +68,7 @@ function tidy(open: OpenProgram, steps: readonly Standing[]): Shifts {
   if (!taken.some((each) => overlaps(each, grown(block, 4)))) return shifts;
   const from = centre(block);
   const size = { width: block.right - block.left, height: block.bottom - block.top };
-  const to = freeNear(from, size, taken, open.plan ? knownBox(open.plan) : null) ?? from;
+  const to = freeOn(open.plan, from, size, taken);
   return new Map([...shifts].map(([id, { x, y }]) => [id, { x: x + to.x - from.x, y: y + to.y - from.y }]));
 }
 

@@ -33,6 +33,7 @@ function open(): OpenProgram {
     document,
     compiled: { numbers: {}, diagnostics: [], added_moves: [] },
     surroundings: surroundingsOf([], []),
+    floor: null,
     routes: () => undefined,
     collapsed: new Set(),
     t,

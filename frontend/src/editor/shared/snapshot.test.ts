@@ -58,7 +58,7 @@ test.each(CASES)("case %i is drawn and put into words, shared or not", (_number,
 function draw(document: ProgramDocument): void {
   const measure = (text: string) => text.length * 7;
   const site = { document, surroundings: NOWHERE, t };
-  buildScene({ ...site, compiled: null, routes: () => null, collapsed: new Set(), measure });
+  buildScene({ ...site, compiled: null, floor: null, routes: () => null, collapsed: new Set(), measure });
   for (const step of Object.values(document.steps)) expect(typeof plainText(chipText(step, site))).toBe("string");
 }
 

@@ -1,13 +1,18 @@
 /** A free place for a chip that belongs to no place of its own. */
-import { knownBox } from "@/map/floor/floor";
+import { type FloorPlan, knownBox } from "@/map/floor/floor";
 import { toMetres, toPixels, type Box, type Point } from "@/map/plane/projection";
 import type { PixelPoint } from "@/map/plane/paths";
-import { boxAt, grown, legBoxes, overlaps } from "@/program/scene/geometry";
+import { boxAt, centre, grown, legBoxes, overlaps } from "@/program/scene/geometry";
 import { isFramed, kindOf } from "@/program/kinds";
 import { outerBox, type Scene } from "@/program/scene/scene";
 import { deviceBox } from "@/program/surroundings";
 import type { OpenProgram } from "./context";
 import { useUi } from "./ui";
+
+interface Size {
+  readonly width: number;
+  readonly height: number;
+}
 
 const CHIP = { width: 150, height: 30 };
 /** Room for a frame's first step, too. */
@@ -38,14 +43,23 @@ export function freeSpot(open: OpenProgram, kind = "", near?: Point): Point {
     boxAt(scene.start, 90, 40),
     ...openEnds(scene),
   ];
-  return toMetres(freeNear(from, sizeOf(kind), taken, plan ? knownBox(plan) : null) ?? from);
+  return toMetres(freeOn(plan, from, sizeOf(kind), taken));
+}
+
+/** On the floor near a point, from its middle where that is far off; beside the floor where it is full or too small. */
+export function freeOn(plan: FloorPlan | null, from: PixelPoint, size: Size, taken: readonly Box[]): PixelPoint {
+  const floor = plan && knownBox(plan);
+  const near = freeNear(from, size, taken, floor);
+  if (near) return near;
+  const start = floor && !overlaps(floor, boxAt(from, 0, 0)) ? centre(floor) : from;
+  return freeNear(start, size, taken, floor) ?? freeNear(start, size, taken, null) ?? start;
 }
 
 function labelled(machine: Box): Box {
   return { ...machine, bottom: machine.bottom + LABEL };
 }
 
-function sizeOf(kind: string): { readonly width: number; readonly height: number } {
+function sizeOf(kind: string): Size {
   if (isFramed(kind)) return FRAME;
   return kindOf(kind).shape === "diamond" ? DIAMOND : CHIP;
 }
@@ -56,12 +70,7 @@ export function openEnds({ links }: Pick<Scene, "links">): Box[] {
 }
 
 /** The nearest point of widening rings where the box is inside the floor and covers nothing. */
-export function freeNear(
-  from: PixelPoint,
-  size: { readonly width: number; readonly height: number },
-  taken: readonly Box[],
-  floor: Box | null,
-): PixelPoint | null {
+export function freeNear(from: PixelPoint, size: Size, taken: readonly Box[], floor: Box | null): PixelPoint | null {
   for (let ring = 1; ring < 14; ring += 1)
     for (const [dx, dy] of WAYS) {
       const at = { x: from.x + dx * ring * 70, y: from.y + dy * ring * 46 };

@@ -38,6 +38,7 @@ test("the bottom row stands lowest on the screen", () => {
 
 test("unknown cells at the edge are not part of the known box", () => {
   expect(knownBox(plan).right).toBe(138);
+  expect(knownBox(plan)).toBe(knownBox(plan));
 });
 
 test("a large map is seen as a whole, and farther away; a small one no farther than before", () => {

@@ -122,8 +122,16 @@ export function leastZoom(plan: FloorPlan | null): number {
   return Math.min(0.2, 200 / (right - left), 150 / (bottom - top));
 }
 
+const floors = new WeakMap<FloorPlan, Box>();
+
 /** The part of the map that is known (not 255), so that a wide empty margin does not make the floor small. */
 export function knownBox(plan: FloorPlan): Box {
+  const box = floors.get(plan) ?? boxOfKnown(plan);
+  floors.set(plan, box);
+  return box;
+}
+
+function boxOfKnown(plan: FloorPlan): Box {
   let [left, right, bottom, top] = [plan.width, 0, plan.height, 0];
   for (let row = 0; row < plan.height; row += 1)
     for (const [column, columns] of runs(plan, row, (cell) => cell !== 255)) {

@@ -31,6 +31,7 @@ function sideOfName(plan: FloorPlan): unknown {
     document: EMPTY_DOCUMENT,
     compiled: null,
     surroundings: surroundingsOf([oven], []),
+    floor: null,
     routes: () => undefined,
     collapsed: new Set(),
     t: (key) => key,

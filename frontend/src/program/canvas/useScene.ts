@@ -1,7 +1,7 @@
 /** The drawing of a document, rebuilt only when something that it shows has changed. */
 import { useEffect, useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
-import type { MapPlace } from "@/map/floor/floor";
+import { type FloorPlan, floorMark, knownBox, type MapPlace } from "@/map/floor/floor";
 import type { Compiled, ProgramDocument } from "../document/document";
 import { readTree } from "../document/tree";
 import { buildScene, type Scene } from "../scene/scene";
@@ -22,14 +22,15 @@ const NO_PLACES: readonly MapPlace[] = [];
 
 export function useScene(input: {
   site: string | undefined;
-  floor: string | undefined;
+  plan: FloorPlan | null;
   document: ProgramDocument;
   compiled: Compiled | null | undefined;
   devices: readonly SiteDevice[];
-  places: readonly MapPlace[] | undefined;
   collapsed?: ReadonlySet<string>;
 }): SceneParts {
-  const { document, compiled, devices, places = NO_PLACES, collapsed = NOBODY } = input;
+  const { document, compiled, plan, devices, collapsed = NOBODY } = input;
+  const places = plan?.places ?? NO_PLACES;
+  const floor = plan && knownBox(plan);
   const t = useEditorText();
   const fonts = useFontsReady();
   const surroundings = useMemo(() => surroundingsOf(devices, places), [devices, places]);
@@ -37,19 +38,20 @@ export function useScene(input: {
     () => pathsOf(document, readTree(document), surroundings).map((way) => way.key),
     [document, surroundings],
   );
-  const routes = useRoutes(input.site, input.floor, keys);
+  const routes = useRoutes(input.site, floorMark(plan), keys);
   const scene = useMemo(
     () =>
       buildScene({
         document,
         compiled: compiled ?? null,
         surroundings,
+        floor,
         routes,
         collapsed,
         t,
         measure: (text, font) => measureText(text, font) + (fonts ? 0 : 0),
       }),
-    [document, compiled, surroundings, routes, collapsed, t, fonts],
+    [document, compiled, surroundings, floor, routes, collapsed, t, fonts],
   );
   return { scene, surroundings, t };
 }

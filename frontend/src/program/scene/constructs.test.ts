@@ -3,6 +3,7 @@ import { expect, test } from "vitest";
 import en from "@/i18n/en/editor.json";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "../document/document";
 import { chipLabel } from "./announcements";
+import type { Box } from "@/map/plane/projection";
 import { buildScene, type Scene } from "./scene";
 import { surroundingsOf } from "../surroundings";
 
@@ -17,12 +18,17 @@ function step(kind: string, place: Step["place"], pos: [number, number], params:
   return { kind, place, pos, params };
 }
 
-function sceneOf(steps: Record<string, Step>, numbers: Record<string, string> = {}): [Scene, ProgramDocument] {
+function sceneOf(
+  steps: Record<string, Step>,
+  numbers: Record<string, string> = {},
+  floor: Box | null = null,
+): [Scene, ProgramDocument] {
   const document = { ...EMPTY_DOCUMENT, steps };
   const scene = buildScene({
     document,
     compiled: { numbers, diagnostics: [], added_moves: [] },
     surroundings,
+    floor,
     routes: () => undefined,
     collapsed: new Set(),
     t,
@@ -138,4 +144,17 @@ test("the name of a kind is not told twice", () => {
     return chip && chipLabel(chip, { document, surroundings, t });
   });
   expect(told).toEqual(["kind.repeat, 3 ×", "kind.end"]);
+});
+
+test("the start and steps without a place stand on the floor, wherever the map has its origin", () => {
+  const placeless = { kind: "wait", place: ["program", "body", "A"], params: { duration: 1 } } as const;
+  const spots = (floor: Box | null) => {
+    const [scene] = sceneOf({ some: placeless }, {}, floor);
+    return [scene.start, scene.chips.get("some")?.at];
+  };
+  const usual = spots(null);
+  expect(usual[1]).toEqual({ x: 46, y: 46 });
+  expect(spots({ left: -460, right: 920, top: -230, bottom: 644 })).toEqual(usual);
+  const far = { left: 46_000_000, right: 46_000_920, top: -23_000_000, bottom: -22_999_356 };
+  expect(spots(far)).toEqual(usual.map((spot) => spot && { x: spot.x + far.left, y: spot.y + far.top }));
 });

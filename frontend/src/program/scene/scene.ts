@@ -1,6 +1,6 @@
 /** The whole drawing of a program as plain shapes: pure, so that every screen draws the same. */
 import { isRobot } from "@/map/devices/device";
-import { toPixels, type Box } from "@/map/plane/projection";
+import { PIXELS_PER_METRE, toPixels, type Box } from "@/map/plane/projection";
 import { pointAlong, pathLength, simplified, type PixelPoint } from "@/map/plane/paths";
 import type { Compiled, ProgramDocument, Step } from "../document/document";
 import { readTree, type ProgramTree } from "../document/tree";
@@ -30,6 +30,8 @@ export interface SceneInput {
   readonly document: ProgramDocument;
   readonly compiled: Pick<Compiled, "numbers" | "diagnostics" | "added_moves"> | null;
   readonly surroundings: Surroundings;
+  /** The part of the map that is known; null without a map. */
+  readonly floor: Box | null;
   readonly routes: RouteLookup;
   /** Functions whose bodies are not drawn. */
   readonly collapsed: ReadonlySet<string>;
@@ -37,6 +39,7 @@ export interface SceneInput {
   readonly measure: Measure;
 }
 
+/** Where the start is looked for first, metres; on a floor that does not hold it, as far inside its top left. */
 const DEFAULT_START: readonly [number, number] = [1, -1];
 
 /** How near a chip must lie to its route to be drawn on it. */
@@ -45,6 +48,7 @@ const ON_ROUTE = 26;
 export function buildScene(input: SceneInput): Scene {
   const { document, surroundings, t } = input;
   const tree = readTree(document);
+  const first = firstSpot(input.floor);
   const speaker: Speaker = { document, surroundings, t };
   const shown = [...tree.reading, ...tree.loose, ...commentsOf(document)].filter((id) => isShown(input, id));
   const isDrawn = new Set(shown);
@@ -60,7 +64,7 @@ export function buildScene(input: SceneInput): Scene {
         buildChip(
           id,
           step,
-          chipPosition(step, standsInFrame(document, step) ? undefined : routes.get(id)),
+          chipPosition(step, standsInFrame(document, step) ? undefined : routes.get(id), first),
           chipInput,
           speaker,
         ),
@@ -68,7 +72,7 @@ export function buildScene(input: SceneInput): Scene {
   }
   clearHeads(document, tree, chips);
   const frames = framesOf(document, tree, chips);
-  const start = document.start_pos ? toPixels(document.start_pos) : freeStart(surroundings, chips);
+  const start = document.start_pos ? toPixels(document.start_pos) : freeStart(first, surroundings, chips);
   const links = linksOf({ document, tree, chips, frames, start, surroundings, t });
   placeTags(chips, routes, links);
   return {
@@ -120,15 +124,21 @@ function tagSide(chip: Chip, covers: SpatialIndex<{ id?: string; box: Box }>): T
   ).side;
 }
 
+function firstSpot(floor: Box | null): PixelPoint {
+  const usual = toPixels(DEFAULT_START);
+  if (!floor || overlaps(floor, boxAt(usual, 0, 0))) return usual;
+  return { x: floor.left + usual.x, y: floor.top + usual.y };
+}
+
 /** Along the top of the floor, where neither a machine nor a chip stands. */
-function freeStart(surroundings: Surroundings, chips: ReadonlyMap<string, Chip>): PixelPoint {
+function freeStart(first: PixelPoint, surroundings: Surroundings, chips: ReadonlyMap<string, Chip>): PixelPoint {
   const machines = [...surroundings.devices.values()].filter((device) => !isRobot(device)).map(deviceBox);
   const taken = [...machines.map((box) => grown(box, 14)), ...[...chips.values()].map((chip) => grown(chip.box, 8))];
-  for (let x = DEFAULT_START[0]; x < 20; x += 0.5) {
-    const at = toPixels([x, DEFAULT_START[1]]);
+  for (let metres = 0; metres < 19; metres += 0.5) {
+    const at = { x: first.x + metres * PIXELS_PER_METRE, y: first.y };
     if (!taken.some((box) => overlaps(box, boxAt(at, 78, 30)))) return at;
   }
-  return toPixels(DEFAULT_START);
+  return first;
 }
 
 function isShown(input: SceneInput, id: string): boolean {
@@ -181,10 +191,10 @@ function commentsOf(document: ProgramDocument): string[] {
 }
 
 /** Where a step's chip is drawn: its own position, brought onto its route where that is near. */
-function chipPosition(step: Step, route: RouteShape | undefined): PixelPoint {
+function chipPosition(step: Step, route: RouteShape | undefined, first: PixelPoint): PixelPoint {
   const own = step.pos ? toPixels(step.pos) : null;
-  if (!route) return own ?? toPixels(DEFAULT_START);
-  if (!own) return pointAlong(route.points, pathLength(route.points) / 2) ?? toPixels(DEFAULT_START);
+  if (!route) return own ?? first;
+  if (!own) return pointAlong(route.points, pathLength(route.points) / 2) ?? first;
   const near = nearestOn(route.points, own);
   return near && near.off <= ON_ROUTE && !route.guessed ? near.at : own;
 }
