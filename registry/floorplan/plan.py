@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import cos, hypot, pi, sin
 from typing import Literal
 from zlib import crc32
@@ -54,10 +55,7 @@ class Grid:
 
     def centre_of(self, row: int, column: int) -> tuple[float, float]:
         """Return the middle of a cell in metres."""
-        return (
-            self.origin_x_m + (column + 0.5) * self.resolution_m,
-            self.origin_y_m + (row + 0.5) * self.resolution_m,
-        )
+        return self.origin_x_m + (column + 0.5) * self.resolution_m, self.origin_y_m + (row + 0.5) * self.resolution_m
 
 
 def cells_array(grid: Grid) -> NDArray[np.uint8]:
@@ -280,6 +278,13 @@ class FloorPlan:
         """Be sent to another process as what it was made of; what follows from that is worked out there."""
         return FloorPlan, (self.grid, self._devices)
 
+    @cached_property
+    def known_m(self) -> Box:
+        """What is known of the map, all of it where nothing is: left, bottom, right and top in metres."""
+        known = cells_array(self.grid) != UNKNOWN
+        rows, columns = scipy.ndimage.find_objects((known if known.any() else ~known).astype(np.int8))[0]
+        return _box_m(self.grid, (rows.start, columns.start, rows.stop, columns.stop), 1)
+
     def is_inside(self, x_m: float, y_m: float) -> bool:
         """Tell whether the point lies on the map."""
         return self.grid.cell_of(x_m, y_m) is not None
@@ -372,11 +377,8 @@ class FloorPlan:
         cell = self.grid.cell_of(*xy)
         if cell is None:
             return set()
-        row, column = cell
-        window = self.regions(radius_m)[
-            max(0, row - reach) : row + reach + 1, max(0, column - reach) : column + reach + 1
-        ]
-        return set(np.unique(window).tolist())
+        rows, columns = (slice(max(0, middle - reach), middle + reach + 1) for middle in cell)
+        return set(np.unique(self.regions(radius_m)[rows, columns]).tolist())
 
 
 def _clearance_near(grid: Grid, machines: Iterable[Description], cell: tuple[int, int], reach_m: float = 1.5) -> float:

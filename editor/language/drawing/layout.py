@@ -24,6 +24,8 @@ _OFF_WALLS_M = 0.1
 _ROBOT_M, _NAME_M = 1.1, 0.7
 """A robot at home, and its name below it."""
 _CELL_M = 2.5
+_FIRST: Point = (1.0, -1.0)
+"""Below it stands the first step of a script that names no device and no point, as on the editor's map."""
 _STEP_X_M, _STEP_Y_M = 0.9, 0.5
 _REACH = 14
 _MOST_MISSES = 3
@@ -63,18 +65,28 @@ class Layout:
     cells: dict[tuple[int, int], list[Area]] = field(default_factory=dict)
     """What is taken, by the cells that it touches."""
     first: Point | None = None
-    last: Area = field(default_factory=lambda: Area(1.0, -1.0, Room(0.0, 0.0)))
+    last: Area = field(init=False)
     tried: dict[tuple[Point, Room], int] = field(default_factory=dict)
     """How many places around a wanted one are known to be taken."""
     misses: int = 0
 
     def __post_init__(self) -> None:
+        self.last = Area(*self._first_spot(), Room(0.0, 0.0))
         for facts in self.surroundings.devices.values():
             x, y, size = facts.description.pose.x, facts.description.pose.y, facts.description.size
             if facts.description.kind == "robot":
                 self._take(Area(x, y - _NAME_M / 2, Room(_ROBOT_M, _ROBOT_M + _NAME_M)))
             else:
                 self._take(Area(x, y, Room(size.x, max(0.1, size.y - 0.2))))
+
+    def _first_spot(self) -> Point:
+        """Return the usual spot, or on a floor that does not hold it one as far inside its top left."""
+        floor = self.surroundings.floor
+        if floor is None:
+            return _FIRST
+        left, bottom, right, top = floor.known_m
+        inside = left < _FIRST[0] < right and bottom < _FIRST[1] < top
+        return _FIRST if inside else _rounded((left + _FIRST[0], top + _FIRST[1]))
 
     def occupy(self, point: Point | None, room: Room) -> None:
         """Keep a place for a step that stands there already."""

@@ -57,6 +57,10 @@ class ZoneFacts:
 class FloorFacts(Protocol):
     """What the map can tell the checks; the implementation lives with the map."""
 
+    @property
+    def known_m(self) -> tuple[float, float, float, float]:
+        """What is known of the map: left, bottom, right and top in metres."""
+
     def is_inside(self, x_m: float, y_m: float) -> bool:
         """Tell whether the point lies on the map."""
 

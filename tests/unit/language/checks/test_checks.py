@@ -11,6 +11,8 @@ from tests.kit.demo_site import codes, factory
 class WallInTheMiddle:
     """A floor 20 m wide with a wall at x = 10 and a hole in the floor around the origin."""
 
+    known_m = 0.0, -14.0, 20.0, 0.0
+
     def is_inside(self, x_m: float, y_m: float) -> bool:
         return 0 <= x_m <= 20 and -14 <= y_m <= 0
 

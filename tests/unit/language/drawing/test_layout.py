@@ -12,6 +12,7 @@ from editor.language import compile_document, parse_script, tree_to_document
 from editor.language.drawing.layout import GAP_M, Area, Layout, Room, letters, room_of
 from editor.language.site.surroundings import Surroundings
 from execution.rehearsals.program_file import read_site
+from registry.floorplan.plan import FloorPlan, Grid
 from tests.kit.demo_site import factory
 from tests.kit.files import ROOT
 from vipo_site.cli.program_file import read_program_file
@@ -64,6 +65,29 @@ def test_what_a_loop_holds_stands_below_its_head_and_nothing_else_stands_there()
     x, y = steps[head]["pos"]
     assert inner == [[x, round(y - GAP_M - 0.7 - number * (GAP_M + 0.7), 2)] for number in range(4)]
     assert abs(after[0] - x) > 2.6 or after[1] < inner[-1][1] - 0.7
+
+
+@pytest.mark.parametrize(
+    ("origin", "start"),
+    [
+        ((0.0, -14.0), [1.9, -0.1]),
+        ((-10.0, -7.0), [1.0, -0.1]),
+        ((-25.0, 2.0), [-23.1, 15.9]),
+        ((300_000.0, -200_000.0), [300_001.9, -199_986.1]),
+    ],
+)
+def test_a_script_that_names_no_device_is_drawn_on_the_floor_wherever_the_map_has_its_origin(
+    origin: tuple[float, float], start: list[float]
+) -> None:
+    hall = FloorPlan(Grid(40, 28, 0.5, *origin, bytes(40 * 28)))
+    script = (
+        "class Task(object):\n    def new_task(self):\n        self.wait(1)\n        self.wait(2)\n\n"
+        "    def run(self, ctx):\n        self.new_task()\n"
+    )
+    document = redrawn(script, Surroundings(floor=hall))
+    spots = [document["start_pos"], *(step["pos"] for step in document["steps"].values())]
+    assert [spot for spot in spots if not hall.is_inside(*spot)] == []
+    assert document["start_pos"] == start
 
 
 def test_a_full_floor_takes_steps_where_they_are_wanted() -> None:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -105,6 +106,12 @@ def test_the_floor_tells_inside_free_and_reachable() -> None:
     assert plan.is_reachable((2.75, 0.25), (4.25, 1.25), 0.2)
     assert not plan.is_reachable((99, 0), (3.25, 0.75), 0.2)
     assert not plan.is_reachable((3.25, 0.75), (99, 0), 0.2)
+
+
+def test_the_floor_tells_how_far_it_is_known() -> None:
+    grid = grid_of(["?????", "??#.?", "?..??", "?????"], 0.5)
+    assert FloorPlan(grid).known_m == (0.5, 0.5, 2.0, 1.5)
+    assert FloorPlan(replace(grid, cells=bytes([255]) * 20)).known_m == (0.0, 0.0, 2.5, 2.0)
 
 
 def test_a_robot_at_a_machines_station_stands_beside_it_and_one_on_the_way_does_not() -> None:
