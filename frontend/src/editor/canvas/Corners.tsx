@@ -5,6 +5,7 @@ import type { PixelPoint } from "@/map/plane/paths";
 import { toMetres, toPixels } from "@/map/plane/projection";
 import stage from "@/program/canvas/stage.module.css";
 import { nearestOn } from "@/program/scene/geometry";
+import { useFingers } from "@/program/touch/fingers";
 import { toCentimetre } from "../edits/clipping";
 import type { Position } from "@/program/document/document";
 import classes from "./gestures.module.css";
@@ -80,22 +81,30 @@ interface Held {
   readonly points: readonly Position[];
 }
 
-/** The corner under the pointer, followed over the whole window until it is let go. */
+/** The corner under the pointer, followed over the whole window until it is let go; a second finger gives it up. */
 function useHeldCorner(onChange: CornersProps["onChange"]) {
   const flow = useReactFlow();
   const [held, setHeld] = useState<Held | null>(null);
   const hold = (event: PointerEvent<SVGElement>, at: number, from: readonly Position[]) => {
     event.stopPropagation();
+    if (useFingers.getState().several) return;
     let now: Held | null = null;
     const listening = new AbortController();
-    const drag = ({ clientX, clientY }: globalThis.PointerEvent) => {
+    const drag = ({ clientX, clientY, pointerId }: globalThis.PointerEvent) => {
+      if (pointerId !== event.pointerId) return;
       const to = toMetres(flow.screenToFlowPosition({ x: clientX, y: clientY }));
       now = { at, points: from.map((point, index) => (index === at ? to : point)) };
       setHeld(now);
     };
-    const release = ({ type }: globalThis.PointerEvent) => {
+    const end = () => {
       listening.abort();
+      stop();
       setHeld(null);
+    };
+    const stop = useFingers.subscribe(({ several }) => several && end());
+    const release = ({ type, pointerId }: globalThis.PointerEvent) => {
+      if (pointerId !== event.pointerId) return;
+      end();
       if (now && type === "pointerup") onChange(now.points);
     };
     window.addEventListener("pointermove", drag, { signal: listening.signal });
@@ -131,7 +140,11 @@ function Corner({ at, name, onHold, onKey, onRemove }: CornerProps) {
       tabIndex={0}
       aria-label={name}
       onPointerDown={onHold}
-      onDoubleClick={onRemove}
+      onDoubleClick={(event) => {
+        // On the map it would ask for a construct.
+        event.stopPropagation();
+        onRemove();
+      }}
       onKeyDown={onKey}
     >
       <title>{name}</title>

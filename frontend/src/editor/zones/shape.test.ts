@@ -1,7 +1,10 @@
 import { expect, test } from "vitest";
+import { applyEdits, type Edit } from "../edits/edits";
+import type { OpenProgram } from "../state/context";
 import { soundZones } from "@/program/canvas/Zones";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Zone } from "@/program/document/document";
 import { areaOf, closes, freshNumber, squareAround, withNextCorner } from "./shape";
+import { changeZone } from "./zoneTool";
 
 const zone = (name: string, points: Zone["points"]): Zone => ({ name, rule: "slow", points });
 
@@ -35,4 +38,18 @@ test("only zones with corners are drawn, and a fresh one has a number of its own
   expect(soundZones(document).map(([id]) => id)).toEqual(["a"]);
   expect(freshNumber(EMPTY_DOCUMENT)).toBe(1);
   expect(freshNumber({ ...EMPTY_DOCUMENT, zones: { a: zone("Zone 4", squareAround([0, 0])) } })).toBe(5);
+});
+
+test("what others change of a zone while it is dragged stays, and a zone that they remove stays away", () => {
+  const points = squareAround([3, -4]);
+  const before: ProgramDocument = { ...EMPTY_DOCUMENT, zones: { a: zone("Aisle", points), b: zone("Bay", points) } };
+  let now: ProgramDocument = { ...EMPTY_DOCUMENT, zones: { a: { ...zone("Gangway", points), rule: "keep_out" } } };
+  const open = {
+    document: before,
+    shared: { getDocument: () => now },
+    apply: (edits: readonly Edit[]) => (now = applyEdits(now, edits)),
+  } as unknown as OpenProgram;
+  const moved = squareAround([5, -4]);
+  for (const id of ["a", "b"]) changeZone(open, id, { points: moved });
+  expect(now.zones).toEqual({ a: { name: "Gangway", rule: "keep_out", points: moved } });
 });

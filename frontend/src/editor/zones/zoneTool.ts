@@ -29,8 +29,9 @@ function createZone(open: OpenProgram, points: readonly Position[]): void {
   selectZone(id);
 }
 
+/** What others have changed meanwhile stays, and what they have removed stays away. */
 export function changeZone(open: OpenProgram, id: string, change: Partial<Zone>): void {
-  const zone = open.document.zones[id];
+  const zone = open.shared.getDocument().zones[id];
   if (zone) open.apply([{ do: "set_zone", id, value: { ...zone, ...change } }]);
 }
 
