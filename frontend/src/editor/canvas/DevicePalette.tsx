@@ -3,6 +3,7 @@ import { Crosshair, MapPin } from "lucide-react";
 import { type ReactNode, useLayoutEffect, useRef, useState } from "react";
 import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import type { SiteDevice } from "@/program/surroundings";
+import { rowPress } from "@/shell/palette/rowPress";
 import { enterPlace, useMode } from "../keyboard/modes";
 import { type OpenProgram, useOpenProgram } from "../state/context";
 import { focusMap } from "../state/focus";
@@ -118,10 +119,7 @@ function Found({ found, at, choose }: FoundProps) {
           id={`palette-${device.id}`}
           role="option"
           aria-selected={index === at}
-          onPointerDown={(event) => {
-            event.preventDefault();
-            choose(device.id);
-          }}
+          {...rowPress(() => choose(device.id))}
         >
           {device.icon}
           {device.name}

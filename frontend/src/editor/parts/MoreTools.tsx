@@ -6,6 +6,7 @@ import { VipoIcon } from "@/design/VipoIcon";
 import type { Kind } from "@/program/kinds";
 import { ariaKeys } from "@/shell/keys/keyNames";
 import { keysOf, useKeymap } from "@/shell/keys/keymap";
+import { rowPress } from "@/shell/palette/rowPress";
 import { toolId } from "../commands/drawing";
 import { runCommand } from "../commands/keys";
 import { selection } from "../commands/command";
@@ -128,10 +129,7 @@ function Row({ kind, chosen, onTake }: { kind: Kind; chosen: boolean; onTake: ()
       ref={(row) => {
         if (chosen) row?.scrollIntoView({ block: "nearest" });
       }}
-      onPointerDown={(event) => {
-        event.preventDefault();
-        onTake();
-      }}
+      {...rowPress(onTake)}
     >
       <span style={{ color: `var(--${kind.family})` }}>
         <VipoIcon name={kind.icon} size={18} />

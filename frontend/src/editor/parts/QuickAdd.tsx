@@ -3,6 +3,7 @@ import { useEffect, useLayoutEffect, useMemo, useRef, useState, type KeyboardEve
 import { useTranslation } from "react-i18next";
 import { useOtherLanguage } from "@/i18n/other";
 import { keysOf, useKeymap } from "@/shell/keys/keymap";
+import { rowPress } from "@/shell/palette/rowPress";
 import { wordsOf } from "@/shell/palette/search";
 import { type Drawable, drawablesAnywhere, drawablesOf } from "../commands/drawables";
 import { toolId } from "../commands/drawing";
@@ -151,10 +152,7 @@ function Row({ id, drawable, chosen, onTake }: RowProps) {
       ref={(row) => {
         if (chosen) row?.scrollIntoView({ block: "nearest" });
       }}
-      onPointerDown={(event) => {
-        event.preventDefault();
-        onTake();
-      }}
+      {...rowPress(onTake)}
     >
       <span>
         <Icon size={18} />

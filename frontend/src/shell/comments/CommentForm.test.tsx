@@ -163,3 +163,16 @@ test("an answer and a change of one's comment that are being written are open ag
   for (const button of screen.getAllByText("Cancel")) fireEvent.click(button);
   expect(screen.queryByRole("textbox")).toBeNull();
 });
+
+test("a name is taken by a whole press: a finger that begins on one may scroll", () => {
+  queries.setQueryData(keys.peopleToMention("p"), [{ id: 3, username: "ada", name: "Ada" }]);
+  render(<Form />);
+  field().focus();
+  write("@a");
+  const name = screen.getByText("Ada");
+  expect(fireEvent.pointerDown(name, { pointerType: "touch" }), "the field keeps the keyboard").toBe(false);
+  fireEvent.pointerCancel(name, { pointerType: "touch" });
+  expect(field().value).toBe("@a");
+  fireEvent.click(screen.getByText("Ada"));
+  expect(field().value).toMatch(/^@Ada/);
+});

@@ -2,6 +2,7 @@
 import { Textarea } from "@mantine/core";
 import { type KeyboardEvent, type RefObject, useId, useLayoutEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
+import { rowPress } from "../palette/rowPress";
 import classes from "./comments.module.css";
 import { askedAt, type Named, offered, withName } from "./mentions";
 
@@ -54,10 +55,7 @@ export function MentionField(props: MentionFieldProps) {
               id={`${id}-${at}`}
               role="option"
               aria-selected={at === offer.at}
-              onPointerDown={(event) => {
-                event.preventDefault();
-                offer.choose(person);
-              }}
+              {...rowPress(() => offer.choose(person))}
             >
               {person.name}
             </li>

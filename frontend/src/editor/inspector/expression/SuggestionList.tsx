@@ -2,6 +2,7 @@
 import { useEffect, useRef } from "react";
 import { useTranslation } from "react-i18next";
 import { withUnit } from "@/program/words/stepWords";
+import { rowPress } from "@/shell/palette/rowPress";
 import { useOpenProgram } from "../../state/context";
 import classes from "./expression.module.css";
 import { useReading } from "./Readings";
@@ -52,17 +53,7 @@ function Option({
     if (marked) item.current?.scrollIntoView({ block: "nearest" });
   }, [marked]);
   return (
-    <li
-      id={id}
-      ref={item}
-      role="option"
-      aria-selected={marked}
-      className={classes.option}
-      onPointerDown={(event) => {
-        event.preventDefault();
-        choose();
-      }}
-    >
+    <li id={id} ref={item} role="option" aria-selected={marked} className={classes.option} {...rowPress(choose)}>
       <code>{suggestion.label}</code>
       {suggestion.device && suggestion.property ? (
         <Now device={suggestion.device} property={suggestion.property} />
