@@ -11,11 +11,12 @@ const REST_MS = 30_000;
 export function Cursors({ shared }: { shared: SharedProgram }) {
   const { viewport } = useStage();
   const [shown, setShown] = useState<readonly Cursor[]>([]);
+  /** Since when each rests; for as long as it is looked at. */
+  const seen = useRef(new Map<number, { key: string; at: number }>());
   const elements = useRef(new Map<number, HTMLDivElement>());
   useEffect(() => {
-    const seen = new Map<number, { key: string; at: number }>();
     const update = () => {
-      const fresh = readCursors(shared).filter((cursor) => isFresh(seen, cursor, performance.now()));
+      const fresh = readCursors(shared).filter((cursor) => isFresh(seen.current, cursor, performance.now()));
       const view = viewport.get();
       for (const cursor of fresh) {
         const at = toPixels(cursor.at);
