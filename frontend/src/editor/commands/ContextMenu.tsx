@@ -17,7 +17,7 @@ export function ContextMenu() {
   const open = useOpenProgram();
   const menu = useGestures((ui) => ui.menu);
   useRightClick(open);
-  useLongPress(useCallback((press) => void ask(open, press.target, { x: press.clientX, y: press.clientY }), [open]));
+  useLongPress(useCallback((press) => ask(open, press.target, { x: press.clientX, y: press.clientY }), [open]));
   useFetchLater(LOADS);
   return menu ? (
     <Suspense fallback={null}>

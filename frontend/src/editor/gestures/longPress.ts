@@ -6,7 +6,19 @@ const HELD_MS = 500;
 /** A finger is never quite still. */
 const SLACK_PX = 10;
 
-export function useLongPress(ask: (press: PointerEvent) => void): void {
+/** The finger's lift is no press of its own, which would close what it has opened. */
+function quietLift(): void {
+  const lifted = new AbortController();
+  const quiet = (event: Event) => {
+    lifted.abort();
+    event.preventDefault();
+  };
+  const options = { capture: true, passive: false, signal: lifted.signal };
+  for (const name of ["touchend", "touchcancel"]) window.addEventListener(name, quiet, options);
+}
+
+/** `ask` tells whether it has opened one. */
+export function useLongPress(ask: (press: PointerEvent) => boolean): void {
   useEffect(() => {
     let held: { readonly press: PointerEvent; readonly timer: ReturnType<typeof setTimeout> } | null = null;
     const give = () => {
@@ -19,10 +31,7 @@ export function useLongPress(ask: (press: PointerEvent) => void): void {
       const timer = setTimeout(() => {
         held = null;
         if (useFingers.getState().several) return;
-        // The finger's lift is no press of its own, which would close what it has opened.
-        const quiet = (event: Event) => event.preventDefault();
-        window.addEventListener("touchend", quiet, { capture: true, once: true, passive: false });
-        ask(press);
+        if (ask(press)) quietLift();
       }, HELD_MS);
       held = { press, timer };
     };
