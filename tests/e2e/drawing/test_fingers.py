@@ -102,6 +102,15 @@ def test_fingers_pan_zoom_and_leave_nothing_behind(sign_in: SignIn, demo: Demo, 
     fingers.hold(resting(chip(page, TASK)))
     page.get_by_role("menuitem", name="Duplicate").tap()
     expect(page.locator(".react-flow__node-step")).to_have_count(2)
+    page.get_by_role("button", name="All constructs").tap()
+    listed = page.get_by_role("listbox", name="All constructs")
+    row = middle(listed.get_by_role("option").nth(5))
+    fingers.move((row, (row[0], row[1] - 160)))
+    wait_for("the list goes with the finger", lambda: listed.evaluate("(list) => list.scrollTop") > 50)
+    expect(page.locator(".react-flow__node-step")).to_have_count(2)
+    listed.get_by_role("option", name="Notify").tap()
+    expect(listed).to_have_count(0)
+    page.keyboard.press("Escape")
     small = page.evaluate(
         "() => [...document.querySelectorAll('main [role=toolbar] button, main [role=tab]')]"
         ".map((each) => each.getBoundingClientRect()).filter((box) => box.height < 44 || box.width < 44).length"
