@@ -68,6 +68,8 @@ SENTENCES: Mapping[str, str] = {
     "undone": "The step was not done.",
     "unsaid": "The program failed here and does not say why.",
     "no_map": "This site has no map yet. Upload one, or take one from a robot.",
+    "map_too_large": "The map is {width} x {height} m with {floor} m² of floor; {most_floor} m² of floor and {most} m² "
+    "in all are the most. Check its resolution (metres a cell), or cut it.",
     "no_place": "That is not a place: give a device, a place or a point [x, y].",
     "list_for_value": "A list stands where one value is needed.",
     "nested": "An expression is nested too deeply.",

@@ -42,7 +42,7 @@ def look_at_site(slug: str) -> tuple[Layout, tuple[registry.PositionView, ...]]:
     positions = registry.list_positions(site=slug, lifecycle="approved")
     places = tuple(place_facts(place) for place in registry.list_places(site=slug))
     zones = tuple(map(_floor_zone, registry.list_zones(site=slug)))
-    grid = registry.get_map(site=slug).grid
+    grid = registry.get_map(site=slug, to_plan=True).grid
     stamp = _stamp(grid, positions, places, zones)
     known = _layouts.get(slug)
     if known is not None and stamp is not None and known.stamp == stamp:

@@ -126,7 +126,7 @@ def _scene(site: str) -> dict[str, Any]:
     """Return the site as it is described, not as it stands at this moment: a test comes out the same tomorrow."""
     devices = registry.list_devices(site=site, lifecycle="approved")
     places = [place_facts(place) for place in registry.list_places(site=site)]
-    grid, paces = registry.get_map(site=site).grid, find_paces(site=site)
+    grid, paces = registry.get_map(site=site, to_plan=True).grid, find_paces(site=site)
     idless = frozenset(device.id for device in devices if device.is_of_paper)
     scene = Scene(grid=grid, devices=[device.at_home for device in devices], paces=paces, idless=idless)
     return scene_to_json(scene, places, editor.find_zones(site=site))

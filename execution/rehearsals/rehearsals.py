@@ -135,7 +135,7 @@ def _scene(
     places = [place_facts(place) for place in registry.list_places(site=site)]
     robots = {d.id: d for d in devices if d.kind == "robot"}
     scene = Scene(
-        grid=registry.get_map(site=site).grid,
+        grid=registry.get_map(site=site, to_plan=True).grid,
         devices=[d.at_home for d in devices],
         seed=seed,
         faults=() if faults is None else read_faults(faults),

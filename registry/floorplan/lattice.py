@@ -16,6 +16,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from registry.floorplan.extent import require_extent
 from registry.floorplan.narrow_ways import NarrowWays
 
 SIDE_M = 0.5
@@ -193,7 +194,7 @@ def make_lattice(ground: Ground) -> Lattice:
     """Lay the lattice over the ground; only the largest connected part of the floor is kept.
 
     Its lines begin at the corner of the map and are evenly spaced, unless it falls apart so and robots come to much
-    more of the floor over lines that are laid through narrow ways.
+    more of the floor over lines that are laid through narrow ways. Raises FloorTooLarge.
     """
     grid, even = ground.grid, _lay_even(ground)
     side_m = even.side_m
@@ -214,6 +215,7 @@ def make_even_lattice(ground: Ground) -> Lattice:
 
 
 def _lay_even(ground: Ground) -> _Laid:
+    require_extent(ground.grid, lambda: int(np.count_nonzero(ground.clearance_m > 0)))
     grid, side_m = ground.grid, max(SIDE_M, 2 * ground.radius_m + 0.14)
     columns, rows = (max(1, int(cells * grid.resolution_m / side_m)) for cells in (grid.width, grid.height))
     return _lay(ground, side_m, _even(grid.origin_x_m, columns, side_m), _even(grid.origin_y_m, rows, side_m))

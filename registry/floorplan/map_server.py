@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
 from registry.errors import RegistryError
+from registry.floorplan.extent import why_too_large
 from registry.floorplan.plan import FREE, OCCUPIED, UNKNOWN, Grid, cells_array
 
 MAX_SIDE = 4096
@@ -76,7 +77,9 @@ def read_map(yaml_bytes: bytes, image_bytes: bytes | None) -> Grid:
         top = bottom - lightness.shape[0]
         cells[top:bottom] = np.flipud(_classify(lightness, alpha, header))
         bottom = top
-    return _upright(cells, header)
+    grid = _upright(cells, header)
+    check_extent(grid)
+    return grid
 
 
 def read_header(yaml_bytes: bytes) -> Header:
@@ -224,6 +227,12 @@ def check_size(width: int, height: int) -> None:
         raise BadMap(
             f"The map is {width} x {height} cells; {MAX_SIDE} x {MAX_SIDE} is the most. Use a coarser resolution."
         )
+
+
+def check_extent(grid: Grid) -> None:
+    """Raise BadMap when a map has more floor in square metres than can be planned on."""
+    if why := why_too_large(grid, lambda: grid.cells.count(FREE)):
+        raise BadMap(why)
 
 
 def _read_pgm(data: bytes) -> tuple[tuple[int, int], Bands]:

@@ -17,8 +17,9 @@ from registry.devices.queries import list_devices
 from registry.devices.views import effective_description
 from registry.errors import RegistryError
 from registry.floorplan.comparison import MapDifference, NamedPoint, compare_maps
-from registry.floorplan.map_server import check_size
-from registry.floorplan.plan import Box, FloorPlan, Grid, wall_boxes
+from registry.floorplan.extent import why_too_large
+from registry.floorplan.map_server import check_extent, check_size
+from registry.floorplan.plan import FREE, Box, FloorPlan, Grid, wall_boxes
 from registry.live.fanout import publish
 from registry.maps.kept_work import KeptWork
 from registry.maps.robot_maps import SeenMap, get_robot_map, map_tag
@@ -41,6 +42,13 @@ class NoMap(RegistryError):
 
     code = "no_map"
     status = 404
+
+
+class MapTooLarge(NoMap):
+    """The site's map is from before its metres were looked at: for who plans on it there is none."""
+
+    code = "bad_map"
+    status = 422
 
 
 class MapChanged(RegistryError):
@@ -151,7 +159,7 @@ def use_robot_map(*, site: str, device_id: str, brings: SeenMap, replaces: SeenM
 def restore_map(*, site: str, brings: SeenMap, replaces: SeenMap, by: User) -> MapView:
     """Use an older version of the site's map again, as a new version; `brings` and `replaces` were seen.
 
-    Raises NoMap, MapChanged.
+    Raises NoMap, BadMap, MapChanged.
     """
     found = get_map_version(site=site, version=brings.version)
     if not brings.is_still(found.version, found.tag):
@@ -173,8 +181,10 @@ def save_map(
 ) -> MapView:
     """Make a grid the site's map, as a new version, and tell browsers; the oldest beyond 50 versions are forgotten.
 
-    `replaces` is the one that the caller has seen. Raises MapChanged when another one holds by now.
+    `replaces` is the one that the caller has seen. Raises MapChanged when another one holds by now, and BadMap when it
+    has more floor than can be planned on.
     """
+    check_extent(grid)
     with transaction.atomic():
         row = Site.objects.select_for_update().get(slug=site)
         last = SiteMap.objects.filter(site=row).defer("packed_cells").order_by("-version").first()
@@ -206,14 +216,17 @@ def _require_newest(site: str, last: SiteMap | None, replaces: SeenMap) -> None:
         )
 
 
-def get_map(*, site: str) -> MapView:
-    """Return the site's newest map. Raises NoMap."""
+def get_map(*, site: str, to_plan: bool = False) -> MapView:
+    """Return the site's newest map. Raises NoMap, and of who is `to_plan` on it MapTooLarge, which is one, too."""
     versions = SiteMap.objects.filter(site__slug=site).order_by("-version")
     latest = versions.values_list("pk", "version", "created_at").first()
     if latest is None:
         raise _no_map(site)
     key, version, made_at = latest
-    return MapView(site, version, _grid(key, made_at), made_at)
+    grid = _grid(key, made_at)
+    if to_plan and (why := why_too_large(grid, lambda: grid.cells.count(FREE))):
+        raise MapTooLarge(why)
+    return MapView(site, version, grid, made_at)
 
 
 def _no_map(site: str) -> NoMap:
@@ -255,10 +268,10 @@ def get_walls(grid: Grid) -> tuple[Box, ...]:
 
 
 def get_floor_plan(*, site: str) -> FloorPlan:
-    """Return what the map says about points and ways, approved machines being obstacles. Raises NoMap."""
+    """Return what the map says about points and ways, approved machines being obstacles. Raises NoMap, MapTooLarge."""
     rows = Device.objects.filter(site__slug=site, lifecycle=Device.Lifecycle.APPROVED).order_by("id")
     described = [effective_description(d) for d in rows if d.description]
-    return _floor(get_map(site=site).grid, tuple(d for d in described if d.kind == "machine"))
+    return _floor(get_map(site=site, to_plan=True).grid, tuple(d for d in described if d.kind == "machine"))
 
 
 def _floor(grid: Grid, machines: tuple[Description, ...]) -> FloorPlan:

@@ -2,6 +2,7 @@
 
 import gzip
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -10,7 +11,9 @@ from editor.language.expressions.nodes import PlaceRef
 from editor.language.plan.instructions import End, Instruction, Move, Plan
 from execution import services
 from execution.models import Command, FloorState, Run
+from execution.reasons import cause_of
 from registry import services as registry
+from registry.floorplan.map_server import BadMap
 from registry.floorplan.plan import Grid
 from registry.live import fanout
 from registry.maps import uploads
@@ -121,6 +124,26 @@ def test_a_map_that_is_too_long_for_planning_is_refused(factory):
     answer = use(join_and_sign_in("admin", SITE))
     assert (answer.status_code, answer.json()["code"]) == (422, "bad_map")
     assert SiteMap.objects.count() == 1
+
+
+def test_a_floor_of_square_kilometres_is_refused_and_one_from_before_is_no_floor_to_plan_on(factory):
+    with pytest.raises(BadMap, match="Check its resolution"):
+        registry.save_map(site=SITE, grid=replace(PLAN, resolution_m=10.0))
+    SiteMap.objects.filter(site__slug=SITE).update(resolution_m=10.0)
+    client, program = join_and_sign_in("admin", SITE), editor.create_program(site=SITE, name="Task", document=TASK).id
+    assert client.get(f"/api/sites/{SITE}/map").status_code == 200
+    assert errors(client, program) == 0
+    run = factory.start(drive_to("itemInventory01"))
+    factory.work()
+    assert run_status(run) == "failed"
+    assert cause_of(Run.objects.get(id=run).reason)["code"] == "map_too_large"
+    check = client.get(f"/api/sites/{SITE}/floor-check")
+    assert (check.status_code, check.json()["code"]) == (422, "bad_map")
+    body = {"version": 1, "replaces": 1}
+    assert post_json(client, f"/api/sites/{SITE}/map/restore", body).json()["code"] == "bad_map"
+    assert bring(client, PLAN, tag_of(client)).status_code == 201
+    again = factory.start(drive_to("itemInventory01"))
+    factory.go(lambda: run_status(again) == "finished")
 
 
 def test_programs_are_checked_anew_on_the_new_map(factory):

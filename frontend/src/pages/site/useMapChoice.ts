@@ -5,7 +5,7 @@ import type { MapSource } from "@/api/siteMaps";
 import { rosForm, type CellMap } from "@/map/floor/rosFiles";
 import * as drawings from "./drawing/drawing";
 import { kindOf, NO_FILES, sortFiles, type MapFiles } from "./files";
-import { mapFromPicture, pixelSize, type Picture, type PlanReading } from "./plan/picture";
+import { isTooLarge, mapFromPicture, planSize, type Picture, type PlanReading } from "./plan/picture";
 import { firstReading } from "./plan/PlanFields";
 import { usePicture } from "./plan/usePicture";
 
@@ -80,6 +80,7 @@ export function useMapChoice(site = ""): MapChoice {
   const { picture, reading, read } = usePictureChoice(kind === "picture" ? files.image : null);
   const drawing = useDrawingChoice(site, site && kind === "drawing" ? files.drawing : null);
   const makeMap = () => (picture && reading ? mapFromPicture(picture, reading) : (drawing.drawn?.map ?? null));
+  const size = picture && reading ? planSize(picture, reading) : null;
   return {
     files,
     choose: (chosen) => {
@@ -92,7 +93,7 @@ export function useMapChoice(site = ""): MapChoice {
     reading,
     read,
     ...drawing,
-    isReady: kind === "map" || Boolean(drawing.drawn?.map) || (reading !== null && pixelSize(reading) !== null),
+    isReady: kind === "map" || Boolean(drawing.drawn?.map) || (size !== null && !isTooLarge(size)),
     source: SOURCES[kind],
     makeMap,
     makeForm: () => {

@@ -148,3 +148,12 @@ def test_a_number_to_the_base_of_sixty_is_none(written: str) -> None:
         read_header(f"image: a.pgm\nresolution: {written}\norigin: [0, 0, 0]\n".encode())
     with pytest.raises(BadMap, match=f"origin is '{written}', which is not a number"):
         read_header(f"image: a.pgm\nresolution: 0.05\norigin: [0, {written}, 0]\n".encode())
+
+
+@pytest.mark.parametrize("yaw", [0, 0.7])
+def test_a_map_of_square_kilometres_is_refused_however_few_its_cells_are(yaw: float) -> None:
+    header = f"image: map.pgm\nresolution: 10\norigin: [0, 0, {yaw}]\n".encode()
+    image = b"P5 400 300 255\n" + b"\xfe" * 120_000
+    with pytest.raises(BadMap, match=r"m² of floor; .*Check its resolution \(metres a cell\), or cut it\.$"):
+        read_map(header, image)
+    assert read_map(header.replace(b"10", b"1"), image).resolution_m == 1

@@ -7,6 +7,7 @@ from math import hypot
 import pytest
 
 from bench.lattice.buildings import make_building, share_reached
+from registry.floorplan.extent import FloorTooLarge
 from registry.floorplan.lattice import (
     MARGIN_M,
     PASSING_MARGIN_M,
@@ -132,3 +133,15 @@ def test_cells_near_a_point_and_in_a_box_are_those_whose_middle_is(seed):
 
 def test_a_floor_on_which_nobody_fits_has_no_cells():
     assert not make_lattice(ground_of(Grid(4, 4, 0.05, 0.0, 0.0, bytes(16)), 0.4)).links
+
+
+def test_a_floor_of_square_kilometres_is_refused_before_anything_is_laid():
+    with pytest.raises(FloorTooLarge, match="The map is 800 x 700 m with 560\N{NO-BREAK SPACE}000 m² of floor"):
+        make_lattice(ground_of(Grid(80, 70, 10.0, 0.0, 0.0, bytes(80 * 70)), 0.2))
+
+
+def test_floor_counts_so_that_a_large_map_may_be_mostly_unknown():
+    cells = bytes([FREE]) * 100 + b"\xff" * 9_900
+    assert make_lattice(ground_of(Grid(100, 100, 10.0, 0.0, 0.0, cells), 0.2)).links
+    with pytest.raises(FloorTooLarge, match="1\N{NO-BREAK SPACE}500 x 1\N{NO-BREAK SPACE}500 m"):
+        make_lattice(ground_of(Grid(100, 100, 15.0, 0.0, 0.0, cells), 0.2))

@@ -4,6 +4,7 @@ import { useTranslation } from "react-i18next";
 import { NumberField } from "@/design/NumberField";
 import { formatNumber, withUnit } from "@/i18n/format";
 import { isTooFine, sizeOf, skippedOf, UNITS, type Drawing, type DrawingReading } from "./drawing";
+import { isTooLarge } from "../plan/picture";
 import styles from "./drawing.module.css";
 
 interface FieldsProps {
@@ -22,6 +23,7 @@ export function DrawingFields({ drawing, reading, change }: FieldsProps) {
       <NativeSelect
         label={t("mapImport.drawing.unit")}
         description={t(drawing.metres === null ? "mapImport.drawing.unitAsked" : "mapImport.drawing.unitSaid")}
+        error={size && isTooLarge(size) ? t("mapImport.tooLarge") : null}
         value={String(reading.metres)}
         onChange={(event) => change({ ...reading, metres: Number(event.currentTarget.value) })}
         data={[

@@ -57,6 +57,14 @@ test("without a unit or a layer there is no map, nor with too many cells", () =>
   expect(mapFromDrawing(ROOM, inMetres)).toBeNull();
 });
 
+test("there is no map of square kilometres, however large its cells are", () => {
+  const wide: Drawing = { metres: 1, layers: [{ name: "0", hidden: false, lines: [[0, 0, 2000, 1500]] }], skipped: {} };
+  const coarse = { ...firstReading(wide), cell: 1 };
+  expect(isTooFine(wide, coarse)).toBe(false);
+  expect(mapFromDrawing(wide, coarse)).toBeNull();
+  expect(mapFromDrawing(wide, { ...coarse, metres: 0.3 })?.width).toBe(602);
+});
+
 test("a drawing in coordinates of a country's survey begins at zero", () => {
   const far: Drawing = {
     metres: 1,

@@ -1,6 +1,6 @@
 /** A map out of the lines of a DXF drawing: the chosen layers as walls of a thickness. Pure. */
 import type { CellMap } from "@/map/floor/rosFiles";
-import { floodFromEdge, FREE, WALL } from "../plan/picture";
+import { floodFromEdge, FREE, isTooLarge, WALL } from "../plan/picture";
 
 export interface Layer {
   readonly name: string;
@@ -96,7 +96,8 @@ export function isTooFine(drawing: Drawing, reading: DrawingReading): boolean {
 /** The map, in the drawing's own coordinates; null while the reading is not enough, or the cells were too many. */
 export function mapFromDrawing(drawing: Drawing, reading: DrawingReading): CellMap | null {
   const { metres, cell, thickness, outsideUnknown } = reading;
-  if (sizeOf(drawing, reading) === null || !(cell >= 0.001) || isTooFine(drawing, reading)) return null;
+  const size = sizeOf(drawing, reading);
+  if (size === null || isTooLarge(size) || !(cell >= 0.001) || isTooFine(drawing, reading)) return null;
   const lines = linesOf(drawing, reading);
   const { left, bottom, right, top } = extentOf(lines, metres);
   const edge = MARGIN + thickness / 2;

@@ -3,7 +3,7 @@ import { Slider, Switch } from "@mantine/core";
 import { useTranslation } from "react-i18next";
 import { NumberField } from "@/design/NumberField";
 import { formatNumber, withUnit } from "@/i18n/format";
-import { pixelSize, type Picture, type PlanReading } from "./picture";
+import { isTooLarge, planSize, type Picture, type PlanReading } from "./picture";
 import styles from "./plan.module.css";
 
 /** A picture as it is first looked at: a line across its middle, of no length yet. */
@@ -28,16 +28,15 @@ interface FieldsProps {
 
 export function PlanFields({ picture, reading, change }: FieldsProps) {
   const { t } = useTranslation();
-  const size = pixelSize(reading);
-  const metres = (pixels: number) => withUnit(formatNumber(pixels * (size ?? 0), 1), "m");
+  const size = planSize(picture, reading);
+  const metres = (value: number) => withUnit(formatNumber(value, 1), "m");
   return (
     <div className={styles.fields}>
       <p>{t("mapEdit.plan.help")}</p>
       <NumberField
         label={t("mapEdit.plan.length")}
-        description={
-          size ? t("mapEdit.plan.size", { width: metres(picture.width), height: metres(picture.height) }) : null
-        }
+        description={size ? t("mapEdit.plan.size", { width: metres(size.width), height: metres(size.height) }) : null}
+        error={size && isTooLarge(size) ? t("mapImport.tooLarge") : null}
         suffix=" m"
         min={0}
         decimalScale={3}

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { mapFromPicture, pictureOf, pixelSize, type PlanReading } from "./picture";
+import { isTooLarge, mapFromPicture, pictureOf, pixelSize, planSize, type PlanReading } from "./picture";
 
 const READING: PlanReading = {
   threshold: 128,
@@ -61,6 +61,16 @@ test("a line of known length says how wide a pixel is", () => {
       length: 50_000,
     }),
   ).toBeNull();
+});
+
+test("a length in centimetres makes no map of square kilometres", () => {
+  expect(planSize(drawn("...."), { ...READING, length: 0 })).toBeNull();
+  const wide = { width: 4000, height: 3000, light: new Uint8Array(12_000_000), opaque: new Uint8Array(12_000_000) };
+  const inCentimetres = { ...READING, line: [[0, 0], [4000, 0]], length: 4000 } as const; // prettier-ignore
+  expect(planSize(wide, inCentimetres)).toEqual({ width: 4000, height: 3000 });
+  expect(isTooLarge({ width: 4000, height: 3000 })).toBe(true);
+  expect(mapFromPicture(wide, inCentimetres)).toBeNull();
+  expect(mapFromPicture(wide, { ...inCentimetres, length: 40 })?.width).toBe(800);
 });
 
 test("fine pixels are put together to cells, and a thin wall stays", () => {

@@ -26,12 +26,25 @@ export const [FREE, WALL, UNKNOWN] = [0, 100, 255];
 /** Metres: pixels are put together to cells of about this size. */
 const USUAL_CELL = 0.05;
 const [LEAST_CELL, MOST_CELL] = [0.001, 10];
+/** Square metres of a map, as MOST_IN_ALL_M2 of the server, which also looks at how much of it is floor. */
+const MOST_AREA = 2_000_000;
 
 /** Metres that a pixel is wide; null while the line or its length says nothing. */
 export function pixelSize({ line: [from, to], length }: Pick<PlanReading, "line" | "length">): number | null {
   const pixels = Math.hypot(to[0] - from[0], to[1] - from[1]);
   const size = length / pixels;
   return pixels >= 2 && length > 0 && size >= LEAST_CELL && size <= MOST_CELL ? size : null;
+}
+
+/** Whether nothing can be planned on a map of so many metres: a length was meant in another unit. */
+export function isTooLarge({ width, height }: { readonly width: number; readonly height: number }): boolean {
+  return width * height > MOST_AREA;
+}
+
+/** How large the map of a picture would be, in metres; null while the line says nothing. */
+export function planSize({ width, height }: Picture, reading: PlanReading): { width: number; height: number } | null {
+  const size = pixelSize(reading);
+  return size === null ? null : { width: width * size, height: height * size };
 }
 
 /** Light and opacity out of a canvas's pixels. */
@@ -55,8 +68,8 @@ export function pictureOf({
 
 /** The map's cells, bottom row first; a cell is wall as soon as one of its pixels is, so that thin lines stay. */
 export function mapFromPicture(picture: Picture, reading: PlanReading): CellMap | null {
-  const size = pixelSize(reading);
-  if (size === null) return null;
+  const [size, whole] = [pixelSize(reading), planSize(picture, reading)];
+  if (size === null || whole === null || isTooLarge(whole)) return null;
   const step = Math.max(1, Math.round(USUAL_CELL / size));
   const [width, height] = [Math.ceil(picture.width / step), Math.ceil(picture.height / step)];
   const cells = new Uint8Array(width * height).fill(UNKNOWN);
