@@ -1,7 +1,8 @@
 """ROS map_server files: a YAML header with a PGM or PNG image, read with suspicion and written back.
 
 Reading follows map_server: lightness decides, `negate` turns it round, `mode` is trinary, scale or raw. A scale map's
-in-between cells and a raw map's values are judged by the thresholds, since our grid knows three kinds of cells. An
+in-between cells and a raw map's values are judged by the thresholds, since our grid knows three kinds of cells. ROS 2's
+map_saver writes unknown cells as a grey that its own free_thresh of 0.25 calls free; in its maps they stay unknown. An
 origin with a yaw is turned upright by nearest neighbour, so that every grid stands along the map frame's axes.
 """
 
@@ -37,6 +38,11 @@ _DIGITS_AND_SPACE = b"0123456789 \t\r\n\v\f"
 _NUMBERS = frozenset(("tag:yaml.org,2002:int", "tag:yaml.org,2002:float"))
 _PNG_HEAD = b"\x89PNG\r\n\x1a\n"
 _PIXELS = {OCCUPIED: 0, FREE: 254, UNKNOWN: 205}
+_SAVERS = np.array((0, 205, 254, 255)) / 255
+"""The shades of map_saver: an image that has no others is one of its, and so is what its grey means."""
+_SHADE_HAIR = 1e-4
+_FREE_OR_NOT = 205
+"""A cell of map_saver's grey that counts as free by the thresholds, until all of the image is known."""
 Cells = NDArray[np.uint8]
 Shades = NDArray[np.float32]
 Band = tuple[Shades, Shades | None]
@@ -73,10 +79,13 @@ def read_map(yaml_bytes: bytes, image_bytes: bytes | None) -> Grid:
         raise BadMap("The map's image is larger than 16 MB. Crop it or save it with a coarser resolution.")
     (height, width), bands = _read_image(image_bytes)
     cells, bottom = np.empty((height, width), dtype=np.uint8), height
+    is_savers = header.mode == "trinary" and not header.negate
     for lightness, alpha in bands:
         top = bottom - lightness.shape[0]
+        is_savers = is_savers and bool(np.any([_is_shade(lightness, each) for each in _SAVERS], axis=0).all())
         cells[top:bottom] = np.flipud(_classify(lightness, alpha, header))
         bottom = top
+    cells[cells == _FREE_OR_NOT] = UNKNOWN if is_savers else FREE
     grid = _upright(cells, header)
     check_extent(grid)
     return grid
@@ -310,8 +319,12 @@ def _pgm_binary(data: bytes, start: int, maximum: int, count: int) -> NDArray[An
     return np.frombuffer(data, dtype=kind, count=min(count, there), offset=min(start, len(data)))
 
 
+def _is_shade(lightness: Shades, shade: float) -> NDArray[np.bool_]:
+    return np.asarray(np.abs(lightness - np.float32(shade)) < _SHADE_HAIR)
+
+
 def _classify(lightness: Shades, alpha: Shades | None, header: Header) -> Cells:
-    """Return 0, 100 or 255 for each cell; see-through cells are unknown."""
+    """Return 0, 100, 205 or 255 for each cell; see-through cells are unknown."""
     cells = np.full(lightness.shape, UNKNOWN, dtype=np.uint8)
     if header.mode == "raw":
         share: NDArray[np.floating[Any]] = np.round(lightness * np.float32(255)) / np.float32(100)
@@ -320,7 +333,9 @@ def _classify(lightness: Shades, alpha: Shades | None, header: Header) -> Cells:
         share = lightness if header.negate else np.float32(1) - lightness
         known = np.ones(lightness.shape, dtype=np.bool_)
     cells[known & (share > header.occupied_thresh)] = OCCUPIED
-    cells[known & (share < header.free_thresh)] = FREE
+    free = known & (share < header.free_thresh)
+    cells[free] = FREE
+    cells[free & _is_shade(lightness, _SAVERS[1])] = _FREE_OR_NOT
     if alpha is not None:
         cells[alpha < 0.5] = UNKNOWN
     return cells

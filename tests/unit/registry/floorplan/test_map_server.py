@@ -41,6 +41,17 @@ def test_a_binary_map_is_read_with_its_place_in_the_world() -> None:
     assert grid == Grid(2, 2, 0.05, -1.0, -2.0, bytes([FOG, FREE, FREE, WALL]))
 
 
+@pytest.mark.parametrize("rows", [1, 300])
+def test_what_map_saver_of_ros_2_does_not_know_is_unknown_whatever_its_threshold_says(rows: int) -> None:
+    theirs = header(free_thresh=0.25)
+    saved = f"P5 4 {rows} 255\n".encode() + bytes([254, 0, 205, 255] * rows)
+    assert cells(theirs, saved) == [[FREE, WALL, FOG, FREE]] * rows
+    assert cells(theirs, png("L", [254, 0, 205, 255] * rows, (4, rows))) == [[FREE, WALL, FOG, FREE]] * rows
+    scanned = saved[:-4] + bytes([254, 0, 205, 230])
+    assert cells(theirs, scanned) == [[FREE, WALL, FREE, FREE]] * rows, "a plan with other greys in any of its rows"
+    assert cells(header(free_thresh=0.25, mode="scale"), saved) == [[FREE, WALL, FREE, FREE]] * rows
+
+
 def test_comments_may_stand_anywhere_in_the_header() -> None:
     body = b"P5\n# CREATOR: map_saver 0.05 m/pix\n2 # columns\n1\n#more\n255\n" + bytes([254, 0])
     assert cells(HEADER, body) == [[FREE, WALL]]
