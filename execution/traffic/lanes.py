@@ -9,7 +9,6 @@ from execution.traffic.floor_state import FloorTask
 from execution.traffic.layout import Layout
 from execution.traffic.messages import FloorZone
 from registry.floorplan.coverage import Lane, plan_lanes
-from registry.floorplan.lattice import Point, attach
 
 Blocks = tuple[tuple[Lane, ...], ...]
 
@@ -20,11 +19,7 @@ def lanes_over(layout: Layout, zone: FloorZone, lane_m: float, shut: Collection[
     Raises:
         CannotCover: the zone is off the map, nobody can stand in it, or it would have too many lanes.
     """
-
-    def is_open(point: Point) -> bool:
-        return not shut or attach(layout.ground, layout.lattice, point) not in shut
-
-    return plan_lanes(layout.ground, layout.lattice, zone.points, lane_m, is_open)
+    return plan_lanes(layout.ground, layout.lattice, zone.points, lane_m, shut)
 
 
 def _next(task: FloorTask) -> tuple[int, int]:

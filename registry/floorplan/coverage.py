@@ -7,7 +7,7 @@ between them make a block, which is driven there and back; blocks follow each ot
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import atan2, ceil, cos, hypot, inf, sin
@@ -17,7 +17,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from registry.floorplan.lattice import STANDING_MARGIN_M, Ground, Lattice, Point, Raster, attach
+from registry.floorplan.lattice import REACH_M, STANDING_MARGIN_M, Ground, Lattice, Point, Raster, attach
 
 MOST_LANES = 1000
 MOST_LENGTH_M = 10_000.0
@@ -25,6 +25,8 @@ STEP_M = 0.4
 """At most so far apart are the points that a robot takes of a lane; its body keeps all cells between two of them."""
 NEAR = 0.75
 """A place that is farther from all lanes than this share of a lane's width gets a point of its own."""
+MILLIMETRE = 1e-3
+"""By as much at most is a point moved when it is rounded."""
 Floats = NDArray[np.float64]
 Outline = tuple[Point, ...]
 
@@ -88,12 +90,12 @@ class _Piece:
 
 
 def plan_lanes(
-    ground: Ground, lattice: Lattice, outline: Outline, lane_m: float, is_open: Callable[[Point], bool] = lambda _: True
+    ground: Ground, lattice: Lattice, outline: Outline, lane_m: float, shut: Collection[int] = frozenset()
 ) -> tuple[tuple[Lane, ...], ...]:
     """Return the blocks of lanes over a zone, at most `lane_m` apart, each with its lanes in order.
 
-    `outline` are its corners in metres; where `is_open` says no, no robot goes. Each place of the zone where a robot
-    can stand is within the width of a lane of some lane.
+    `outline` are its corners in metres; no robot goes where it would stand in a cell that is `shut`. Each place of the
+    zone where a robot can stand is within the width of a lane of some lane.
 
     Raises:
         CannotCover: the zone is off the map, has no place where a robot can stand, or would have too many lanes.
@@ -102,7 +104,7 @@ def plan_lanes(
     if len(corners) < 3:
         raise CannotCover("outside", "The zone is off the map; draw it on the map.")
     strips = _strips(corners, lane_m)
-    reachable = _Reachable(ground, lattice, is_open)
+    reachable = _Reachable(ground, lattice, shut)
     pieces = [piece for strip in range(strips.count) for piece in _pieces(strips, corners, strip, reachable)]
     blocks = [[_lane(strips, each) for each in block] for block in _blocks(strips, pieces, ground)]
     blocks.extend([Lane(*point, *point, 1)] for point in _missed(corners, strips.width_m, blocks, reachable))
@@ -164,8 +166,8 @@ def _strips(corners: Floats, lane_m: float) -> _Strips:
 class _Reachable:
     """Where on the floor robots can stand and come to from the lattice."""
 
-    def __init__(self, ground: Ground, lattice: Lattice, is_open: Callable[[Point], bool]) -> None:
-        self.ground, self.lattice, self.is_open = ground, lattice, is_open
+    def __init__(self, ground: Ground, lattice: Lattice, shut: Collection[int]) -> None:
+        self.ground, self.lattice, self.shut = ground, lattice, shut
         labels, _ = scipy.ndimage.label(ground.clearance_m >= ground.radius_m + STANDING_MARGIN_M)
         cells = [ground.grid.cell_of(*lattice.centre(cell)) for cell in lattice.links]
         parts = {int(labels[cell]) for cell in cells if cell is not None} - {0}
@@ -177,7 +179,20 @@ class _Reachable:
 
     def has(self, point: Point) -> bool:
         """Tell whether a robot can stand at a point, and come there from the lattice."""
-        return self.is_open(point) and attach(self.ground, self.lattice, point) is not None
+        cell = attach(self.ground, self.lattice, point)
+        return cell is not None and cell not in self.shut
+
+    def near_open(self, points: Floats) -> Floats:
+        """Return the points without those that are too far from every open cell to be come to."""
+        if not len(points):
+            return points
+        (left, bottom), (right, top) = points.min(axis=0) - REACH_M, points.max(axis=0) + REACH_M
+        cells = self.lattice.cells_in_box(float(left), float(bottom), float(right), float(top))
+        middles = [self.lattice.centre(cell) for cell in cells if cell not in self.shut]
+        if not middles:
+            return points[:0]
+        found: Floats = points[scipy.spatial.cKDTree(middles).query(points)[0] <= REACH_M + MILLIMETRE]
+        return found
 
 
 def _at(grid: Raster, yes: NDArray[np.bool_], points: Floats) -> NDArray[np.bool_]:
@@ -292,14 +307,12 @@ def _missed(corners: Floats, lane_m: float, blocks: Sequence[Sequence[Lane]], re
     driven = dense([lane for block in blocks for lane in block])
     if len(driven) and len(left):
         left = left[scipy.spatial.cKDTree(driven).query(left)[0] > NEAR * lane_m]
-    while len(left):
-        point = _rounded((float(left[0, 0]), float(left[0, 1])))
-        found = reachable.has(point)
-        if found:
+    left = reachable.near_open(left)
+    is_left = np.ones(len(left), dtype=bool)
+    for index, (x, y) in enumerate(left):
+        if is_left[index] and reachable.has(point := _rounded((float(x), float(y)))):
             yield point
-        far = np.hypot(left[:, 0] - point[0], left[:, 1] - point[1]) > (NEAR * lane_m if found else 1e-3)
-        far[0] = False
-        left = left[far]
+            is_left &= np.hypot(left[:, 0] - point[0], left[:, 1] - point[1]) > NEAR * lane_m
 
 
 def _around(corners: Floats, pitch_m: float) -> Floats:

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
+from registry.floorplan import coverage
 from registry.floorplan.coverage import (
     MOST_LANES,
     STEP_M,
@@ -168,10 +169,30 @@ def test_as_many_lanes_as_a_hundred_metres_take_are_worked_out():
 
 
 def test_where_it_is_closed_no_lane_leads():
-    blocks = plan_lanes(*EMPTY, ((2, 2), (8, 2), (8, 4), (2, 4)), 0.5, lambda point: point[0] < 5)
-    assert max(x for lane in flat(blocks) for x in (lane.x1, lane.x2)) < 5
+    lattice = EMPTY[1]
+    shut = frozenset(cell for cell in lattice.links if lattice.centre(cell)[0] > 5)
+    blocks = plan_lanes(*EMPTY, ((2, 2), (8, 2), (8, 4), (2, 4)), 0.5, shut)
+    assert max(x for lane in flat(blocks) for x in (lane.x1, lane.x2)) <= 5
     with pytest.raises(CannotCover, match="No robot can stand"):
-        plan_lanes(*EMPTY, ((2, 2), (8, 2), (8, 4), (2, 4)), 0.5, lambda point: False)
+        plan_lanes(*EMPTY, ((2, 2), (8, 2), (8, 4), (2, 4)), 0.5, frozenset(lattice.links))
+
+
+def test_what_is_closed_within_a_zone_is_looked_at_along_its_edge_and_each_point_once(monkeypatch):
+    ground, lattice = floor(side_m=40.0)
+    points = []
+    monkeypatch.setattr(coverage, "attach", lambda *given: points.append(given[2]) or attach(*given))
+    middles = {cell: lattice.centre(cell) for cell in lattice.links}
+    shut = frozenset(cell for cell, (x, y) in middles.items() if 5 < x < 35 and 5 < y < 35)
+    zone = ((2, 2), (38, 2), (38, 38), (2, 38))
+    lanes = flat(plan_lanes(ground, lattice, zone, 0.9, shut))
+    closed = [(x, y) for x, y in points if 5 < x < 35 and 5 < y < 35]
+    assert len(closed) == len(set(closed)) < 6_500, "of 22,500 points that are closed"
+    driven = cKDTree(dense(lanes))
+    standing, closed_or_nowhere = [(float(x), float(y)) for x, y in samples(np.array(zone), 0.5)], {None, *shut}
+    reached = [place for place in standing if attach(ground, lattice, place) not in closed_or_nowhere]
+    assert len(reached) > 1000
+    assert driven.query(np.array(reached))[0].max() <= 0.9 + ground.grid.resolution_m
+    assert all(attach(ground, lattice, point) not in shut for lane in lanes for point in lane.points())
 
 
 def test_parts_of_a_lane_keep_its_points():
