@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from registry.floorplan.plan import FREE, OCCUPIED, UNKNOWN, FloorPlan, Grid, cells_array
-from vipo_device.protocol.description import Description
+from vipo_device.protocol.description import Description, Pose
 
 Trouble = Literal["outside", "walled", "unreachable"]
 DEFAULT_RADIUS_M = 0.18
@@ -44,12 +44,13 @@ class MapDifference:
 
 @dataclass(frozen=True, slots=True)
 class NamedPoint:
-    """A named place of the site; metres."""
+    """A named place of the site; metres. Robots stand at it unless it is a room, which only has its name there."""
 
     id: str
     name: str
     x: float
     y: float
+    kind: str = "point"
 
 
 Subject = Description | NamedPoint
@@ -140,4 +141,8 @@ def _walled_share(grid: Grid, machine: Description) -> float:
 def _trouble_of_place(floor: FloorPlan, place: NamedPoint, radius_m: float) -> Trouble | None:
     if not floor.is_inside(place.x, place.y):
         return "outside"
-    return None if floor.is_free(place.x, place.y, radius_m) else "walled"
+    if place.kind == "room":
+        return None
+    if not floor.is_free(place.x, place.y, radius_m):
+        return "walled"
+    return None if floor.is_open(Pose(place.x, place.y), radius_m) else "unreachable"

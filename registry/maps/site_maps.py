@@ -132,7 +132,7 @@ def compare_with_site(*, site: str, grid: Grid) -> tuple[MapView | None, MapDiff
     """Return the site's map (None: it has none) and what changes from it to a grid. Raises NotAMember."""
     present = find_map(site=site)
     devices = [device.canonical for device in list_devices(site=site, lifecycle="approved")]
-    places = [NamedPoint(p.id, p.name, p.x, p.y) for p in list_places(site=site)]
+    places = [NamedPoint(p.id, p.name, p.x, p.y, p.kind) for p in list_places(site=site)]
     return present, compare_maps(present.grid if present else None, grid, devices, places)
 
 

@@ -38,6 +38,23 @@ def test_what_changes_is_told_with_whom_it_troubles_and_whether_the_map_before_d
     assert first.troubles == (MapTrouble("old", "Old", "place", "outside", True),)
 
 
+def test_a_place_that_a_new_map_cuts_off_is_told_and_a_rooms_name_may_stand_in_a_wall() -> None:
+    before, after = hall(100), hall(100, np.s_[:, 60:64])
+    stands = [NamedPoint("off", "Off", 4.0, 2.5), NamedPoint("dock", "Dock", 4.5, 4.0, "dock")]
+    rooms = [NamedPoint("in", "In", 3.1, 2.5, "room"), NamedPoint("hall", "Hall", 4.0, 2.5, "room")]
+    gone = NamedPoint("gone", "Gone", 9.0, 2.5, "room")
+    told = compare_maps(before, after, [], [*stands, *rooms, gone, NamedPoint("ok", "Ok", 1.0, 1.0)])
+    assert told.troubles == (
+        MapTrouble("off", "Off", "place", "unreachable", True),
+        MapTrouble("dock", "Dock", "place", "unreachable", True),
+        MapTrouble("gone", "Gone", "place", "outside", False),
+    )
+    assert [each.why for each in compare_maps(after, after, [], stands).troubles if not each.is_new] == [
+        "unreachable",
+        "unreachable",
+    ]
+
+
 def test_large_maps_are_compared_with_the_memory_of_one_floor_at_a_time() -> None:
     side = 1500
     before, after = hall(side, np.s_[0:50, 0:50]), hall(side, np.s_[0:side, 0:20])
