@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from registry.floorplan.coverage import CannotCover, plan_lanes
 from registry.floorplan.lattice import Ground, Lattice, attach, make_lattice
+from registry.floorplan.of_radius import ByRadius
 from vipo_device.protocol.description import Description, Pose
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, 255
@@ -268,10 +269,7 @@ class FloorPlan:
         """What tells this map from others, the same in all processes."""
         self._devices = tuple(devices)
         self.clearance_m = clearance_m(with_devices(grid, self._devices))
-        self._regions: dict[float, NDArray[np.int32]] = {}
-        self._main_regions: dict[float, int] = {}
-        self._stations: dict[tuple[str, float], Pose | None] = {}
-        self._traffic: dict[float, tuple[Ground, Lattice]] = {}
+        self._by_radius = ByRadius()
         self._covers: dict[object, str] = {}
 
     def __reduce__(self) -> tuple[type[FloorPlan], tuple[Grid, tuple[Description, ...]]]:
@@ -326,35 +324,37 @@ class FloorPlan:
         return self._covers[key]
 
     def _traffic_of(self, radius_m: float) -> tuple[Ground, Lattice]:
-        if radius_m not in self._traffic:
+        kept = self._by_radius[radius_m]
+        if kept.traffic is None:
             ground = Ground(self.grid, self.clearance_m, radius_m)
-            self._traffic[radius_m] = ground, make_lattice(ground)
-        return self._traffic[radius_m]
+            kept.traffic = ground, make_lattice(ground)
+        return kept.traffic
 
     def regions(self, radius_m: float) -> NDArray[np.int32]:
         """Return the number of the connected region of each cell where the robot's middle may be; 0 is nowhere."""
-        if radius_m not in self._regions:
-            labels, _ = scipy.ndimage.label(self.clearance_m >= radius_m)
-            self._regions[radius_m] = labels
-        return self._regions[radius_m]
+        kept = self._by_radius[radius_m]
+        if kept.regions is None:
+            kept.regions = scipy.ndimage.label(self.clearance_m >= radius_m)[0]
+        return kept.regions
 
     def main_region(self, radius_m: float) -> int:
         """Return the number of the largest region in which a robot of that radius can drive about; 0: there is none."""
-        if radius_m not in self._main_regions:
+        kept = self._by_radius[radius_m]
+        if kept.main_region is None:
             labels = self.regions(radius_m)
             sizes = np.zeros(int(labels.max(initial=0)) + 1, dtype=np.int64)
             for top in range(0, labels.shape[0], BAND_ROWS):
                 sizes += np.bincount(labels[top : top + BAND_ROWS].ravel(), minlength=sizes.size)
-            self._main_regions[radius_m] = 1 + int(np.argmax(sizes[1:])) if sizes.size > 1 else 0
-        return self._main_regions[radius_m]
+            kept.main_region = 1 + int(np.argmax(sizes[1:])) if sizes.size > 1 else 0
+        return kept.main_region
 
     def station(self, device_id: str, radius_m: float) -> tuple[float, float] | None:
         """Return where a robot of that radius stands to serve a machine; None when it has no room to."""
-        key = (device_id, radius_m)
-        if key not in self._stations:
+        kept = self._by_radius[radius_m].stations
+        if device_id not in kept:
             found = next((device for device in self._devices if device.id == device_id), None)
-            self._stations[key] = None if found is None else _station(self, found, radius_m)
-        pose = self._stations[key]
+            kept[device_id] = None if found is None else _station(self, found, radius_m)
+        pose = kept[device_id]
         return None if pose is None else (pose.x, pose.y)
 
     def has_machine(self, device_id: str) -> bool:

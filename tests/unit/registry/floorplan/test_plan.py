@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import tracemalloc
 from dataclasses import replace
 from math import pi
 
@@ -130,3 +131,19 @@ def test_a_floor_knows_the_station_of_each_of_its_machines() -> None:
     assert plan.station("high", 0.18) == (3, 3.17)
     assert plan.station("gone", 0.18) is None
     assert [plan.has_machine("high"), plan.has_machine("gone")] == [True, False]
+
+
+def test_what_is_known_of_robots_is_kept_for_four_radii_the_ones_that_were_asked_for_last() -> None:
+    plan = FloorPlan(hall(50, 50), [machine("mixer", 25, 25)])
+    tracemalloc.start()
+    try:
+        usual = plan.regions(0.18)
+        for step in range(12):
+            radius_m = 0.2 + step / 100
+            assert plan.station("mixer", radius_m) == (25.0, round(24.35 - radius_m, 4))
+            assert plan.can_stop(5.0, 5.0, radius_m)
+            assert plan.regions(0.18) is usual
+        kept, _ = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert kept < 4.5 * usual.nbytes + 3 * 10_000 * 500
