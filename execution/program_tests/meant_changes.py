@@ -36,13 +36,14 @@ def set_meant(*, program: UUID, change: ChangeKey, mark: str, meant: bool, user:
 
     `mark` is what `mark_of` said of the step that was read. Raises NoSuchProgram, NotFound, NotPossibleNow.
     """
+    # Reading waits until what is drawn just now is stored, which takes the same row: it is read before that is held.
+    document = editor.get_document(program_id=program)
     with transaction.atomic():
         editor.lock_program(program_id=program)
         rows = MeantChange.objects.filter(program=program)
         if not meant:
             rows.filter(**change._asdict()).delete()
         else:
-            document = editor.get_document(program_id=program)
             if change not in _unnoticed(program):
                 raise NotFound(GONE)
             if not mark or mark != mark_of(change, document):

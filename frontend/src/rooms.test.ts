@@ -38,6 +38,7 @@ test("a test stands beside the module that it tests, or names what several do to
     "closedBefore",
     "focus",
     "unseen",
+    "lists",
   ];
   const names = new Set(modules.map(([path]) => path.replace(/\.tsx?$/, "")));
   const tests = Object.keys(sources)

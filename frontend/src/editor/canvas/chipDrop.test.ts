@@ -26,6 +26,7 @@ test("a loop that is let go where the loop in it stood is moved, and nothing is 
     document,
     compiled: { numbers: {}, diagnostics: [], added_moves: [] },
     surroundings: surroundingsOf([], []),
+    floor: null,
     routes: () => undefined,
     collapsed: new Set(),
     t,

@@ -24,6 +24,7 @@ test("keys walk through steps whatever their ids are", () => {
     document,
     compiled: { numbers: {}, diagnostics: [], added_moves: [] },
     surroundings,
+    floor: null,
     routes: () => undefined,
     collapsed: new Set(),
     t,

@@ -19,7 +19,7 @@ function RunLine({ run, now }: { run: RunSummary; now: number }) {
   const facts = [
     t(planned ? "run.terms.planned" : `pages.runs.status.${run.status}`),
     seconds === null ? "" : formatSpan(seconds),
-    run.started_at ? t("pages.runs.stepsDone", { count: stepsDone(run) }) : "",
+    run.started_at && !run.archived ? t("pages.runs.stepsDone", { count: stepsDone(run) }) : "",
   ];
   const whenOf = () => {
     if (isOpen(run)) return planned ? "" : t("pages.home.now");

@@ -46,7 +46,7 @@ function Row({ run, now }: { run: RunSummary; now: number }) {
         </span>
         {run.reason ? <small className={styles.reason}>{reasonWords(run.cause, run.reason)}</small> : null}
       </td>
-      <td className={`${styles.nowrap} ${styles.roomy}`}>{run.started_at ? stepsDone(run) : "–"}</td>
+      <td className={`${styles.nowrap} ${styles.roomy}`}>{run.started_at && !run.archived ? stepsDone(run) : "–"}</td>
       <td className={styles.nowrap}>{run.started_at ? formatAgo(run.started_at, now) : t("pages.runs.notStarted")}</td>
       <td className={styles.nowrap}>{seconds === null ? "–" : formatSpan(seconds)}</td>
       <td className={`${styles.nowrap} ${styles.optional}`}>{nameOf(run.started_by) || "–"}</td>

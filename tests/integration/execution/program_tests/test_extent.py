@@ -6,9 +6,11 @@ from datetime import UTC, datetime
 from typing import Any
 
 import pytest
+from django.db import connection
 from django.test import Client
 
 from editor import services as editor
+from editor.documents import store
 from execution.models import MeantChange, Rehearsal, TrialRun
 from execution.program_tests.site_digests import MOST_NAMED, what_changed
 from execution.rehearsals import worker
@@ -179,6 +181,22 @@ def test_a_change_is_meant_so_while_its_step_stays_as_it_is(client: Client, prog
     assert say(client, program, first).status_code == 204
     assert say(client, program, first, meant=False).status_code == 204
     assert shown(client, program)["changes"]["unnoticed"][0]["meant_at"] is None
+
+
+def test_what_is_being_drawn_is_stored_before_the_program_is_held(
+    client: Client, program: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Storing takes the program's row from another connection: whoever held it would wait for themselves."""
+    add(client, program, "name: It ends\nthen:\n  - ends: well\n")
+    turned, *_ = carry_out(client, program, changes=True)["changes"]["unnoticed"]
+    depths: list[tuple[bool, int]] = []
+
+    def depth() -> tuple[bool, int]:
+        return connection.in_atomic_block, len(connection.savepoint_ids)
+
+    monkeypatch.setattr(store, "_flushes", [lambda _: depths.append(depth())])
+    assert say(client, program, turned).status_code == 204
+    assert depths == [depth()]
 
 
 def test_only_what_tests_have_missed_can_be_meant_so_and_only_authors_say_it(client: Client, program: Any) -> None:

@@ -85,7 +85,7 @@ def test_a_paused_run_goes_on_in_a_restored_database_and_no_device_is_told_anyth
     shutil.copytree(tmp_path / "archive", tmp_path / "restored")
     shutil.rmtree(tmp_path / "archive")
     restored = make_empty(database_url)
-    call("pg_restore", f"--dbname={restored}", str(tmp_path / "vipo.dump"))
+    call("pg_restore", "--exit-on-error", "--single-transaction", f"--dbname={restored}", str(tmp_path / "vipo.dump"))
     settings.VIPO_ARCHIVE_DIR = tmp_path / "restored"
     with on_database(**postgres(restored)):
         assert services.list_events(run_id=old) == journal
