@@ -104,17 +104,23 @@ def _bind_given(turn: Turn, key: str, task: FloorTask) -> None:
 
 
 def _bind_any(turn: Turn, waiting: Mapping[str, FloorTask]) -> None:
-    requests = {key: task for key, task in waiting.items() if _has_able_robot(turn, task)}
+    asked = [(key, task) for key, task in waiting.items() if _has_able_robot(turn, task)]
     robots = [r for r in turn.robots.values() if r.run == "" and r.path and r.online]
-    if requests and robots:
-        costs = np.array([[_cost(turn, task, robot) for robot in robots] for task in requests.values()])
-        keys = list(requests)
+    if asked and robots:
+        costs = np.array([[_cost(turn, task, robot) for robot in robots] for _, task in asked])
         for i, j in zip(*scipy.optimize.linear_sum_assignment(costs), strict=True):
-            if costs[i, j] < UNABLE:
-                _bind(turn, keys[i], requests[keys[i]], robots[j])
-    for key, task in requests.items():
+            key, task = asked[i]
+            if costs[i, j] < UNABLE / 2 or (costs[i, j] < UNABLE and not _is_awaited(turn, task)):
+                _bind(turn, key, task, robots[j])
+    for key, task in asked:
         if key not in turn.roles:
             _await_robot(turn, task)
+
+
+def _is_awaited(turn: Turn, task: FloorTask) -> bool:
+    """Tell whether a robot that another run holds could do what those who are free cannot get to."""
+    held = (r for r in turn.robots.values() if r.run not in {"", task.run} and r.path and r.online)
+    return any(_cost(turn, task, robot) < UNABLE / 2 for robot in held)
 
 
 def _await_robot(turn: Turn, task: FloorTask) -> None:

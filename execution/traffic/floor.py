@@ -86,11 +86,13 @@ def step(
 def _without_gap(state: FloorState, now: float) -> FloorState:
     """Return the state as if the time had not passed in which nobody looked at the floor.
 
-    When the server was away nothing could be heard of devices either: no grace or limit runs out meanwhile.
+    When the server was away nothing could be heard of devices either: no grace or limit runs out meanwhile. So is
+    a clock that was put back, beside which what else has a time would lie ahead.
     """
     gap = now - state.now
-    if gap < GAP_S or not state.now:
+    if abs(gap) < GAP_S or not state.now:
         return state
+    back = min(gap, 0.0)
     robots = {
         robot.id: replace(
             robot,
@@ -116,10 +118,13 @@ def _without_gap(state: FloorState, now: float) -> FloorState:
             door,
             shut_since=None if door.shut_since is None else door.shut_since + gap,
             needed_at=door.needed_at + gap,
+            moved_at=door.moved_at + back,
+            retry_at=door.retry_at + back,
         )
         for key, door in state.doors.items()
     }
-    return replace(state, robots=robots, sent=sent, tasks=tasks, offline=offline, doors=doors)
+    admissions = tuple(replace(each, at=each.at + back) for each in state.admissions)
+    return replace(state, robots=robots, sent=sent, tasks=tasks, offline=offline, doors=doors, admissions=admissions)
 
 
 def _release_all(turn: Turn) -> None:

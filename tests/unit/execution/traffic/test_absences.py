@@ -97,3 +97,15 @@ def test_the_time_in_which_its_run_is_paused_is_no_absence():
     assert (world.over, world.waits[-1].reason.code) == ({}, "offline")
     world.run_until(lambda: world.over, 2 * ABSENCE_S)
     assert world.over == {("a", 1): ("offline", "TurtleBot 1 is offline.")}
+
+
+def test_a_clock_that_is_put_back_lets_limits_run_out_as_long_after_as_ever():
+    world = PretendFloor(LAYOUT)
+    world.now = 4000.0
+    world.tell(m.CallSent("by hand", "robot01", "wave", {}, "Ada"), move("a"))
+    world.tell(m.DeviceOffline("robot01"))
+    world.now -= 3600.0
+    begun = world.now
+    world.run_until(lambda: world.over, 2 * ABSENCE_S)
+    assert world.over == {("a", 1): ("offline", "TurtleBot 1 is offline.")}
+    assert world.now - begun == pytest.approx(ABSENCE_S, abs=0.2)

@@ -158,11 +158,17 @@ def test_a_robot_in_a_room_to_which_no_way_leads_is_told_from_one_without_room()
     assert floor.sent == []
 
 
-def test_a_role_takes_another_robot_than_one_that_cannot_be_sent_but_that_one_if_there_is_no_other():
+def test_a_role_waits_for_another_robot_than_one_that_cannot_be_sent_and_takes_that_one_if_no_other_could():
     layout = make_layout(hall(), robots(0.6, 2))
     floor = PretendFloor(layout, {"robot01": (0.2, 5.0), "robot02": (20.0, 10.0)})
     go(floor, "r", (6.0, 5.0), "")
     floor.run_until(lambda: floor.over)
     assert (floor.over["r", 1], floor.state.robots["robot02"].run) == (("", ""), "r")
     go(floor, "s", (12.0, 5.0), "")
-    assert (floor.over["s", 1][0], floor.state.robots["robot01"].run) == ("blocked", "s")
+    assert (("s", 1) in floor.over, floor.waits[-1].reason.code) == (False, "no_free_robot")
+    floor.tell(m.RunOver("r"))
+    floor.run_until(lambda: ("s", 1) in floor.over)
+    assert (floor.over["s", 1], floor.state.robots["robot02"].run) == (("", ""), "s")
+    floor.tell(m.DeviceOffline("robot02"))
+    go(floor, "t", (6.0, 5.0), "")
+    assert (floor.over["t", 1][0], floor.state.robots["robot01"].run) == ("blocked", "t")
